@@ -1,0 +1,74 @@
+# make demo      builds and runs the flagship: dynamic crack branching in glass -> out/branching.png, out/branching.vtu
+# make test      builds and runs every test, closing with "N passed, N failed"
+# make validate  the long tables of the source texts
+# make bench     performance tables
+# make examples  builds and runs every example
+# make lib       build/libperi.a and build/libperi.so
+# make dist      build/dist/peri.h, the single-file header
+# make lint      strict warnings under every compiler found, static analysis, house rules
+# make clean     removes build/ and out/
+
+CC ?= cc
+CFLAGS ?= -O2
+STRICT = -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror
+OPENMP := $(shell echo 'int main(void){return 0;}' | $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
+COMPILE = $(CC) $(STRICT) $(CFLAGS) $(OPENMP) -I.
+
+SOURCES = peri.h peri_impl.c $(wildcard src/*)
+EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
+TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
+
+.PHONY: all demo test validate bench examples lib dist lint clean
+all: lib
+
+build/peri.o: $(SOURCES)
+	@mkdir -p build
+	$(COMPILE) -fPIC -c peri_impl.c -o $@
+
+build/libperi.a: build/peri.o
+	$(AR) rcs $@ $<
+
+build/libperi.so: build/peri.o
+	$(CC) -shared $(OPENMP) $< -o $@ -lm
+
+lib: build/libperi.a build/libperi.so
+
+build/examples/%: examples/%.c $(wildcard examples/*.h) build/peri.o
+	@mkdir -p $(@D)
+	$(COMPILE) $< build/peri.o -o $@ -lm
+
+build/tests/%: tests/%.c $(wildcard tests/*.h) build/peri.o
+	@mkdir -p $(@D)
+	$(COMPILE) $< build/peri.o -o $@ -lm
+
+build/bench/%: bench/%.c build/peri.o
+	@mkdir -p $(@D)
+	$(COMPILE) $< build/peri.o -o $@ -lm
+
+demo: build/examples/branching
+	@mkdir -p out
+	build/examples/branching
+
+examples: $(EXAMPLES:%=build/examples/%)
+	@mkdir -p out
+	@for e in $(EXAMPLES); do echo "== $$e"; build/examples/$$e || exit 1; done
+
+test: $(TESTS:%=build/tests/%) $(EXAMPLES:%=build/examples/%) build/libperi.so
+	@CC="$(CC)" OPENMP="$(OPENMP)" sh tests/run.sh
+
+validate: $(TESTS:%=build/tests/%)
+	@sh tests/run.sh --long
+
+bench: build/bench/bench
+	build/bench/bench
+
+dist: build/dist/peri.h
+build/dist/peri.h: $(SOURCES) tools/dist.awk
+	@mkdir -p $(@D)
+	awk -f tools/dist.awk peri.h > $@
+
+lint:
+	@CC="$(CC)" sh tools/lint.sh
+
+clean:
+	rm -rf build out

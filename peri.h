@@ -1,0 +1,561 @@
+/* peri.h - peridynamics in one include: deformation and fracture of solids by nonlocal bonds.   C99, libc and libm.
+
+   WHAT IT IS
+     A body is a cloud of points. Each point has a volume and a family: the points within its horizon. Points of a family
+     are joined by bonds, and the bonds carry the force. A bond that is stretched too far breaks for good; cracks are where
+     bonds are broken. There is no mesh and no crack-tracking. The equations are those of
+
+       [T]  the thesis on bond- and state-based peridynamics (BBP/SBP): equations 1.20-1.41, 2.10-2.14, section 3.3.1
+       [L]  the lecture on the PMB algorithm (force, damage, central difference)
+       [P]  Seleson, Pasetto, John, Trageser, Reeve: PDMATLAB2D (2D kernels, exact partial areas, appendices A-G)
+       [C]  Queiruga, Moridis 2017, the convergence study (influence functions of its table 2)
+
+   HOW TO BUILD, any one of
+       #define PERI_IMPLEMENTATION       in exactly one C file, then  #include "peri.h"
+       cc -c peri_impl.c                 and link peri_impl.o; every other file only includes peri.h
+       #define PERI_STATIC               together with PERI_IMPLEMENTATION, in as many files as you like: private copies
+     The implementation is C99 (compile it as C); the declarations are also C++11. Link with -lm. With -fopenmp the loops
+     run on all cores. Other switches: PERI_NO_STDIO (no FILE helpers), PERI_NO_OPENMP, PERI_API (your own linkage).
+
+   STEP BY STEP
+     1  peri_body_desc d;  peri_body_desc_init(&d);  d.space = PERI_PLANE_STRESS;  d.horizon = 1e-3;
+        peri_body_create(&d, &body, &error);
+     2  peri_material m;  peri_material_init(&m, PERI_BOND_BASED);  m.young = 72e9;  m.density = 2440;
+        glass = peri_add_material(body, &m);
+     3  peri_add_box(body, glass, lo, hi, spacing);            points, as many calls as the shape needs
+     4  peri_build(body);                                      families, weights, constants: the points are now fixed
+     5  peri_cut_segment, peri_select_box, peri_apply_traction, peri_prescribe_velocity, ...
+     6  peri_run r;  peri_run_init(&r);  r.duration = 43e-6;   peri_advance(body, &r);      as often as you like
+     7  peri_read(body, PERI_DAMAGE, buffer, capacity);  peri_save_vtu(body, "out.vtu");
+     8  peri_reset(body) for the next case of a sweep, peri_clone for an independent copy, peri_body_destroy at the end.
+
+   CONVENTIONS
+     Units    Any consistent set. [L] length, [M] mass, [T] time; [M L^-1 T^-2] is a stress or a modulus. Inside, lengths are
+              scaled by the spacing and stresses by Young's modulus, so nanometres in single precision are as good as metres.
+     Arrays   Per-point vectors are interleaved: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D ("[points*dim]").
+              `const double *p` for one place or one vector has dim entries. All of the API speaks double.
+     Planes   In PERI_PLANE_STRESS and PERI_PLANE_STRAIN a point's "volume" is its area [L^2], and the "area" of a loaded
+              edge is its length [L]; energies and forces include the thickness of the descriptor.
+     Points   are numbered from 0 in the order in which you added them. Boxes number x fastest, then y, then z.
+     Results  Functions return an int32_t (or int64_t) that is >= 0 on success: PERI_OK, or an id or count where it says so.
+              Negative values are PERI_ERROR_*; peri_last_error tells the field, the first offending point and a limit.
+              A call that fails has changed nothing, unless its text says otherwise. An id that came from a failed call is
+              negative and is refused by the next call, so a chain of set-up calls cannot go silently wrong.
+     Owner    You own what you pass in: descriptors and arrays are copied. The body owns what views point to.
+     Threads  One body: one thread at a time. Different bodies, clones included: any threads at once. Callbacks run on the
+              thread that made the call, one at a time (exception: the tasks that you are given in parallel_for).
+     Same bits for any number of threads: each point sums its own bonds in a fixed order, and totals are summed over
+              fixed blocks in a fixed order. (Compile without -ffast-math.)
+
+   WHAT IT DOES NOT DO
+     It does not print, exit, assert on your data, keep global state, read files, or touch the locale or the clock.
+     No contact between parts of a body (rigid obstacles only), no heat, no plasticity, no adaptive horizon.
+
+   The trades between speed and accuracy are fields of peri_body_desc: precision, geometry, horizon over spacing, quadrature
+   and influence function. Each says there what it costs. */
+
+#ifndef PERI_H
+#define PERI_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define PERI_VERSION "0.1.0"
+
+#if defined(__GNUC__) || defined(__clang__)
+#define PERI_UNUSED_ __attribute__((unused))
+#else
+#define PERI_UNUSED_
+#endif
+#ifndef PERI_API
+#ifdef PERI_STATIC
+#define PERI_API PERI_UNUSED_ static
+#else
+#define PERI_API extern
+#endif
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- status ------------------------------------------------------------------------------------------------------- */
+
+/* X(name, value, text). One list: the enum below and peri_status_text are made from it. */
+#define PERI_STATUS_LIST(X)                                                                                            \
+    X(STOPPED, 1, "a callback asked to stop; the body is at a whole step and may go on")                               \
+    X(OK, 0, "success")                                                                                                \
+    X(ERROR_ARGUMENT, -1, "a required pointer is NULL, or a count or a choice is not one of the allowed values")       \
+    X(ERROR_DESCRIPTOR, -2, "the descriptor was not filled by its init function, or is of another version")           \
+    X(ERROR_MEMORY, -3, "the allocator returned NULL")                                                                 \
+    X(ERROR_RANGE, -4, "a number is not finite or lies outside the range of its field")                                \
+    X(ERROR_ORDER, -5, "this call comes too early or too late: points before peri_build, all else after it")           \
+    X(ERROR_MATERIAL, -6, "no such material, or a material that contradicts itself")                                   \
+    X(ERROR_POISSON, -7, "a bond-based material has a fixed Poisson ratio: 1/4 in 3D and plane strain, 1/3 in plane stress") \
+    X(ERROR_INFLUENCE, -8, "the influence function is not finite here, or has no finite moments to calibrate with")    \
+    X(ERROR_POINT, -9, "a point has a position that is not finite, or a volume that is not positive and finite")       \
+    X(ERROR_COINCIDENT, -10, "two points are at the same place")                                                       \
+    X(ERROR_NO_POINTS, -11, "the body, or the shape just added, has no point")                                         \
+    X(ERROR_HORIZON, -12, "the horizon is smaller than the spacing of the points")                                     \
+    X(ERROR_FAMILY, -13, "a point has no neighbour within its horizon, or none with a weight")                                                \
+    X(ERROR_IBOND, -14, "the given families are not valid: id out of range, given twice, or not mutual")               \
+    X(ERROR_TOO_LARGE, -15, "more points or bonds than 32-bit ids can number, or more than the memory can address")    \
+    X(ERROR_SET, -16, "no such set, a name that is taken, or a selection that holds no point")                         \
+    X(ERROR_ID, -17, "no such point, load or obstacle")                                                                \
+    X(ERROR_CRACK, -18, "the crack has no extent, or is of a kind that this space does not have")                      \
+    X(ERROR_PAIR, -19, "the two points share no bond")                                                                 \
+    X(ERROR_STEP, -20, "the time step is larger than the stable step (its value is in the error record)")              \
+    X(ERROR_UNSTABLE, -21, "a point's motion is no longer finite: unstable step, load or initial state")               \
+    X(ERROR_CALLBACK, -22, "a callback wrote a number that is not finite")                                             \
+    X(ERROR_FIELD, -23, "the field cannot be used in this way: not stored, or not writable")                           \
+    X(ERROR_CAPACITY, -24, "the buffer is too small (the size that it needs is in the error record)")                  \
+    X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")
+
+#define PERI_STATUS_ENUM_(name, value, text) PERI_##name = value,
+typedef enum peri_status { PERI_STATUS_LIST(PERI_STATUS_ENUM_) PERI_STATUS_END_ = 1000 } peri_status;
+#undef PERI_STATUS_ENUM_
+
+typedef struct peri_error {
+    int32_t     code;     /* a peri_status                                                                              */
+    int32_t     reserved; /* 0                                                                                          */
+    int64_t     index;    /* the first offending point, entry or id; -1 where there is none                             */
+    double      value;    /* the offending value, or the limit that was passed (see the text); 0 where there is none    */
+    const char *field;    /* constant text: the descriptor field or argument at fault, "" where there is none           */
+    const char *text;     /* constant text: what is wrong                                                               */
+} peri_error;
+
+/* Constant text of a status; "unknown status" for other numbers. Never NULL. */
+PERI_API const char *peri_status_text(int32_t status);
+
+/* Writes "text (field, index, value)" of an error, zero-terminated, truncated to capacity bytes. Returns the length that
+   the full text needs without its zero, or PERI_ERROR_ARGUMENT. buffer may be NULL where capacity is 0. */
+PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_t capacity);
+
+/* ---- hooks -------------------------------------------------------------------------------------------------------- */
+
+/* Memory. Both functions or neither. release gets the size that allocate was asked for. Any alignment will do. */
+typedef void *(*peri_allocate_fn)(void *user, uint64_t bytes);
+typedef void (*peri_release_fn)(void *user, void *pointer, uint64_t bytes);
+
+/* Your job system: call task(context, k) once for every k in [0, count), in any order, on any threads, and return when
+   all are done. Without it the loops run under OpenMP where the compiler has it on, else serially. Results do not depend
+   on the choice, to the last bit. */
+typedef void (*peri_task_fn)(void *context, int64_t k);
+typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn task, void *context);
+
+/* Remarks that are no errors (level 0 information, 1 warning), such as a time step that was forced. */
+typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
+
+/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite. Called at peri_build only. Negative values are
+   accepted, but only a non-negative w gives a stable solid. */
+typedef double (*peri_influence_fn)(void *user, double q);
+
+/* Nonzero takes the point at x[dim], zero leaves it out. index numbers the candidates (lattice sites or points). */
+typedef int32_t (*peri_point_fn)(void *user, int64_t index, const double *x);
+
+/* Nonzero cuts the bond between points i < j at xi[dim] and xj[dim]. */
+typedef int32_t (*peri_pair_fn)(void *user, int32_t i, int32_t j, const double *xi, const double *xj);
+
+/* Values of a load or support at `time` on the points[count] of its set. value[count*dim] holds the constant value at entry;
+   overwrite what varies. Called once per step and set. */
+typedef void (*peri_load_fn)(void *user, double time, int64_t count, const int32_t *points, double *value);
+
+/* Where a moving obstacle is: write its reference place (peri_add_ball_obstacle: the centre) at `time` to place[dim]. */
+typedef void (*peri_motion_fn)(void *user, double time, double *place);
+
+/* ---- body --------------------------------------------------------------------------------------------------------- */
+
+typedef struct peri_body peri_body; /* opaque: points, families, materials, state, loads                                */
+
+typedef enum peri_space {
+    PERI_PLANE_STRESS = 1, /* 2D, thin plate, Poisson ratio 1/3 when bond-based                                         */
+    PERI_PLANE_STRAIN = 2, /* 2D, long prism, Poisson ratio 1/4 when bond-based                                         */
+    PERI_SOLID        = 3  /* 3D, Poisson ratio 1/4 when bond-based                                                     */
+} peri_space;
+
+typedef enum peri_type { PERI_F64 = 1, PERI_F32 = 2, PERI_I32 = 3 } peri_type;
+
+typedef enum peri_geometry {
+    PERI_NONLINEAR = 1, /* extension e = |xi+eta| - |xi|, force along xi+eta: any rotation, any stretch  ([T] 1.23)     */
+    PERI_LINEAR    = 2  /* e = xi.eta/|xi|, force along xi: small displacements, no square root           ([T] 1.37)     */
+} peri_geometry;
+
+/* Influence functions w(q), q = |xi|/horizon. The first column of values counts for |xi| <= horizon; `beyond` is the value
+   for partial cells whose centre lies just outside. Constant factors cancel in every law, so all are dimensionless here. */
+typedef enum peri_influence {
+    PERI_INFLUENCE_CONSTANT     = 1,  /* 1, also beyond                          [P] w0, [T] constant, [C] Const         */
+    PERI_INFLUENCE_CUTOFF       = 2,  /* 1, beyond 0                             [P] w0.5                                */
+    PERI_INFLUENCE_LINEAR       = 3,  /* 1 - q, beyond 0                         [P] w1, [T] conical, [C] Linear         */
+    PERI_INFLUENCE_CUBIC        = 4,  /* 1 - 3q^2 + 2q^3, beyond 0               [P] w3                                  */
+    PERI_INFLUENCE_QUINTIC      = 5,  /* 1 - 10q^3 + 15q^4 - 6q^5, beyond 0      [P] w5                                  */
+    PERI_INFLUENCE_SEPTIC       = 6,  /* 1 - 35q^4 + 84q^5 - 70q^6 + 20q^7       [P] w7, beyond 0                        */
+    PERI_INFLUENCE_POWER_2      = 7,  /* (1 - q)^2, beyond 0                     [C] Quadr                               */
+    PERI_INFLUENCE_POWER_3      = 8,  /* (1 - q)^3, beyond 0                     [C] Cubic                               */
+    PERI_INFLUENCE_GAUSSIAN     = 9,  /* exp(-q^2), also beyond                  [T] Gaussian                            */
+    PERI_INFLUENCE_PROPORTIONAL = 10, /* q, also beyond                          [T] linear proportional                 */
+    PERI_INFLUENCE_INVERSE      = 11, /* 1/q, also beyond                        [T] hyperbole, [C] Inv                  */
+    PERI_INFLUENCE_INVERSE_4    = 12, /* q^-4, also beyond                       [T] power function                      */
+    PERI_INFLUENCE_POLE_EDGE    = 13, /* 1/(1 + spacing/(2 horizon) - q)         [T] asymptote at horizon + spacing/2    */
+    PERI_INFLUENCE_POLE_HALF    = 14, /* 1/(2q - 1), also beyond                 [T] asymptote at horizon/2              */
+    PERI_INFLUENCE_POLE_QUARTER = 15, /* exp(1/(q - 1/4)), also beyond           [T] asymptote at horizon/4              */
+    PERI_INFLUENCE_USER         = 16  /* influence_fn of the descriptor                                                  */
+} peri_influence;                     /* 12, 14, 15 have no finite moments: no bond-based constants exist for them       */
+
+/* Quadrature: how much of a neighbour's cell counts, and from where. Cells are boxes or moved quadrilaterals where the
+   library made the points, and squares or cubes of the given volume where you gave them. Weights are made mutual (the mean
+   of both directions) where neighbouring cells differ, so that momentum is conserved for any cloud. */
+typedef enum peri_quadrature {
+    PERI_FULL_VOLUME      = 1, /* cells whose centre is within the horizon, whole.          [P] FA                       */
+    PERI_VOLUME_RAMP      = 2, /* linear from 1 to 0 over horizon -+ spacing/2.             [T] Fig. 3.7                 */
+    PERI_PARTIAL_VOLUME   = 3, /* exact part of the cell within the horizon, bond to the cell's centre.  [P] PA-AC; in 3D by
+                                  exact areas of slices, Gauss-Legendre across them, to 1e-10 of a cell                  */
+    PERI_PARTIAL_CENTROID = 4, /* 2D: same part, but bond to the centroid of the part, moved with the cell's displacement:
+                                  [P] IPA-AC as printed. Not objective and not exact for affine fields: for comparison    */
+    PERI_PARTIAL_MOMENT   = 5  /* 2D: same part, bond to the centre, weight scaled by |centroid bond|/|centre bond| and w taken
+                                  at the centroid: the centroid rule's isotropic energy, objective                        */
+} peri_quadrature;
+
+typedef enum peri_break_timing {
+    PERI_BREAK_AT_STEP_END = 1, /* a bond acts to the end of the step in which it passes the critical stretch: the energy
+                                   ledger closes to O(dt^2) through fracture                                             */
+    PERI_BREAK_AFTER_DRIFT = 2  /* it no longer acts in that step's second half kick, as in [P]; ledger error O(dt)       */
+} peri_break_timing;
+
+typedef struct peri_body_desc {
+    uint64_t          cookie;           /* set by peri_body_desc_init                                                    */
+    int32_t           space;            /* peri_space. Required                                                          */
+    int32_t           precision;        /* PERI_F64 (default) or PERI_F32: half the memory, strains below 1e-6 lose digits*/
+    int32_t           geometry;         /* peri_geometry. Default PERI_NONLINEAR                                         */
+    int32_t           influence;        /* peri_influence. Default PERI_INFLUENCE_CONSTANT                               */
+    int32_t           quadrature;       /* peri_quadrature. Default PERI_FULL_VOLUME                                     */
+    int32_t           break_timing;     /* peri_break_timing. Default PERI_BREAK_AT_STEP_END                             */
+    int32_t           threads;          /* 0 = as OpenMP says (default), 1 = serial, n = n OpenMP threads                */
+    int32_t           reference;        /* 1 = plain textbook kernels (slow, for checking). Default 0                    */
+    int32_t           ledger;           /* 1 (default) = account for external work, damping and obstacles while running;
+                                           0 = do not: peri_read_energy then gives kinetic, elastic and fracture only    */
+    int32_t           reserved;         /* 0                                                                             */
+    double            horizon;          /* [L] > 0. Required. 3 to 4 spacings is usual; cost grows as (horizon/spacing)^dim.
+                                           Comparisons have a relative tolerance of 1e-8 built in: 3*spacing means 3     */
+    double            thickness;        /* [L] > 0, 2D only. Default 1                                                   */
+    peri_influence_fn influence_fn;     /* for PERI_INFLUENCE_USER                                                       */
+    void             *influence_user;   /* handed to influence_fn                                                        */
+    peri_allocate_fn  allocate;         /* default NULL: malloc                                                          */
+    peri_release_fn   release;          /* default NULL: free                                                            */
+    void             *memory_user;      /* handed to allocate and release                                                */
+    peri_parallel_for_fn parallel_for;  /* default NULL: OpenMP or serial                                                */
+    void             *parallel_user;    /* handed to parallel_for                                                        */
+    peri_log_fn       log;              /* default NULL: silent                                                          */
+    void             *log_user;         /* handed to log                                                                 */
+} peri_body_desc;
+
+/* Fills every field with its default. NULL is ignored. */
+PERI_API void peri_body_desc_init(peri_body_desc *desc);
+
+/* Makes an empty body. *body is NULL on failure. error may be NULL. */
+PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, peri_error *error);
+
+/* Frees the body; NULL is ignored. Clones live on. */
+PERI_API void peri_body_destroy(peri_body *body);
+
+/* Copies the record of the body's last failed call (code PERI_OK where none failed yet). */
+PERI_API int32_t peri_last_error(const peri_body *body, peri_error *error);
+
+/* ---- materials ---------------------------------------------------------------------------------------------------- */
+
+typedef enum peri_model {
+    PERI_BOND_BASED = 1 /* generalised prototype microelastic brittle (GPMB): f = c w(|xi|) s M          ([P] A, [T] 1.23) */
+} peri_model;
+
+typedef struct peri_material {
+    uint64_t cookie;           /* set by peri_material_init                                                              */
+    int32_t  model;            /* peri_model                                                                             */
+    int32_t  reserved;         /* 0                                                                                      */
+    double   young;            /* E [M L^-1 T^-2] > 0. Give E or K, not both (0 = not given)                             */
+    double   bulk;             /* K = E/(3(1-2 nu)) [M L^-1 T^-2] > 0                                                    */
+    double   poisson;          /* [-] fixed by the space when bond-based; NaN (default) = that value, others are refused */
+    double   density;          /* [M L^-3] > 0. Required                                                                 */
+    double   fracture_energy;  /* G0 [M T^-2] > 0, energy per area of crack. 0 (default) = not given                     */
+    double   critical_stretch; /* s0 [-] > 0. 0 (default) = from G0; with neither, bonds do not break. Not both          */
+} peri_material;
+
+/* Defaults for a model. NULL is ignored. */
+PERI_API void peri_material_init(peri_material *material, int32_t model);
+
+/* Adds a material, before peri_build. Returns its id (0, 1, ...; at most 120 of them) or an error. */
+PERI_API int32_t peri_add_material(peri_body *body, const peri_material *material);
+
+/* Bonds between materials i and j behave as if of `material` (its density is not used), before peri_build. Without this
+   call their micromodulus is the harmonic mean of both and their critical stretch the smaller one. i = j is refused. */
+PERI_API int32_t peri_set_interface(peri_body *body, int32_t i, int32_t j, const peri_material *material);
+
+/* Micromodulus c [M L^-5 T^-2 per volume^2: force per volume squared] and critical stretch s0 [-] (HUGE_VAL = never) of the
+   bonds between materials i and j, for an infinite body with this horizon and influence function: closed forms of [P] C.15,
+   C.18, C.20 and [T] 1.24, 1.40 where they exist, else radial Gauss-Legendre quadrature. Either pointer may be NULL.
+   Works before and after peri_build, except that PERI_INFLUENCE_POLE_EDGE needs the spacing and so comes after. */
+PERI_API int32_t peri_read_bond_constants(peri_body *body, int32_t i, int32_t j, double *c, double *s0);
+
+/* ---- points, before peri_build ------------------------------------------------------------------------------------ */
+
+/* Fills the box lo[dim]..hi[dim] with cells of about `spacing` [L]: round((hi-lo)/spacing) per axis, at least one, so that the
+   cells tile the box exactly; points at cell centres. Returns the number of points added, or an error. */
+PERI_API int64_t peri_add_box(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing);
+
+/* A ball (in 2D a disc): the lattice cells whose centre is within `radius` of `centre`. Otherwise as peri_add_box. */
+PERI_API int64_t peri_add_ball(peri_body *body, int32_t material, const double *centre, double radius, double spacing);
+
+/* The lattice cells of the box whose centre `inside` takes. Otherwise as peri_add_box. */
+PERI_API int64_t peri_add_shape(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing,
+                                peri_point_fn inside, void *user);
+
+/* peri_add_box with each interior vertex of the cells moved by up to `amount` quarters of a cell per axis ([P] appendix B),
+   0 <= amount <= 1, from a fixed generator started with seed; points are the centroids of the moved cells, volumes theirs. */
+PERI_API int64_t peri_add_perturbed_box(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing,
+                                        double amount, uint64_t seed);
+
+/* Your own points: positions[count*dim] [L], volumes[count] [L^3] (2D: areas [L^2]), materials[count] or NULL for material 0. */
+PERI_API int64_t peri_add_points(peri_body *body, int64_t count, const double *positions, const double *volumes,
+                                 const int32_t *materials);
+
+/* Your own families instead of a search: ibond[points*width] as in [T] 3.11: row i lists the neighbours of i and is padded
+   with i itself. Membership must be mutual. Weights are computed as for found families. */
+PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t *ibond);
+
+/* Finds the families (cell grid, O(N)), computes weights and constants, and allocates the state. Nothing may be added
+   afterwards. On failure the body is as it was: add what is missing and build again. */
+PERI_API int32_t peri_build(peri_body *body);
+
+/* ---- the built body ----------------------------------------------------------------------------------------------- */
+
+PERI_API int32_t peri_dimension(const peri_body *body);      /* 2 or 3                                                   */
+PERI_API int64_t peri_point_count(const peri_body *body);    /* points                                                   */
+PERI_API int32_t peri_family_width(const peri_body *body);   /* M: the size of the largest family; 0 before peri_build   */
+PERI_API int64_t peri_bond_count(const peri_body *body);     /* entries (i,j) of all families: twice the number of bonds */
+PERI_API int64_t peri_cut_count(const peri_body *body);      /* bonds (pairs) cut before the first step                  */
+PERI_API int64_t peri_broken_count(const peri_body *body);   /* bonds (pairs) broken by stretch, or cut, since then      */
+PERI_API int64_t peri_step_count(const peri_body *body);     /* steps since build or reset                               */
+PERI_API double  peri_time(const peri_body *body);           /* [T] since build or reset                                 */
+
+/* Largest stable time step [T], 2/sqrt(lambda) with lambda bounded by the stiffness of the actual bonds of each point
+   ([T] 2.11: sqrt(2 rho / sum c V / |xi|)) and of the obstacles. Safe, not sharp: the true limit is up to 1.5 times larger.
+   Broken bonds only make it safer. 0 before peri_build. */
+PERI_API double peri_stable_step(const peri_body *body);
+
+/* Rows [first, first+count) of the N x M family array ([T] 3.11) to rows[count*width]: ascending ids, padded with the
+   row's own id. Broken and cut bonds are listed too: see peri_bond_is_intact. */
+PERI_API int32_t peri_read_families(peri_body *body, int64_t first, int64_t count, int32_t *rows);
+
+/* 1 = bond (i,j) carries force, 0 = broken or cut, PERI_ERROR_PAIR = no such bond. */
+PERI_API int32_t peri_bond_is_intact(peri_body *body, int32_t i, int32_t j);
+
+/* Back to the reference state: displacement, velocity, time, steps and ledger zero, bonds broken or cut since the first
+   step whole again. Cracks cut before the first step, sets, loads, obstacles and no-fail zones stay. */
+PERI_API int32_t peri_reset(peri_body *body);
+
+/* An independent copy of a built body, state and loads included; points, families and weights are shared (and counted).
+   error may be NULL. The copy uses the same hooks. */
+PERI_API int32_t peri_clone(const peri_body *body, peri_body **copy, peri_error *error);
+
+/* ---- sets --------------------------------------------------------------------------------------------------------- */
+
+#define PERI_ALL 0 /* the set of all points                                                                              */
+
+/* Each returns the set's id (1, 2, ...) or an error; an empty selection is an error. name (copied) may be NULL.
+   Box and ball include their boundary to 1e-9 of a spacing. */
+PERI_API int32_t peri_select_box(peri_body *body, const char *name, const double *lo, const double *hi);
+PERI_API int32_t peri_select_ball(peri_body *body, const char *name, const double *centre, double radius);
+PERI_API int32_t peri_select_if(peri_body *body, const char *name, peri_point_fn take, void *user);
+PERI_API int32_t peri_select_points(peri_body *body, const char *name, int64_t count, const int32_t *points);
+
+PERI_API int32_t peri_find_set(const peri_body *body, const char *name);  /* id, or PERI_ERROR_SET                       */
+PERI_API int64_t peri_set_size(const peri_body *body, int32_t set);       /* points in the set, or an error              */
+PERI_API int32_t peri_read_set(peri_body *body, int32_t set, int32_t *points, int64_t capacity); /* ascending ids        */
+
+/* ---- cracks and failure ------------------------------------------------------------------------------------------- */
+
+/* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (tolerance
+   1e-9 of the spacing). Return the number of bonds (pairs) newly cut. Made before the first step they are the initial crack
+   and survive peri_reset; later they count as broken. */
+PERI_API int64_t peri_cut_segment(peri_body *body, const double *from, const double *to);                    /* 2D        */
+PERI_API int64_t peri_cut_polyline(peri_body *body, int64_t count, const double *vertices);                 /* 2D        */
+PERI_API int64_t peri_cut_disc(peri_body *body, const double *centre, const double *normal, double radius); /* 3D        */
+PERI_API int64_t peri_cut_triangle(peri_body *body, const double *p, const double *q, const double *r);     /* 3D        */
+PERI_API int64_t peri_cut_rectangle(peri_body *body, const double *corner, const double *edge1,
+                                    const double *edge2);                      /* 3D, any parallelogram                  */
+PERI_API int64_t peri_cut_pairs(peri_body *body, int64_t count, const int32_t *pairs); /* pairs[2*count]; each must be a bond */
+PERI_API int64_t peri_cut_if(peri_body *body, peri_pair_fn cut, void *user);
+
+/* Bonds with an end in the set never break by stretch (on = 1) or may again (on = 0). Cuts still cut them. */
+PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
+
+/* Called for every bond that breaks by stretch: i < j, the time [T] and the stretch at which it broke. Called after the
+   step in ascending (i, j); it may read the body but not change it. NULL removes. Costs one bit per bond. */
+typedef void (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, double stretch);
+PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
+
+/* ---- initial state, supports, loads, obstacles -------------------------------------------------------------------- */
+
+#define PERI_X 1
+#define PERI_Y 2
+#define PERI_Z 4
+
+/* Add the constant vector value[dim] to the initial displacement [L] / velocity [L T^-1] of a set. */
+PERI_API int32_t peri_add_displacement(peri_body *body, int32_t set, const double *value);
+PERI_API int32_t peri_add_velocity(peri_body *body, int32_t set, const double *value);
+
+/* Supports: prescribe the components in `axes` (PERI_X | PERI_Y | PERI_Z) of the displacement [L] or velocity [L T^-1] of a
+   set, constant value[dim] (NULL = zero) or as fn says; fn may be NULL. Later supports win where they overlap. Each returns
+   a load id (0, 1, ...) or an error. */
+PERI_API int32_t peri_prescribe_displacement(peri_body *body, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                                             void *user);
+PERI_API int32_t peri_prescribe_velocity(peri_body *body, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                                         void *user);
+
+/* Body force density value[dim] [M L^-2 T^-2] (gravity: density times g) on a set. Returns a load id or an error. */
+PERI_API int32_t peri_apply_body_force(peri_body *body, int32_t set, const double *value, peri_load_fn fn, void *user);
+
+/* Traction value[dim] [M L^-1 T^-2] on a face of `area` [L^2] (2D: edge length [L]), spread over the set's points by volume: the
+   total force is value*area exactly. The usual choice is the outermost layer; near the face it is wrong by O(1) ([C] 2.5). */
+PERI_API int32_t peri_apply_traction(peri_body *body, int32_t set, double area, const double *value, peri_load_fn fn,
+                                     void *user);
+
+/* Takes a load or support away again. Ids of the others stay. */
+PERI_API int32_t peri_remove_load(peri_body *body, int32_t load);
+
+/* Force [M L T^-2] that a support exerts on the body (its prescribed components), or the total of a load, to force[dim]. */
+PERI_API int32_t peri_read_reaction(peri_body *body, int32_t load, double *force);
+
+/* Rigid obstacles, by penalty: a point that is `depth` inside is pushed out along the normal with a force density of
+   stiffness*depth [M L^-2 T^-2]; stiffness [M L^-3 T^-2] 0 = young/spacing^2 of the stiffest material. They lower the stable
+   step a little. Half-space: solid on the side away from `normal`. `motion` (or NULL: at rest) moves it. Each returns an
+   obstacle id or an error. */
+PERI_API int32_t peri_add_plane_obstacle(peri_body *body, const double *place, const double *normal, double stiffness,
+                                         peri_motion_fn motion, void *user);
+PERI_API int32_t peri_add_ball_obstacle(peri_body *body, const double *centre, double radius, double stiffness,
+                                        peri_motion_fn motion, void *user);
+
+/* Force [M L T^-2] of the obstacle on the body at the present time, to force[dim]. */
+PERI_API int32_t peri_read_obstacle_force(peri_body *body, int32_t obstacle, double *force);
+
+/* ---- explicit dynamics -------------------------------------------------------------------------------------------- */
+
+typedef enum peri_integrator {
+    PERI_VELOCITY_VERLET    = 1, /* [T] 2.2: half kick, drift, force, half kick                                          */
+    PERI_CENTRAL_DIFFERENCE = 2  /* [L], [T] 2.10: u(t+dt) = 2u(t) - u(t-dt) + dt^2 a, summed as velocities at half steps
+                                    so that no digits cancel: one kick per step, same motion                             */
+} peri_integrator;
+
+/* Called at every frame and at the end. Nonzero stops: peri_advance returns PERI_STOPPED. It may read the body, write files,
+   cut, and add or remove loads, but not advance, reset or destroy it. */
+typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
+
+typedef struct peri_run {
+    uint64_t      cookie;       /* set by peri_run_init                                                                  */
+    int32_t       integrator;   /* peri_integrator. Default PERI_VELOCITY_VERLET                                         */
+    int32_t       force_step;   /* 1 = take time_step even if it is larger than peri_stable_step. Default 0: refused     */
+    int64_t       steps;        /* run this many steps; 0 (default) = as `duration` says. Give one of the two            */
+    double        duration;     /* [T] >= 0. The last step is shortened to end exactly there                             */
+    double        time_step;    /* [T] > 0; 0 (default) = safety * peri_stable_step                                      */
+    double        safety;       /* (0, 1]. Default 0.9                                                                   */
+    double        damping;      /* a [T^-1] >= 0: force -a*density*velocity on every point. Default 0                    */
+    int64_t       frame_steps;  /* steps between calls of on_frame; 0 (default) = only at the end                        */
+    peri_frame_fn on_frame;     /* default NULL                                                                          */
+    void         *user;         /* handed to on_frame                                                                    */
+} peri_run;
+
+/* Fills every field with its default. NULL is ignored. */
+PERI_API void peri_run_init(peri_run *run);
+
+/* Advances the body in time. On PERI_ERROR_STEP nothing has moved and error.value is the largest step. On
+   PERI_ERROR_UNSTABLE and PERI_ERROR_CALLBACK the body is at the step where it was found (error.index: the point). */
+PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
+
+/* ---- results ------------------------------------------------------------------------------------------------------ */
+
+typedef enum peri_field {
+    PERI_POSITION       = 1,  /* [dim] reference position [L]                                                    stored  */
+    PERI_DISPLACEMENT   = 2,  /* [dim] [L]                                                             stored, writable  */
+    PERI_VELOCITY       = 3,  /* [dim] [L T^-1]                                                        stored, writable  */
+    PERI_FORCE_DENSITY  = 4,  /* [dim] internal + loads + obstacles [M L^-2 T^-2]; where supported only what
+                                 damping takes                                                                   stored  */
+    PERI_VOLUME         = 5,  /* [L^3], 2D: area [L^2]                                                           stored  */
+    PERI_MATERIAL       = 6,  /* material id                                                                    derived  */
+    PERI_FAMILY_SIZE    = 7,  /* bonds of the point, broken ones included                                       derived  */
+    PERI_DAMAGE         = 8,  /* 1 - intact/all weight volume of the family; initial cuts count        [L]      derived  */
+    PERI_DAMAGE_GROWN   = 9,  /* the same among bonds that were not cut before the first step                   derived  */
+    PERI_ENERGY_DENSITY = 10, /* macroelastic energy density W [M L^-1 T^-2]                      ([P] eq. 7)   derived  */
+    PERI_CURRENT        = 11  /* [dim] current position [L]                                                     derived  */
+} peri_field;
+
+/* Entries that peri_read needs for a field: points*components. */
+PERI_API int64_t peri_field_size(const peri_body *body, int32_t field);
+
+/* Copies a field, in your units, as double, in your order. capacity counts doubles. */
+PERI_API int32_t peri_read(peri_body *body, int32_t field, double *out, int64_t capacity);
+
+/* Sets displacement or velocity of all points from in[count], count = points*dim. */
+PERI_API int32_t peri_write(peri_body *body, int32_t field, const double *in, int64_t count);
+
+/* Where a field lies in memory, without a copy. Component k of point i, in your units, is
+       offset[k] + scale * data[i*point_stride + k*component_stride]           (data of the given type)
+   A stored field's view stays valid, and current, until the body is destroyed. A derived one is computed at the call into
+   memory of the body (taken on first use) and is valid until the field is viewed again or the body is destroyed. */
+typedef struct peri_view {
+    const void *data;
+    int64_t     count;            /* points                                                                              */
+    int64_t     point_stride;     /* in elements                                                                         */
+    int64_t     component_stride; /* in elements                                                                         */
+    int32_t     components;       /* 1 or dim                                                                            */
+    int32_t     type;             /* PERI_F64, PERI_F32 or PERI_I32                                                      */
+    double      scale;
+    double      offset[3];
+} peri_view;
+PERI_API int32_t peri_view_field(peri_body *body, int32_t field, peri_view *view);
+
+/* The energy ledger [M L^2 T^-2]. All entries count from build or reset.
+       initial + external + obstacle = kinetic + elastic + damping + fracture + error
+   where error is what the time step left open. */
+typedef struct peri_energy {
+    double kinetic;  /* of all points                                                                                    */
+    double elastic;  /* stored in intact bonds                                                                           */
+    double external; /* work done by loads and supports                                                                  */
+    double obstacle; /* work done by obstacles                                                                           */
+    double damping;  /* dissipated by mass damping                                                                       */
+    double fracture; /* energy of the bonds that broke by stretch, each at its break                                     */
+    double initial;  /* put in by writing displacement or velocity (less what later cuts took out)                       */
+    double error;    /* initial + external + obstacle - kinetic - elastic - damping - fracture                           */
+} peri_energy;
+
+/* Costs about one force evaluation, once, when called; keeping the ledger while running costs by the size of the loads. */
+PERI_API int32_t peri_read_energy(peri_body *body, peri_energy *energy);
+
+/* Total linear momentum [M L T^-1] to linear[dim], and angular momentum about the origin of the current positions
+   [M L^2 T^-1] to angular[1] (2D) or angular[3]. Either may be NULL. */
+PERI_API int32_t peri_read_momentum(peri_body *body, double *linear, double *angular);
+
+/* ---- output ------------------------------------------------------------------------------------------------------- */
+
+/* Takes the next `count` bytes of a file; nonzero = failed. */
+typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
+
+/* VTK XML unstructured grid for ParaView: points at reference positions, fields displacement, velocity, damage, energy density,
+   material, volume; binary. ParaView's "Warp By Vector" shows the deformed body. */
+PERI_API int32_t peri_write_vtu(peri_body *body, peri_write_fn write, void *user);
+
+/* One CSV line: step, time, the ledger in the order of peri_energy, broken and cut bonds; with header = 1 the names first. */
+PERI_API int32_t peri_write_history(peri_body *body, int32_t header, peri_write_fn write, void *user);
+
+#ifndef PERI_NO_STDIO
+PERI_API int32_t peri_save_vtu(peri_body *body, const char *path);
+/* append = 0 starts the file with a header, 1 adds a line. */
+PERI_API int32_t peri_save_history(peri_body *body, const char *path, int32_t append);
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* PERI_H */
+
+#if defined(PERI_IMPLEMENTATION) && !defined(PERI_IMPLEMENTATION_DONE)
+#define PERI_IMPLEMENTATION_DONE
+#include "peri_impl.c"
+#endif

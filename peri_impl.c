@@ -1,0 +1,56 @@
+/* peri_impl.c - the library, in the order data flows through it. A part calls only parts above it.
+   Compiled by `cc -c peri_impl.c`, or included by peri.h where PERI_IMPLEMENTATION is defined. */
+#ifndef PERI_IMPLEMENTATION_DONE
+#define PERI_IMPLEMENTATION_DONE
+#include "peri.h"
+#endif
+#define PERI_IMPL
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#ifndef PERI_NO_STDIO
+#include <stdio.h>
+#endif
+#if defined(_OPENMP) && !defined(PERI_NO_OPENMP)
+#include <omp.h>
+#endif
+
+#include "src/base.c"       /* compiler differences, small arithmetic, numbers to text                     */
+#include "src/types.h"      /* every internal struct, and the glossary of symbols                          */
+#include "src/status.c"     /* status texts, the error record, the log                                     */
+#include "src/memory.c"     /* the allocator hook, aligned arrays, growing arrays                          */
+#include "src/parallel.c"   /* one loop over blocks of points; sums in a fixed order                       */
+#include "src/influence.c"  /* w(q) and its moments                                                        */
+#include "src/material.c"   /* engineering constants           -> micromodulus, critical stretch           */
+#include "src/points.c"     /* boxes, balls, shapes, arrays    -> points and cells                         */
+#include "src/overlap.c"    /* disk and polygon, ball and box  -> exact partial areas and volumes          */
+#include "src/parts.c"      /* a cell and a horizon            -> the part within                          */
+#include "src/neighbors.c"  /* points                          -> families (Ibond)                         */
+#include "src/quadrature.c" /* families                        -> lengths and weights of bonds             */
+
+#define PERI_T_REAL 64
+#define PERI_T_DIM 2
+#include "src/kernels.inl"  /* the numerical kernels: one text, four instantiations -> peri__ops_d2 ...     */
+#define PERI_T_REAL 64
+#define PERI_T_DIM 3
+#include "src/kernels.inl"
+#define PERI_T_REAL 32
+#define PERI_T_DIM 2
+#include "src/kernels.inl"
+#define PERI_T_REAL 32
+#define PERI_T_DIM 3
+#include "src/kernels.inl"
+
+#include "src/body.c"       /* create, build, clone, reset, destroy                                        */
+#include "src/sets.c"       /* selections of points                                                        */
+#include "src/state.c"      /* access to the state in the user's units; energies                           */
+#include "src/cracks.c"     /* initial cracks, no-fail zones, break events                                 */
+#include "src/loads.c"      /* supports, loads, obstacles                                                  */
+#include "src/explicit.c"   /* stable step, the step loop                                                  */
+#include "src/fields.c"     /* fields by copy and by view, the ledger                                      */
+#include "src/output.c"     /* VTU, CSV                                                                    */
+
+#undef PERI_IMPL

@@ -1,0 +1,126 @@
+/* base.c - compiler differences, small arithmetic, numbers to text. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define PERI_INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define PERI_INLINE static __forceinline
+#else
+#define PERI_INLINE static
+#endif
+
+#define PERI_PI 3.14159265358979323846264338327950288
+
+/* Horizon comparisons: |xi| <= horizon*(1 + PERI_HORIZON_TOLERANCE). Far above the rounding of coordinates a million spacings
+   from the origin (2e-10), far below any distance that two lattice shells can differ by. */
+#define PERI_HORIZON_TOLERANCE 1e-8
+
+/* Cracks and selections touch what is nearer than this many spacings. */
+#define PERI_TOUCH 1e-9
+
+static int64_t peri__min(int64_t a, int64_t b) { return a < b ? a : b; }
+static double peri__square(double a) { return a * a; }
+
+/* Finite, without isfinite: -ffast-math compilers may fold isfinite to 1. */
+static int peri__finite(double a) { return a >= -DBL_MAX && a <= DBL_MAX; }
+
+static int peri__finite_vector(const double *a, int32_t dim) {
+    for (int32_t d = 0; d < dim; ++d)
+        if (!peri__finite(a[d])) return 0;
+    return 1;
+}
+
+static double peri__dot(const double *a, const double *b, int32_t dim) {
+    double sum = 0.0;
+    for (int32_t d = 0; d < dim; ++d) sum += a[d] * b[d];
+    return sum;
+}
+
+/* splitmix64: a fixed generator, so that a seed means the same grid on every machine. Uniform in [-1, 1). */
+static double peri__random(uint64_t *state) {
+    uint64_t z = (*state += UINT64_C(0x9E3779B97F4A7C15));
+    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
+    z ^= z >> 31;
+    return (double)(z >> 11) * (1.0 / 4503599627370496.0) - 1.0;
+}
+
+/* Nodes and weights of Gauss-Legendre quadrature on [0, 1], by Newton's method on P_n. */
+#define PERI_GAUSS 20
+static void peri__gauss(double *x, double *w) {
+    for (int k = 0; k < PERI_GAUSS; ++k) {
+        double z = cos(PERI_PI * (k + 0.75) / (PERI_GAUSS + 0.5)), slope = 1.0;
+        for (int newton = 0; newton < 8; ++newton) {
+            double p0 = 1.0, p1 = z;
+            for (int n = 2; n <= PERI_GAUSS; ++n) {
+                double p2 = ((2 * n - 1) * z * p1 - (n - 1) * p0) / n;
+                p0 = p1;
+                p1 = p2;
+            }
+            slope = PERI_GAUSS * (z * p1 - p0) / (z * z - 1.0);
+            z -= p1 / slope;
+        }
+        x[k] = 0.5 * (1.0 - z);
+        w[k] = 1.0 / ((1.0 - z * z) * slope * slope);
+    }
+}
+
+/* ---- numbers to text: no printf, so no locale and no stdio -------------------------------------------------------- */
+
+static char *peri__put_text(char *out, const char *text) {
+    size_t length = strlen(text);
+    memcpy(out, text, length);
+    return out + length;
+}
+
+static char *peri__put_integer(char *out, int64_t value) {
+    char digits[24];
+    int count = 0;
+    uint64_t rest = value < 0 ? (uint64_t)0 - (uint64_t)value : (uint64_t)value;
+    if (value < 0) *out++ = '-';
+    do {
+        digits[count++] = (char)('0' + (int)(rest % 10));
+        rest /= 10;
+    } while (rest > 0);
+    while (count > 0) *out++ = digits[--count];
+    return out;
+}
+
+/* d.ddddddddddddddde[-]ddd, 16 significant digits, right to a few units of the last. At most 26 characters. */
+static char *peri__put_double(char *out, double value) {
+    if (value != value) return peri__put_text(out, "nan");
+    if (value < 0.0) {
+        *out++ = '-';
+        value = -value;
+    }
+    if (value == 0.0) return peri__put_text(out, "0");
+    if (value > DBL_MAX) return peri__put_text(out, "inf");
+    int exponent = (int)floor(log10(value));
+    /* two factors: 10^exponent alone over- or underflows at the ends of the range */
+    int half = exponent / 2;
+    double scaled = value / pow(10.0, half) / pow(10.0, exponent - half) * 1e15;
+    if (scaled < 1e15) {
+        scaled *= 10.0;
+        exponent--;
+    }
+    if (scaled >= 9999999999999999.5) {
+        scaled /= 10.0;
+        exponent++;
+    }
+    char digits[32];
+    char *end = peri__put_integer(digits, (int64_t)(scaled + 0.5));
+    while (end > digits + 1 && end[-1] == '0') --end;
+    *out++ = digits[0];
+    if (end > digits + 1) {
+        *out++ = '.';
+        memcpy(out, digits + 1, (size_t)(end - digits - 1));
+        out += end - digits - 1;
+    }
+    if (exponent != 0) {
+        *out++ = 'e';
+        out = peri__put_integer(out, exponent);
+    }
+    return out;
+}

@@ -1,0 +1,443 @@
+/* body.c - create, build, clone, reset, destroy. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_COOKIE_BODY (UINT64_C(0x7065726900020000) + sizeof(peri_body_desc))
+
+PERI_API void peri_body_desc_init(peri_body_desc *d) {
+    if (!d) return;
+    memset(d, 0, sizeof *d);
+    d->cookie = PERI_COOKIE_BODY;
+    d->precision = PERI_F64;
+    d->geometry = PERI_NONLINEAR;
+    d->influence = PERI_INFLUENCE_CONSTANT;
+    d->quadrature = PERI_FULL_VOLUME;
+    d->break_timing = PERI_BREAK_AT_STEP_END;
+    d->ledger = 1;
+    d->thickness = 1.0;
+}
+
+/* The name of the first field out of range, or NULL. */
+static const char *peri__bad_choice(const peri_body_desc *d) {
+    if (d->space < PERI_PLANE_STRESS || d->space > PERI_SOLID) return "space";
+    if (d->precision != PERI_F64 && d->precision != PERI_F32) return "precision";
+    if (d->geometry != PERI_NONLINEAR && d->geometry != PERI_LINEAR) return "geometry";
+    if (d->influence < PERI_INFLUENCE_CONSTANT || d->influence > PERI_INFLUENCE_USER) return "influence";
+    if (d->influence == PERI_INFLUENCE_USER && !d->influence_fn) return "influence_fn";
+    if (d->quadrature < PERI_FULL_VOLUME || d->quadrature > PERI_PARTIAL_MOMENT) return "quadrature";
+    if (d->space == PERI_SOLID && d->quadrature > PERI_PARTIAL_VOLUME) return "quadrature";
+    if (d->break_timing != PERI_BREAK_AT_STEP_END && d->break_timing != PERI_BREAK_AFTER_DRIFT) return "break_timing";
+    if (d->threads < 0) return "threads";
+    if ((d->allocate == NULL) != (d->release == NULL)) return "allocate, release";
+    return NULL;
+}
+
+PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, peri_error *error) {
+    peri__memory memory;
+    peri_body *b;
+    const char *bad;
+    (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
+    if (body) *body = NULL;
+    if (!desc || !body) return peri__set_error(error, PERI_ERROR_ARGUMENT, desc ? "body" : "desc", -1, 0.0);
+    if (desc->cookie != PERI_COOKIE_BODY) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
+    bad = peri__bad_choice(desc);
+    if (bad) return peri__set_error(error, PERI_ERROR_ARGUMENT, bad, -1, 0.0);
+    if (!(desc->horizon > 0.0 && peri__finite(desc->horizon)))
+        return peri__set_error(error, PERI_ERROR_RANGE, "horizon", -1, desc->horizon);
+    if (!(desc->thickness > 0.0 && peri__finite(desc->thickness)))
+        return peri__set_error(error, PERI_ERROR_RANGE, "thickness", -1, desc->thickness);
+
+    memory.allocate = desc->allocate ? desc->allocate : peri__malloc;
+    memory.release = desc->release ? desc->release : peri__free;
+    memory.user = desc->memory_user;
+    b = (peri_body *)peri__new(&memory, 1, sizeof *b);
+    if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
+    b->desc = *desc;
+    b->memory = memory;
+    b->dim = desc->space == PERI_SOLID ? 3 : 2;
+    b->f32 = desc->precision == PERI_F32;
+    (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
+    *body = b;
+    return PERI_OK;
+}
+
+/* ---- the shared model --------------------------------------------------------------------------------------------- */
+
+static void peri__release_model(peri__model *m, size_t real) {
+    const peri__memory memory = m->memory;
+    int64_t entries = m->points * m->width;
+    if (peri__count_users(&m->users, -1) > 0) return;
+    peri__delete(&memory, m->x, m->stride * m->dim, real);
+    peri__delete(&memory, m->volume, m->points, sizeof *m->volume);
+    peri__delete(&memory, m->material, m->points, sizeof *m->material);
+    peri__delete(&memory, m->ids, entries, sizeof *m->ids);
+    peri__delete(&memory, m->count, m->points, sizeof *m->count);
+    peri__delete(&memory, m->weight, entries, real);
+    peri__delete(&memory, m->bond, entries, real);
+    peri__delete(&memory, m->centroid, entries * m->dim, real);
+    peri__delete(&memory, m->part, entries, sizeof *m->part);
+    peri__delete(&memory, m->pairs, (int64_t)m->materials * m->materials, sizeof *m->pairs);
+    peri__delete(&memory, m, 1, sizeof *m);
+}
+
+/* Units of stress and density, and the constants of all pairs of materials in them. */
+static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
+    int32_t n = b->material_count;
+    m->materials = n;
+    m->pairs = (peri__pair *)peri__new(&m->memory, (int64_t)n * n, sizeof *m->pairs);
+    if (!m->pairs) return peri__fail(b, PERI_ERROR_MEMORY, "materials", -1, 0.0);
+    m->density = b->materials[0].density;
+    for (int32_t i = 0; i < n; ++i) {
+        double young = peri__young(&b->materials[i], b->desc.space);
+        if (young > m->stress) m->stress = young;
+    }
+    m->time = m->length * sqrt(m->density / m->stress);
+    m->energy = m->stress * m->length * m->length * (b->dim == 3 ? m->length : b->desc.thickness);
+    for (int32_t i = 0; i < n; ++i) {
+        m->rho[i] = b->materials[i].density / m->density;
+        for (int32_t j = 0; j < n; ++j) {
+            peri__pair *pair = &m->pairs[i * n + j];
+            int32_t status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, pair);
+            if (status < 0) return status;
+            if (pair->s0 < PERI_NEVER) m->breakable = 1;
+        }
+    }
+    return PERI_OK;
+}
+
+/* Points, families, weights: all that clones share. On failure the model is partly filled; the caller releases it. */
+static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
+    int32_t dim = b->dim, status;
+    size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    m->dim = dim;
+    m->points = b->setup.point_count;
+    m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
+    m->stride = (m->points + PERI_LANES - 1) / PERI_LANES * PERI_LANES;
+    m->x = peri__new(&m->memory, m->stride * dim, real);
+    m->volume = (double *)peri__new(&m->memory, m->points, sizeof *m->volume);
+    m->material = (uint8_t *)peri__copy(&m->memory, b->setup.material, m->points, 1);
+    m->count = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->count);
+    if (!m->x || !m->volume || !m->material || !m->count) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+
+    peri__scale_points(b, m, cloud->x);
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int32_t d = 0; d < dim; ++d) peri__put_real(m->x, b->f32, d * m->stride + i, cloud->x[i * dim + d]);
+    for (int64_t p = 0; p < b->setup.piece_count; ++p)
+        for (int32_t d = 0; b->setup.pieces[p].lattice && d < dim; ++d) {
+            double edge = b->setup.pieces[p].cell[d] / m->length;
+            if (edge > cloud->largest) cloud->largest = edge;
+        }
+    for (int64_t i = 0; i < m->points; ++i) {
+        double edge = pow(m->volume[i], 1.0 / dim);
+        if (edge > cloud->largest) cloud->largest = edge;
+    }
+    peri__gauss(cloud->gauss_x, cloud->gauss_w);
+
+    status = peri__fill_pairs(b, m);
+    if (status == PERI_OK) status = b->setup.ibond ? peri__take_families(b, cloud) : peri__find_families(b, cloud, sums);
+    if (status == PERI_OK) status = peri__check_families(b, m);
+    if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
+    m->words = (m->width + 31) / 32;
+    return status;
+}
+
+/* ---- state -------------------------------------------------------------------------------------------------------- */
+
+static size_t peri__real(const peri_body *b) { return b->f32 ? sizeof(float) : sizeof(double); }
+
+static void peri__free_state(peri_body *b) {
+    const peri__memory *memory = &b->memory;
+    const peri__model *m = b->model;
+    int64_t vector = m->stride * m->dim, flags = m->points * m->words;
+    void **vectors[3] = { &b->u, &b->v, &b->f };
+    for (int k = 0; k < 3; ++k) {
+        peri__delete(memory, *vectors[k], vector, peri__real(b));
+        *vectors[k] = NULL;
+    }
+    peri__delete(memory, b->alive, flags, sizeof *b->alive);
+    peri__delete(memory, b->uncut, flags, sizeof *b->uncut);
+    peri__delete(memory, b->before, flags, sizeof *b->before);
+    peri__delete(memory, b->no_fail, m->points, 1);
+    peri__delete(memory, b->cls, m->points, 1);
+    peri__delete(memory, b->pairs, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs);
+    peri__delete(memory, b->sums, m->blocks, sizeof *b->sums);
+    peri__delete(memory, b->push, vector, sizeof *b->push);
+    for (size_t k = 0; k < sizeof b->derived / sizeof b->derived[0]; ++k) {
+        peri__delete(memory, b->derived[k], m->points * m->dim, sizeof(double));
+        b->derived[k] = NULL;
+    }
+    for (int64_t k = 0; k < b->set_count; ++k) {
+        peri__delete(memory, b->sets[k].name, b->sets[k].name_bytes, 1);
+        peri__delete(memory, b->sets[k].points, b->sets[k].count, sizeof(int32_t));
+    }
+    peri__delete(memory, b->sets, b->set_capacity, sizeof *b->sets);
+    for (int64_t k = 0; k < b->load_count; ++k) {
+        peri__delete(memory, b->loads[k].value, b->loads[k].count * m->dim, sizeof(double));
+        peri__delete(memory, b->loads[k].force, 2 * b->loads[k].count * m->dim, sizeof(double));
+        peri__delete(memory, b->loads[k].all, b->loads[k].count, sizeof(int32_t));
+        peri__delete(memory, b->loads[k].owned, b->loads[k].count, 1);
+    }
+    peri__delete(memory, b->loads, b->load_capacity, sizeof *b->loads);
+    peri__delete(memory, b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
+    b->alive = b->uncut = b->before = NULL;
+    b->no_fail = b->cls = NULL;
+    b->pairs = NULL;
+    b->sums = NULL;
+    b->push = NULL;
+    b->sets = NULL;
+    b->loads = NULL;
+    b->obstacles = NULL;
+    b->set_count = b->load_count = b->obstacle_count = 0;
+    b->set_capacity = b->load_capacity = b->obstacle_capacity = 0;
+}
+
+/* One flag per bond, all set: n bonds of row i in the first n bits, nothing in the rest. */
+static uint32_t *peri__new_flags(const peri_body *b) {
+    const peri__model *m = b->model;
+    uint32_t *flags = (uint32_t *)peri__new(&b->memory, m->points * m->words, sizeof *flags);
+    for (int64_t i = 0; flags && i < m->points; ++i)
+        for (int32_t k = 0; k < m->count[i]; ++k) flags[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
+    return flags;
+}
+
+/* Classes of points: material, and material + materials where the point cannot fail. A bond with a no-fail end never breaks. */
+static int32_t peri__update_classes(peri_body *b) {
+    const peri__model *m = b->model;
+    int32_t n = m->materials;
+    if (!b->cls && (n > 1 || b->no_fail)) {
+        b->cls = (uint8_t *)peri__new(&b->memory, m->points, 1);
+        if (!b->cls) return peri__fail(b, PERI_ERROR_MEMORY, "classes", -1, 0.0);
+    }
+    b->classes = b->no_fail ? 2 * n : n;
+    for (int32_t p = 0; p < b->classes; ++p)
+        for (int32_t q = 0; q < b->classes; ++q) {
+            peri__pair *pair = &b->pairs[p * b->classes + q];
+            *pair = m->pairs[p % n * n + q % n];
+            if (p >= n || q >= n) pair->s0 = PERI_NEVER;
+        }
+    for (int64_t i = 0; b->cls && i < m->points; ++i)
+        b->cls[i] = (uint8_t)(m->material[i] + (b->no_fail && b->no_fail[i] ? n : 0));
+    return PERI_OK;
+}
+
+static int32_t peri__new_state(peri_body *b) {
+    const peri__model *m = b->model;
+    int64_t vector = m->stride * m->dim;
+    b->ops = b->f32 ? (b->dim == 3 ? &peri__ops_f3 : &peri__ops_f2) : b->dim == 3 ? &peri__ops_d3 : &peri__ops_d2;
+    b->u = peri__new(&b->memory, vector, peri__real(b));
+    b->v = peri__new(&b->memory, vector, peri__real(b));
+    b->f = peri__new(&b->memory, vector, peri__real(b));
+    b->sums = (peri__sums *)peri__new(&b->memory, m->blocks, sizeof *b->sums);
+    b->pairs = (peri__pair *)peri__new(&b->memory, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs);
+    if (m->breakable) b->alive = peri__new_flags(b);
+    if (!b->u || !b->v || !b->f || !b->sums || !b->pairs || (m->breakable && !b->alive))
+        return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
+    return peri__update_classes(b);
+}
+
+PERI_API int32_t peri_build(peri_body *b) {
+    PERI_NEED_UNBUILT(b);
+    peri__cloud cloud;
+    peri__model *m;
+    peri__sums *sums;
+    int64_t points = b->setup.point_count, blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
+    int32_t status;
+    if (b->material_count == 0) return peri__fail(b, PERI_ERROR_MATERIAL, "material", -1, 0.0);
+    if (points == 0) return peri__fail(b, PERI_ERROR_NO_POINTS, "points", -1, 0.0);
+
+    memset(&cloud, 0, sizeof cloud);
+    m = (peri__model *)peri__new(&b->memory, 1, sizeof *m);
+    if (!m) return peri__fail(b, PERI_ERROR_MEMORY, "model", -1, 0.0);
+    m->memory = b->memory;
+    m->users = 1;
+    cloud.body = b;
+    cloud.model = m;
+    cloud.x = (double *)peri__new(&b->memory, points * b->dim, sizeof(double));
+    sums = (peri__sums *)peri__new(&b->memory, blocks, sizeof *sums);
+    status = cloud.x && sums ? peri__fill_model(b, m, &cloud, sums) : peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    if (status == PERI_OK) {
+        b->model = m;
+        status = peri__new_state(b);
+        if (status < 0) {
+            peri__free_state(b);
+            b->model = NULL;
+        }
+    }
+    peri__delete(&b->memory, cloud.x, points * b->dim, sizeof(double));
+    peri__delete(&b->memory, cloud.start, cloud.cell_count + 1, sizeof(int32_t));
+    peri__delete(&b->memory, cloud.order, points, sizeof(int32_t));
+    peri__delete(&b->memory, sums, blocks, sizeof *sums);
+    if (status < 0) {
+        peri__release_model(m, peri__real(b));
+        return status;
+    }
+    peri__free_setup(b);
+    return PERI_OK;
+}
+
+PERI_API void peri_body_destroy(peri_body *b) {
+    peri__memory memory;
+    if (!b) return;
+    memory = b->memory;
+    if (b->model) {
+        peri__free_state(b);
+        peri__release_model(b->model, peri__real(b));
+    }
+    peri__free_setup(b);
+    peri__delete(&memory, b->interfaces, b->interface_capacity, sizeof *b->interfaces);
+    peri__delete(&memory, b, 1, sizeof *b);
+}
+
+/* Copies the state of `from` into the empty body b, which shares its model. 0 where memory is short. */
+static int peri__copy_state(peri_body *b, const peri_body *from) {
+    const peri__memory *memory = &b->memory;
+    const peri__model *m = b->model;
+    int64_t vector = m->stride * m->dim, flags = m->points * m->words;
+    int ok = 1;
+#define PERI_COPY_(member, count, size)                                                                                \
+    if (from->member) {                                                                                                \
+        void *copy_ = peri__copy(memory, from->member, count, size);                                                   \
+        ok = ok && copy_;                                                                                              \
+        memcpy(&b->member, &copy_, sizeof copy_);                                                                      \
+    }
+    PERI_COPY_(u, vector, peri__real(b))
+    PERI_COPY_(v, vector, peri__real(b))
+    PERI_COPY_(f, vector, peri__real(b))
+    PERI_COPY_(alive, flags, sizeof *b->alive)
+    PERI_COPY_(uncut, flags, sizeof *b->uncut)
+    PERI_COPY_(before, flags, sizeof *b->before)
+    PERI_COPY_(no_fail, m->points, 1)
+    PERI_COPY_(cls, m->points, 1)
+    PERI_COPY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs)
+    PERI_COPY_(sums, m->blocks, sizeof *b->sums)
+    PERI_COPY_(push, vector, sizeof *b->push)
+    PERI_COPY_(obstacles, from->obstacle_capacity, sizeof *b->obstacles)
+    b->obstacle_count = from->obstacle_count;
+    b->obstacle_capacity = b->obstacles ? from->obstacle_capacity : 0;
+
+    b->sets = (peri__set *)peri__new(memory, from->set_capacity, sizeof *b->sets);
+    b->loads = (peri__load *)peri__new(memory, from->load_capacity, sizeof *b->loads);
+    if (b->sets) b->set_capacity = from->set_capacity;
+    if (b->loads) b->load_capacity = from->load_capacity;
+    for (int64_t k = 0; b->sets && k < from->set_count; ++k) {
+        b->sets[k] = from->sets[k];
+        b->sets[k].name = NULL;
+        b->sets[k].points = NULL;
+        PERI_COPY_(sets[k].name, from->sets[k].name_bytes, 1)
+        PERI_COPY_(sets[k].points, from->sets[k].count, sizeof(int32_t))
+        b->set_count = k + 1;
+    }
+    for (int64_t k = 0; b->loads && k < from->load_count; ++k) {
+        b->loads[k] = from->loads[k];
+        b->loads[k].value = b->loads[k].force = NULL;
+        b->loads[k].owned = NULL;
+        b->loads[k].all = NULL;
+        PERI_COPY_(loads[k].all, from->loads[k].count, sizeof(int32_t))
+        PERI_COPY_(loads[k].value, from->loads[k].count * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].force, 2 * from->loads[k].count * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].owned, from->loads[k].count, 1)
+        b->load_count = k + 1;
+    }
+#undef PERI_COPY_
+    return ok && b->sets && b->loads;
+}
+
+PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error *error) {
+    peri_body *b;
+    (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
+    if (copy) *copy = NULL;
+    if (!from || !copy) return peri__set_error(error, PERI_ERROR_ARGUMENT, from ? "copy" : "body", -1, 0.0);
+    if (!from->model) return peri__set_error(error, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
+    b = (peri_body *)peri__new(&from->memory, 1, sizeof *b);
+    if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
+    b->desc = from->desc;
+    b->memory = from->memory;
+    b->dim = from->dim;
+    b->f32 = from->f32;
+    memcpy(b->materials, from->materials, sizeof b->materials);
+    b->material_count = from->material_count;
+    b->model = from->model;
+    b->ops = from->ops;
+    b->classes = from->classes;
+    b->on_break = from->on_break;
+    b->break_user = from->break_user;
+    b->cut = from->cut;
+    b->broken = from->broken;
+    b->steps = from->steps;
+    b->time = from->time;
+    b->force_current = from->force_current;
+    b->ledger = from->ledger;
+    (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
+    (void)peri__count_users(&b->model->users, 1);
+    int ok = peri__copy_state(b, from);
+    if (ok && from->interface_count > 0) {
+        b->interfaces = (peri__interface *)peri__copy(&b->memory, from->interfaces, from->interface_capacity,
+                                                      sizeof *b->interfaces);
+        ok = b->interfaces != NULL;
+        if (ok) {
+            b->interface_count = from->interface_count;
+            b->interface_capacity = from->interface_capacity;
+        }
+    }
+    if (!ok) {
+        peri_body_destroy(b);
+        return peri__set_error(error, PERI_ERROR_MEMORY, "state", -1, 0.0);
+    }
+    *copy = b;
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_reset(peri_body *b) {
+    PERI_NEED_BUILT(b);
+    if (b->running) return peri__fail(b, PERI_ERROR_ORDER, "on_frame", -1, 0.0);
+    const peri__model *m = b->model;
+    size_t vector = (size_t)(m->stride * m->dim) * peri__real(b);
+    memset(b->u, 0, vector);
+    memset(b->v, 0, vector);
+    memset(b->f, 0, vector);
+    if (b->push) memset(b->push, 0, (size_t)(m->stride * m->dim) * sizeof *b->push);
+    if (b->alive) {
+        for (int64_t i = 0; i < m->points; ++i)
+            for (int32_t k = 0; k < m->count[i]; ++k) b->alive[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
+        if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
+    }
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);
+    b->broken = b->steps = 0;
+    b->time = 0.0;
+    b->force_current = 0;
+    memset(&b->ledger, 0, sizeof b->ledger);
+    return PERI_OK;
+}
+
+/* ---- counts ------------------------------------------------------------------------------------------------------- */
+
+PERI_API int32_t peri_dimension(const peri_body *b) { return b ? b->dim : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_point_count(const peri_body *b) {
+    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->points : b->setup.point_count;
+}
+
+PERI_API int32_t peri_family_width(const peri_body *b) {
+    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->width : 0;
+}
+
+PERI_API int64_t peri_bond_count(const peri_body *b) { return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->bonds : 0; }
+
+PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->cut / 2 : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->broken / 2 : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->steps : PERI_ERROR_ARGUMENT; }
+
+PERI_API double peri_time(const peri_body *b) { return b && b->model ? b->time * b->model->time : 0.0; }
+
+PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows) {
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, rows, "rows");
+    if (first < 0 || count < 0 || first > b->model->points || count > b->model->points - first)
+        return peri__fail(b, PERI_ERROR_ID, "first, count", first, (double)count);
+    memcpy(rows, &b->model->ids[first * b->model->width], (size_t)(count * b->model->width) * sizeof *rows);
+    return PERI_OK;
+}

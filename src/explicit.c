@@ -1,0 +1,212 @@
+/* explicit.c - explicit dynamics: the stable step and the step loop.
+
+   A step from n to n+1 ([T] 2.2, with damping a, h = a dt/2; velocity-Verlet | central difference):
+     drive     supported dofs get the velocity that their support prescribes
+     kick      v = (1-h) v + dt/2 f/rho        |  v = ((1-h) v + dt f/rho)/(1+h)
+     drift     u += dt v
+     force     f = loads + obstacles + bonds; bonds past their critical stretch break
+     hold      reactions are noted
+     kick      v = (v + dt/2 f/rho)/(1+h)      |  none: v stays at the half step until the run ends or a frame is shown
+   Both are the same motion; the second makes one kick of two.
+
+   A bond that breaks at n+1 is not in f, but under PERI_BREAK_AT_STEP_END it still gives its half kick that closes the step. The state
+   after the step is then what the unbroken body would have reached, so breaking takes exactly the bond's energy at that state from the
+   elastic energy and the ledger closes as without fracture. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_COOKIE_RUN (UINT64_C(0x7065726900030000) + sizeof(peri_run))
+
+PERI_API void peri_run_init(peri_run *r) {
+    if (!r) return;
+    memset(r, 0, sizeof *r);
+    r->cookie = PERI_COOKIE_RUN;
+    r->integrator = PERI_VELOCITY_VERLET;
+    r->safety = 0.9;
+}
+
+/* Inner units. 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice, once on the
+   diagonal and once off it; obstacles once, taken as if all touched the lightest point. */
+static double peri__stable(const peri_body *b) {
+    const peri__model *m = b->model;
+    double lambda = m->rate, lightest = m->rho[0];
+    for (int32_t k = 1; k < m->materials; ++k)
+        if (m->rho[k] < lightest) lightest = m->rho[k];
+    for (int64_t k = 0; k < b->obstacle_count; ++k) lambda += b->obstacles[k].stiffness / lightest;
+    return 2.0 / sqrt(lambda);
+}
+
+PERI_API double peri_stable_step(const peri_body *b) { return b && b->model ? peri__stable(b) * b->model->time : 0.0; }
+
+/* Brings f up to date with u, loads and cracks as they are, without breaking anything. */
+static int32_t peri__update_force(peri_body *b) {
+    peri__step step = peri__no_step(b);
+    const peri__model *m = b->model;
+    if (b->force_current) return PERI_OK;
+    memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
+    int32_t status = peri__apply_loads(b, b->time, 0.0);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, b->time, 0.0);
+    if (status < 0) return status;
+    peri__for_points(b, m->points, b->ops->force, &step, b->sums);
+    peri__hold_supports(b, 0.0, 0.0);
+    b->force_current = 1;
+    return PERI_OK;
+}
+
+static void peri__kick(peri_body *b, const peri__step *step, int64_t *bad) {
+    peri__for_points(b, b->model->points, b->ops->kick, (void *)(uintptr_t)step, b->sums);
+    peri__sums total = peri__total(b->sums, b->model->points);
+    b->ledger.damping += total.b;
+    if (bad && *bad < 0) *bad = total.bad;
+}
+
+/* Central difference keeps v half a step behind; these move it there and back. */
+static void peri__stagger(peri_body *b, double dt, double h) {
+    peri__step step = peri__no_step(b);
+    step.keep = 1.0 + h;
+    step.kick = -0.5 * dt;
+    peri__kick(b, &step, NULL);
+}
+
+static void peri__unstagger(peri_body *b, double dt, double h) {
+    peri__step step = peri__no_step(b);
+    step.keep = 1.0 / (1.0 + h);
+    step.kick = 0.5 * dt / (1.0 + h);
+    peri__kick(b, &step, NULL);
+}
+
+/* One step of dt to the time `next`, all in inner units. */
+static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double next, double damping) {
+    const peri__model *m = b->model;
+    int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
+    double h = 0.5 * damping * dt;
+    int64_t bad = -1;
+    peri__step step = peri__no_step(b);
+    int32_t status = peri__drive_supports(b, b->time, dt, damping);
+    if (status < 0) {
+        b->force_current = 0;
+        return status;
+    }
+
+    step.central = central;
+    step.keep = central ? (1.0 - h) / (1.0 + h) : 1.0 - h;
+    step.kick = central ? dt / (1.0 + h) : 0.5 * dt;
+    step.drift = dt;
+    if (damping > 0.0 && b->desc.ledger) step.loss = central ? damping * dt : 0.5 * damping * dt;
+    peri__kick(b, &step, &bad);
+    b->time = next;
+    b->steps++;
+
+    status = peri__apply_loads(b, next, dt);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, next, dt);
+    if (status < 0) {
+        b->force_current = 0;
+        return status;
+    }
+    if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
+    step.breaking = b->alive != NULL && m->breakable;
+    step.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
+    peri__for_points(b, m->points, b->ops->force, &step, b->sums);
+    if (step.breaking) {
+        peri__sums total = peri__total(b->sums, m->points);
+        b->ledger.fracture += total.a;
+        b->broken += total.n;
+        if (b->before && total.n > 0) peri__report_breaks(b);
+    }
+    peri__hold_supports(b, dt, damping);
+
+    if (!central) {
+        step.keep = 1.0 / (1.0 + h);
+        step.kick = 0.5 * dt / (1.0 + h);
+        step.drift = 0.0;
+        peri__kick(b, &step, &bad);
+    }
+    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "velocity", bad, b->time * m->time);
+    return PERI_OK;
+}
+
+static int32_t peri__check_run(peri_body *b, const peri_run *r) {
+    PERI_NEED(b, r, "run");
+    if (r->cookie != PERI_COOKIE_RUN) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "run", -1, 0.0);
+    if (b->running) return peri__fail(b, PERI_ERROR_ORDER, "on_frame", -1, 0.0);
+    PERI_NEED(b, r->integrator == PERI_VELOCITY_VERLET || r->integrator == PERI_CENTRAL_DIFFERENCE, "integrator");
+    PERI_NEED_NUMBER(b, r->duration >= 0.0, r->duration);
+    PERI_NEED_NUMBER(b, r->time_step >= 0.0, r->time_step);
+    PERI_NEED_NUMBER(b, r->safety > 0.0 && r->safety <= 1.0, r->safety);
+    PERI_NEED_NUMBER(b, r->damping >= 0.0, r->damping);
+    PERI_NEED(b, r->frame_steps >= 0, "frame_steps");
+    PERI_NEED(b, r->steps >= 0, "steps");
+    if (r->steps > 0 && r->duration > 0.0) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
+    double stable = peri__stable(b) * b->model->time;
+    if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
+        return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
+    if (r->time_step > stable) peri__log(b, 1, "time_step is larger than the stable step, as forced");
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_run(b, r);
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
+    double damping = r->damping * m->time, start = b->time, duration = r->duration / m->time;
+    double dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b), last = dt;
+    int64_t steps = r->steps, done = 0, left_to_frame = r->frame_steps;
+    if (steps == 0 && duration > 0.0) {
+        double count = ceil(duration / dt * (1.0 - 1e-12));
+        if (count >= 9e18) return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
+        steps = (int64_t)count;
+        last = duration - (double)(steps - 1) * dt;
+    }
+    status = peri__update_force(b);
+    if (status < 0) return status;
+    if (b->desc.ledger) peri__settle(b);
+    while (done < steps && status == PERI_OK) {
+        /* a stretch of steps of one size, up to the next frame */
+        int64_t stretch = steps - done;
+        double size = dt;
+        if (r->on_frame && r->frame_steps > 0 && stretch > left_to_frame) stretch = left_to_frame;
+        if (last < dt && done + stretch == steps && stretch > 1) stretch--;
+        if (last < dt && done + 1 == steps) size = last;
+        if (central) peri__stagger(b, size, 0.5 * damping * size);
+        for (int64_t k = 0; k < stretch && status == PERI_OK; ++k, ++done) {
+            double next = done + 1 == steps && r->steps == 0 ? start + duration : start + (double)done * dt + size;
+            status = peri__one_step(b, r, size, next, damping);
+        }
+        if (central && status == PERI_OK) peri__unstagger(b, size, 0.5 * damping * size);
+        left_to_frame -= stretch;
+        if (status != PERI_OK) break;
+        if (r->on_frame && (done == steps || (r->frame_steps > 0 && left_to_frame == 0))) {
+            left_to_frame = r->frame_steps;
+            b->running = 1;
+            int32_t stop = r->on_frame(r->user, b);
+            b->running = 0;
+            if (stop) return PERI_STOPPED;
+            status = peri__update_force(b);
+            if (b->desc.ledger) peri__settle(b);
+        }
+    }
+    return status;
+}
+
+PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_load(b, id);
+    if (status < 0) return status;
+    PERI_NEED(b, force, "force");
+    if (!b->running) status = peri__update_force(b);
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    const peri__load *load = &b->loads[id];
+    double total[3] = { 0.0, 0.0, 0.0 };
+    for (int64_t k = 0; k < load->count; ++k)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            double volume = m->volume[peri__set_point(b, load->set, k)];
+            if (load->owned) total[d] -= load->owned[k] >> d & 1 ? load->force[k * m->dim + d] * volume : 0.0;
+            else total[d] += peri__load_value(b, load, k, d) * load->per_value / peri__force_unit(m) * volume;
+        }
+    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+    return PERI_OK;
+}

@@ -1,0 +1,193 @@
+/* k_bond.inl - bond-based force, breaking and energy ([T] 1.20-1.23, [P] 1, 9, 10):
+
+       f_i = sum_j c w(|xi|) s M beta_ij V_j,    s = e/|xi|,    e = |xi+eta| - |xi|,    M = (xi+eta)/|xi+eta|
+       W_i = 1/2 sum_j (1/2 c w s^2 |xi|) beta_ij V_j
+
+   weight = w beta V_j is stored. The extension is taken as e = (2 xi.eta + eta.eta)/(|xi+eta| + |xi|): the difference of two
+   lengths loses every digit at strains of 1e-7 in single precision, this form none.
+   Each row adds its own bonds in ascending order and writes only to its own point. Both ends of a bond compute the same e to the last
+   bit (only signs differ), so both find it broken in the same step without telling each other. */
+
+/* Bond (i, j): reference bond xi and current one y. */
+PERI_INLINE void PERI_FN(bond_vectors)(const peri_body *b, int64_t i, int64_t at, int64_t j, peri_r *xi, peri_r *eta) {
+    const peri__model *m = b->model;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
+    for (int d = 0; d < PERI_D; ++d) {
+        const peri_r *xd = x + d * m->stride, *ud = u + d * m->stride;
+        xi[d] = m->centroid ? ((const peri_r *)m->centroid)[at * PERI_D + d] : xd[j] - xd[i];
+        eta[d] = ud[j] - ud[i];
+    }
+}
+
+/* Extension e of a bond and the vector y along which its force acts: xi+eta, or xi where the geometry is linear. Returns |y|. */
+PERI_INLINE peri_r PERI_FN(extension)(int linear, const peri_r *xi, const peri_r *eta, peri_r bond, peri_r *e, peri_r *y) {
+    peri_r along = 0, square = 0, length;
+    for (int d = 0; d < PERI_D; ++d) {
+        if (linear) {
+            y[d] = xi[d];
+            along += xi[d] * eta[d];
+        } else {
+            y[d] = xi[d] + eta[d];
+            along += (2 * xi[d] + eta[d]) * eta[d];
+            square += y[d] * y[d];
+        }
+    }
+    if (linear) {
+        *e = along / bond;
+        return bond;
+    }
+    length = PERI_SQRT(square);
+    *e = along / (length + bond);
+    return length;
+}
+
+PERI_INLINE const peri__pair *PERI_FN(pair)(const peri_body *b, int64_t i, int64_t j) {
+    return b->cls ? &b->pairs[b->cls[i] * b->classes + b->cls[j]] : b->pairs;
+}
+
+/* The textbook kernel of one row: every quantity by its formula. f, impulse: [PERI_D] of row i, see the row below. */
+static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, peri_r *f, peri_r *impulse, double *lost) {
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    int linear = b->desc.geometry == PERI_LINEAR;
+    int32_t broke = 0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        int64_t at = i * m->width + k, j = m->ids[at];
+        uint32_t *flags = b->alive ? &b->alive[i * m->words + k / 32] : NULL, flag = (uint32_t)1 << (k % 32);
+        const peri__pair *pair = PERI_FN(pair)(b, i, j);
+        peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, s, length, force;
+        peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
+        if (flags && !(*flags & flag)) continue;
+        PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
+        length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
+        s = e / bond;
+        force = (peri_r)pair->c * s * weight;
+        if (step->breaking && flags && s > (peri_r)pair->s0) {
+            *flags &= ~flag;
+            broke++;
+            *lost += 0.25 * pair->c * (double)weight * (double)s * (double)s * (double)bond * m->volume[i];
+            for (int d = 0; d < PERI_D; ++d) impulse[d] += force * y[d] / (length + PERI_TINY);
+        } else {
+            for (int d = 0; d < PERI_D; ++d) f[d] += force * y[d] / (length + PERI_TINY);
+        }
+    }
+    return broke;
+}
+
+/* The same row, for speed: one square root and one division per bond, the flags of 32 bonds read at once. `flagged` and `linear`
+   are constants where this is inlined. f gets the force of the bonds that live on; impulse that of the bonds that break now, which
+   still act in the closing half kick of the step (PERI_BREAK_AT_STEP_END). Returns the number of bonds broken. */
+PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, peri_r *f, peri_r *impulse, double *lost,
+                                      const int flagged, const int linear) {
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
+    const peri_r *bonds = (const peri_r *)m->bond + i * m->width, *weights = (const peri_r *)m->weight + i * m->width;
+    const int32_t *ids = m->ids + i * m->width;
+    const uint8_t *cls = b->cls;
+    const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
+    const int64_t stride = m->stride;
+    peri_r c = (peri_r)pairs->c, s0 = step->breaking ? (peri_r)pairs->s0 : (peri_r)PERI_NEVER;
+    int32_t broke = 0, count = m->count[i];
+    peri_r xi_[PERI_D], ui[PERI_D], sum[PERI_D];
+    for (int d = 0; d < PERI_D; ++d) {
+        xi_[d] = x[d * stride + i];
+        ui[d] = u[d * stride + i];
+        sum[d] = f[d];
+    }
+    for (int32_t first = 0; first < count; first += 32) {
+        uint32_t *flags = flagged ? &b->alive[i * m->words + first / 32] : NULL;
+        uint32_t live = flagged ? *flags : 0, dead = 0;
+        int32_t chunk = count - first < 32 ? count - first : 32;
+        for (int32_t k = 0; k < chunk; ++k) {
+            int64_t j = ids[first + k];
+            peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], along = 0, square = 0, length, scale, reach;
+            peri_r bond = bonds[first + k], weight = weights[first + k];
+            if (flagged && !(live >> k & 1)) continue;
+            if (cls) {
+                c = (peri_r)pairs[cls[j]].c;
+                s0 = step->breaking ? (peri_r)pairs[cls[j]].s0 : (peri_r)PERI_NEVER;
+            }
+            for (int d = 0; d < PERI_D; ++d) {
+                xi[d] = x[d * stride + j] - xi_[d];
+                eta[d] = u[d * stride + j] - ui[d];
+                if (linear) {
+                    y[d] = xi[d];
+                    along += xi[d] * eta[d];
+                } else {
+                    y[d] = xi[d] + eta[d];
+                    along += (2 * xi[d] + eta[d]) * eta[d];
+                    square += y[d] * y[d];
+                }
+            }
+            /* e = along/reach, force along y: c weight e/(bond |y|) */
+            length = linear ? bond : PERI_SQRT(square);
+            reach = linear ? bond : length + bond;
+            scale = c * weight * along / (reach * bond * length + PERI_TINY);
+            if (flagged && along > s0 * bond * reach) {
+                double s = (double)along / ((double)reach * (double)bond);
+                dead |= (uint32_t)1 << k;
+                *lost += 0.25 * (double)c * (double)weight * s * s * (double)bond * m->volume[i];
+                for (int d = 0; d < PERI_D; ++d) impulse[d] += scale * y[d];
+                broke++;
+                continue;
+            }
+            for (int d = 0; d < PERI_D; ++d) sum[d] += scale * y[d];
+        }
+        if (flagged && dead) *flags = live & ~dead;
+    }
+    for (int d = 0; d < PERI_D; ++d) f[d] = sum[d];
+    return broke;
+}
+
+/* Adds the internal force density to f and breaks bonds. sums: a energy of broken bonds, n their (directed) number. */
+static void PERI_FN(force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *step = (const peri__step *)context;
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    peri_r *force = (peri_r *)b->f, *v = (peri_r *)b->v;
+    int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->centroid != NULL;
+    for (int64_t i = begin; i < end; ++i) {
+        peri_r f[PERI_D], impulse[PERI_D];
+        int32_t broke;
+        for (int d = 0; d < PERI_D; ++d) {
+            f[d] = force[d * m->stride + i];
+            impulse[d] = 0;
+        }
+        if (plain) broke = PERI_FN(bond_row_reference)(step, i, f, impulse, &sums->a);
+        else if (!b->alive)
+            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 1)
+                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 0);
+        else
+            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 1)
+                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 0);
+        for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
+        if (broke) {
+            peri_r kick = (peri_r)(step->impulse / m->rho[m->material[i]]);
+            for (int d = 0; d < PERI_D; ++d) v[d * m->stride + i] += kick * impulse[d];
+            sums->n += broke;
+        }
+    }
+}
+
+/* Elastic energy of intact bonds: sums->a, and per point to step->out where it is not NULL. */
+static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *step = (const peri__step *)context;
+    const peri_body *b = step->body;
+    const peri__model *m = b->model;
+    int linear = b->desc.geometry == PERI_LINEAR;
+    for (int64_t i = begin; i < end; ++i) {
+        double density = 0.0;
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            int64_t at = i * m->width + k, j = m->ids[at];
+            peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
+            peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
+            if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+            PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
+            (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
+            density += 0.25 * PERI_FN(pair)(b, i, j)->c * (double)weight * (double)e * (double)e / (double)bond;
+        }
+        if (step->out) step->out[i] = density;
+        sums->a += density * m->volume[i];
+    }
+}

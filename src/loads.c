@@ -1,0 +1,359 @@
+/* loads.c - supports, loads and obstacles, and their work.
+
+   All work is taken by the trapezoidal rule over a step, 1/2 (F_n + F_n+1).du, with du = dt*v at the half step: the rule under which the
+   energy of velocity-Verlet closes to O(dt^2). Loads and obstacles are evaluated after the drift, while v is that half-step velocity,
+   so the old and the new force meet the same v and nothing needs to be stored but the old value. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+static int64_t peri__dof(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
+    return d * b->model->stride + peri__set_point(b, load->set, k);
+}
+
+/* ---- loads and supports ------------------------------------------------------------------------------------------- */
+
+/* A dof belongs to the last support that prescribes it. */
+static void peri__assign_supports(peri_body *b) {
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        peri__load *load = &b->loads[s];
+        if (load->owned) memset(load->owned, load->axes, (size_t)load->count);
+        for (int64_t e = 0; load->owned && e < s; ++e) {
+            peri__load *earlier = &b->loads[e];
+            int64_t a = 0, c = 0;
+            if (!earlier->owned) continue;
+            while (a < earlier->count && c < load->count) { /* both ascending */
+                int32_t p = peri__set_point(b, earlier->set, a), q = peri__set_point(b, load->set, c);
+                if (p == q) earlier->owned[a] = (uint8_t)(earlier->owned[a] & ~load->axes);
+                if (p <= q) a++;
+                if (q <= p) c++;
+            }
+        }
+    }
+}
+
+static void peri__free_load(const peri_body *b, peri__load *load) {
+    peri__delete(&b->memory, load->value, load->count * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->force, 2 * load->count * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->owned, load->count, 1);
+    peri__delete(&b->memory, load->all, load->count, sizeof *load->all);
+    load->value = load->force = NULL;
+    load->owned = NULL;
+    load->all = NULL;
+}
+
+static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                              void *user) {
+    peri__load load;
+    int support = kind != PERI__FORCE;
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    PERI_NEED(b, value || fn || support, "value");
+    PERI_NEED(b, axes > 0 && axes < 1 << b->dim, "axes");
+    if (value && !peri__finite_vector(value, b->dim)) return peri__fail(b, PERI_ERROR_RANGE, "value", -1, 0.0);
+    memset(&load, 0, sizeof load);
+    load.kind = kind;
+    load.set = set;
+    load.axes = axes;
+    load.fn = fn;
+    load.user = user;
+    load.per_value = 1.0;
+    load.count = peri__set_count(b, set);
+    for (int32_t d = 0; value && d < b->dim; ++d) load.constant[d] = value[d];
+    if (!peri__grow(&b->memory, &b->loads, &b->load_capacity, b->load_count + 1, sizeof *b->loads))
+        return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    if (fn) load.value = (double *)peri__new(&b->memory, load.count * b->dim, sizeof(double));
+    if (fn && set == PERI_ALL) load.all = (int32_t *)peri__new(&b->memory, load.count, sizeof *load.all);
+    if (support) load.force = (double *)peri__new(&b->memory, 2 * load.count * b->dim, sizeof(double));
+    if (support) load.owned = (uint8_t *)peri__new(&b->memory, load.count, 1);
+    if ((fn && !load.value) || (fn && set == PERI_ALL && !load.all) || (support && (!load.force || !load.owned))) {
+        peri__free_load(b, &load);
+        return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    }
+    for (int64_t k = 0; load.all && k < load.count; ++k) load.all[k] = (int32_t)k;
+    b->loads[b->load_count++] = load;
+    b->force_current = 0;
+    peri__assign_supports(b);
+    return (int32_t)(b->load_count - 1);
+}
+
+PERI_API int32_t peri_prescribe_displacement(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                                             void *user) {
+    PERI_NEED_BUILT(b);
+    return peri__add_load(b, PERI__DISPLACEMENT, set, axes, value, fn, user);
+}
+
+PERI_API int32_t peri_prescribe_velocity(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                                         void *user) {
+    PERI_NEED_BUILT(b);
+    return peri__add_load(b, PERI__VELOCITY, set, axes, value, fn, user);
+}
+
+PERI_API int32_t peri_apply_body_force(peri_body *b, int32_t set, const double *value, peri_load_fn fn, void *user) {
+    PERI_NEED_BUILT(b);
+    return peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
+}
+
+PERI_API int32_t peri_apply_traction(peri_body *b, int32_t set, double area, const double *value, peri_load_fn fn,
+                                     void *user) {
+    double volume = 0.0;
+    PERI_NEED_BUILT(b);
+    PERI_NEED_NUMBER(b, area > 0.0, area);
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < peri__set_count(b, set); ++k) volume += m->volume[peri__set_point(b, set, k)];
+    status = peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
+    if (status >= 0) b->loads[status].per_value = area / (volume * pow(m->length, b->dim));
+    return status;
+}
+
+static int32_t peri__check_load(peri_body *b, int32_t load) {
+    if (load < 0 || load >= b->load_count || b->loads[load].kind == PERI__FREE)
+        return peri__fail(b, PERI_ERROR_ID, "load", load, 0.0);
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_remove_load(peri_body *b, int32_t load) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_load(b, load);
+    if (status < 0) return status;
+    peri__free_load(b, &b->loads[load]);
+    b->loads[load].kind = PERI__FREE;
+    b->force_current = 0;
+    peri__assign_supports(b);
+    return PERI_OK;
+}
+
+/* Component d of the value of point k of a load, user's units. */
+static double peri__load_value(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
+    return load->fn ? load->value[k * b->dim + d] : load->constant[d];
+}
+
+/* Asks the callback for its values at a time (inner units). */
+static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
+    if (!load->fn) return PERI_OK;
+    for (int64_t k = 0; k < load->count; ++k)
+        for (int32_t d = 0; d < b->dim; ++d) load->value[k * b->dim + d] = load->constant[d];
+    load->fn(load->user, time * b->model->time, load->count, load->all ? load->all : b->sets[load->set - 1].points,
+             load->value);
+    for (int64_t k = 0; k < load->count * b->dim; ++k)
+        if (!peri__finite(load->value[k]))
+            return peri__fail(b, PERI_ERROR_CALLBACK, "load", peri__set_point(b, load->set, k / b->dim), load->value[k]);
+    return PERI_OK;
+}
+
+/* sum over the load's points of b.v V, inner units of power */
+static double peri__load_power(const peri_body *b, const peri__load *load) {
+    const peri__model *m = b->model;
+    double power = 0.0, unit = load->per_value / peri__force_unit(m);
+    for (int64_t k = 0; k < load->count; ++k)
+        for (int32_t d = 0; d < m->dim; ++d)
+            power += peri__load_value(b, load, k, d) * unit * peri__get_real(b->v, b->f32, peri__dof(b, load, k, d))
+                   * m->volume[peri__set_point(b, load->set, k)];
+    return power;
+}
+
+/* Adds all loads at `time` to f; dt > 0: counts the work of the step that ends there. */
+static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
+    const peri__model *m = b->model;
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        peri__load *load = &b->loads[s];
+        double unit = load->per_value / peri__force_unit(m);
+        if (load->kind != PERI__FORCE) continue;
+        if (b->desc.ledger && dt > 0.0) b->ledger.external += 0.5 * dt * peri__load_power(b, load);
+        int32_t status = peri__refresh_load(b, load, time);
+        if (status < 0) return status;
+        if (b->desc.ledger && dt > 0.0) b->ledger.external += 0.5 * dt * peri__load_power(b, load);
+        for (int64_t k = 0; k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t at = peri__dof(b, load, k, d);
+                peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + peri__load_value(b, load, k, d) * unit);
+            }
+    }
+    return PERI_OK;
+}
+
+/* Before the kick of a step from `time`: sets v of the supported dofs to what carries them through the step, and f to what keeps it
+   there under damping (alpha rho v). The support's work over the step is what the dof gains in kinetic energy, plus what damping takes,
+   less the work of all other forces, 1/2 (F_n + F_n+1).du; the second half of that is added by peri__hold_supports. */
+static int32_t peri__drive_supports(peri_body *b, double time, double dt, double damping) {
+    const peri__model *m = b->model;
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        peri__load *load = &b->loads[s];
+        if (!load->owned) continue;
+        int moved = load->kind == PERI__DISPLACEMENT;
+        int32_t status = peri__refresh_load(b, load, moved ? time + dt : time + 0.5 * dt);
+        if (status < 0) return status;
+        for (int64_t k = 0; k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
+                double rho = m->rho[m->material[i]], value = peri__load_value(b, load, k, d), old, v, work;
+                if (!(load->owned[k] >> d & 1)) continue;
+                old = peri__get_real(b->v, b->f32, at);
+                if (moved) v = (value / m->length - peri__get_real(b->u, b->f32, at)) / dt;
+                else v = value / peri__velocity_unit(m);
+                peri__put_real(b->v, b->f32, at, v);
+                v = load->force[(load->count + k) * m->dim + d] = peri__get_real(b->v, b->f32, at);
+                peri__put_real(b->f, b->f32, at, damping * rho * v);
+                work = 0.5 * rho * (v * v - old * old) + damping * rho * v * v * dt - 0.5 * dt * load->force[k * m->dim + d] * v;
+                if (b->desc.ledger) b->ledger.external += work * m->volume[i];
+            }
+    }
+    return PERI_OK;
+}
+
+/* After the forces of the new time: keeps them for the reaction and the ledger, and holds the supported dofs. dt > 0 in a step. */
+static void peri__hold_supports(peri_body *b, double dt, double damping) {
+    const peri__model *m = b->model;
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        peri__load *load = &b->loads[s];
+        if (!load->owned) continue;
+        for (int64_t k = 0; k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
+                double rho = m->rho[m->material[i]], force = peri__get_real(b->f, b->f32, at), v;
+                if (!(load->owned[k] >> d & 1)) continue;
+                load->force[k * m->dim + d] = force;
+                if (!(dt > 0.0)) {
+                    peri__put_real(b->f, b->f32, at, 0.0);
+                    continue;
+                }
+                /* bonds that broke in this step have kicked v away from what the support prescribes */
+                v = load->force[(load->count + k) * m->dim + d];
+                if (b->desc.ledger) {
+                    double kicked = rho * (peri__get_real(b->v, b->f32, at) - v);
+                    b->ledger.external -= (0.5 * dt * force + kicked) * v * m->volume[i];
+                }
+                peri__put_real(b->v, b->f32, at, v);
+                peri__put_real(b->f, b->f32, at, damping * rho * v);
+            }
+    }
+}
+
+/* ---- obstacles ---------------------------------------------------------------------------------------------------- */
+
+static double peri__default_stiffness(const peri__model *m) { return 1.0 / peri__square(m->spacing); }
+
+static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const double *place, double stiffness) {
+    const peri__model *m = b->model;
+    int64_t vector = m->stride * m->dim;
+    PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
+    peri__inner(b, place, obstacle->place);
+    memcpy(obstacle->place0, obstacle->place, sizeof obstacle->place0);
+    obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
+    if (!peri__grow(&b->memory, &b->obstacles, &b->obstacle_capacity, b->obstacle_count + 1, sizeof *b->obstacles))
+        return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
+    if (!b->push) b->push = (double *)peri__new(&b->memory, vector, sizeof *b->push);
+    if (!b->push) return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
+    b->obstacles[b->obstacle_count++] = *obstacle;
+    b->force_current = 0;
+    return (int32_t)(b->obstacle_count - 1);
+}
+
+PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, const double *normal, double stiffness,
+                                         peri_motion_fn motion, void *user) {
+    peri__obstacle obstacle;
+    PERI_NEED_BUILT(b);
+    PERI_NEED_VECTOR(b, place);
+    PERI_NEED_VECTOR(b, normal);
+    double length = sqrt(peri__dot(normal, normal, b->dim));
+    if (!(length > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, length);
+    memset(&obstacle, 0, sizeof obstacle);
+    for (int32_t d = 0; d < b->dim; ++d) obstacle.normal[d] = normal[d] / length;
+    obstacle.motion = motion;
+    obstacle.user = user;
+    return peri__add_obstacle(b, &obstacle, place, stiffness);
+}
+
+PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, double radius, double stiffness,
+                                        peri_motion_fn motion, void *user) {
+    peri__obstacle obstacle;
+    PERI_NEED_BUILT(b);
+    PERI_NEED_VECTOR(b, centre);
+    PERI_NEED_NUMBER(b, radius > 0.0, radius);
+    memset(&obstacle, 0, sizeof obstacle);
+    obstacle.ball = 1;
+    obstacle.radius = radius / b->model->length;
+    obstacle.motion = motion;
+    obstacle.user = user;
+    return peri__add_obstacle(b, &obstacle, centre, stiffness);
+}
+
+/* Moves the obstacles to where they are at `time`. */
+static int32_t peri__move_obstacles(peri_body *b, double time) {
+    for (int64_t k = 0; k < b->obstacle_count; ++k) {
+        peri__obstacle *o = &b->obstacles[k];
+        double place[3] = { 0.0, 0.0, 0.0 };
+        if (!o->motion) continue;
+        for (int32_t d = 0; d < b->dim; ++d) place[d] = b->model->origin[d] + o->place0[d] * b->model->length;
+        o->motion(o->user, time * b->model->time, place);
+        if (!peri__finite_vector(place, b->dim)) return peri__fail(b, PERI_ERROR_CALLBACK, "motion", k, 0.0);
+        peri__inner(b, place, o->place);
+    }
+    return PERI_OK;
+}
+
+/* Adds the force density of one obstacle on point i to push[dim]. */
+static void peri__push(const peri_body *b, const peri__obstacle *o, int64_t i, double *push) {
+    const peri__model *m = b->model;
+    double r[3], depth, square = 0.0;
+    for (int32_t d = 0; d < m->dim; ++d) {
+        int64_t at = d * m->stride + i;
+        r[d] = peri__get_real(m->x, b->f32, at) + peri__get_real(b->u, b->f32, at) - o->place[d];
+        square += r[d] * r[d];
+    }
+    if (o->ball) {
+        double distance = sqrt(square);
+        depth = o->radius - distance;
+        for (int32_t d = 0; depth > 0.0 && d < m->dim; ++d) push[d] += o->stiffness * depth * r[d] / (distance + 1e-290);
+    } else {
+        depth = -peri__dot(o->normal, r, m->dim);
+        for (int32_t d = 0; depth > 0.0 && d < m->dim; ++d) push[d] += o->stiffness * depth * o->normal[d];
+    }
+}
+
+/* context: peri__step; kick holds dt/2. sums->a: work of old and new push. */
+static void peri__push_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *step = (const peri__step *)context;
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    for (int64_t i = begin; i < end; ++i) {
+        double push[3] = { 0.0, 0.0, 0.0 }, work = 0.0;
+        for (int64_t k = 0; k < b->obstacle_count; ++k) peri__push(b, &b->obstacles[k], i, push);
+        for (int32_t d = 0; d < m->dim; ++d) {
+            int64_t at = d * m->stride + i;
+            work += (b->push[at] + push[d]) * peri__get_real(b->v, b->f32, at);
+            b->push[at] = push[d];
+            if (push[d] != 0.0) peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + push[d]);
+        }
+        sums->a += step->kick * work * m->volume[i];
+    }
+}
+
+/* Adds all obstacles at `time` to f; dt > 0: counts the work of the step that ends there. */
+static int32_t peri__apply_obstacles(peri_body *b, double time, double dt) {
+    peri__step step = peri__no_step(b);
+    if (b->obstacle_count == 0) return PERI_OK;
+    int32_t status = peri__move_obstacles(b, time);
+    if (status < 0) return status;
+    step.kick = 0.5 * dt;
+    peri__for_points(b, b->model->points, peri__push_block, &step, b->sums);
+    if (b->desc.ledger && dt > 0.0) b->ledger.obstacle += peri__total(b->sums, b->model->points).a;
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_read_obstacle_force(peri_body *b, int32_t obstacle, double *force) {
+    PERI_NEED_BUILT(b);
+    if (obstacle < 0 || obstacle >= b->obstacle_count) return peri__fail(b, PERI_ERROR_ID, "obstacle", obstacle, 0.0);
+    PERI_NEED(b, force, "force");
+    const peri__model *m = b->model;
+    double total[3] = { 0.0, 0.0, 0.0 };
+    for (int64_t i = 0; i < m->points; ++i) {
+        double push[3] = { 0.0, 0.0, 0.0 };
+        peri__push(b, &b->obstacles[obstacle], i, push);
+        for (int32_t d = 0; d < m->dim; ++d) total[d] += push[d] * m->volume[i];
+    }
+    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+    return PERI_OK;
+}

@@ -1,0 +1,141 @@
+/* material.c - engineering constants to micromodulus c and critical stretch s0. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_COOKIE_MATERIAL (UINT64_C(0x7065726900010000) + sizeof(peri_material))
+
+PERI_API void peri_material_init(peri_material *m, int32_t model) {
+    if (!m) return;
+    memset(m, 0, sizeof *m);
+    m->cookie = PERI_COOKIE_MATERIAL;
+    m->model = model;
+    m->poisson = (double)NAN;
+}
+
+static double peri__bond_poisson(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
+
+static double peri__young(const peri_material *m, int32_t space) {
+    return m->young > 0.0 ? m->young : 3.0 * (1.0 - 2.0 * peri__bond_poisson(space)) * m->bulk;
+}
+
+static int32_t peri__check_material(peri_body *b, const peri_material *m, int need_density) {
+    PERI_NEED(b, m, "material");
+    if (m->cookie != PERI_COOKIE_MATERIAL) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
+    if (m->model != PERI_BOND_BASED) return peri__fail(b, PERI_ERROR_ARGUMENT, "model", -1, m->model);
+    PERI_NEED_NUMBER(b, m->young >= 0.0, m->young);
+    PERI_NEED_NUMBER(b, m->bulk >= 0.0, m->bulk);
+    PERI_NEED_NUMBER(b, m->fracture_energy >= 0.0, m->fracture_energy);
+    PERI_NEED_NUMBER(b, m->critical_stretch >= 0.0, m->critical_stretch);
+    if (need_density) PERI_NEED_NUMBER(b, m->density > 0.0, m->density);
+    if ((m->young > 0.0) == (m->bulk > 0.0)) return peri__fail(b, PERI_ERROR_MATERIAL, "young, bulk", -1, m->bulk);
+    if (m->fracture_energy > 0.0 && m->critical_stretch > 0.0)
+        return peri__fail(b, PERI_ERROR_MATERIAL, "fracture_energy, critical_stretch", -1, m->critical_stretch);
+    if (m->poisson == m->poisson && fabs(m->poisson - peri__bond_poisson(b->desc.space)) > 1e-9)
+        return peri__fail(b, PERI_ERROR_POISSON, "poisson", -1, peri__bond_poisson(b->desc.space));
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_add_material(peri_body *b, const peri_material *m) {
+    PERI_NEED_UNBUILT(b);
+    int32_t status = peri__check_material(b, m, 1);
+    if (status < 0) return status;
+    if (b->material_count == PERI_MATERIAL_LIMIT)
+        return peri__fail(b, PERI_ERROR_MATERIAL, "material", PERI_MATERIAL_LIMIT, 0.0);
+    b->materials[b->material_count] = *m;
+    return b->material_count++;
+}
+
+static int32_t peri__check_material_id(peri_body *b, int32_t material) {
+    if (material < 0 || material >= b->material_count)
+        return peri__fail(b, PERI_ERROR_MATERIAL, "material", material, 0.0);
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_set_interface(peri_body *b, int32_t i, int32_t j, const peri_material *material) {
+    PERI_NEED_UNBUILT(b);
+    int32_t status = peri__check_material_id(b, i);
+    if (status == PERI_OK) status = peri__check_material_id(b, j);
+    if (status == PERI_OK && i == j) status = peri__fail(b, PERI_ERROR_MATERIAL, "i, j", i, 0.0);
+    if (status == PERI_OK) status = peri__check_material(b, material, 0);
+    if (status < 0) return status;
+    for (int64_t k = 0; k < b->interface_count; ++k) {
+        peri__interface *face = &b->interfaces[k];
+        if ((face->i == i && face->j == j) || (face->i == j && face->j == i)) {
+            face->material = *material;
+            return PERI_OK;
+        }
+    }
+    if (!peri__grow(&b->memory, &b->interfaces, &b->interface_capacity, b->interface_count + 1, sizeof *b->interfaces))
+        return peri__fail(b, PERI_ERROR_MEMORY, "interface", -1, 0.0);
+    peri__interface *face = &b->interfaces[b->interface_count++];
+    face->i = i;
+    face->j = j;
+    face->material = *material;
+    return PERI_OK;
+}
+
+/* c and s0 of one material in units of stress and length; c per unit thickness in 2D.
+     3D            c = 9K/(2 pi I3 h^4)   s0^2 = 2 G0/(pi c I4 h^5)      [T] 1.24, 1.39: 18K/(pi h^4), 5G0/(9Kh) for w = 1
+     plane strain  c = 16E/(5 pi I2 h^3)  s0^2 = G0/(c I3 h^4)           [P] C.15, C.20
+     plane stress  c = 3E/(pi I2 h^3)     s0^2 = G0/(c I3 h^4)           [P] C.18, C.20                                       */
+static int32_t peri__constants(peri_body *b, const peri_material *m, double stress, double length, double edge,
+                               peri__pair *pair) {
+    int32_t space = b->desc.space;
+    int solid = space == PERI_SOLID;
+    double h = b->desc.horizon / length, modulus = peri__young(m, space) / stress, ic, is;
+    if (!peri__moment(&b->desc, solid ? 3 : 2, edge, &ic) || !peri__moment(&b->desc, solid ? 4 : 3, edge, &is))
+        return peri__fail(b, PERI_ERROR_INFLUENCE, "influence", b->desc.influence, 0.0);
+    if (solid) {
+        double bulk = modulus / 1.5; /* K = E/(3(1-2 nu)), nu = 1/4 */
+        pair->c = 9.0 * bulk / (2.0 * PERI_PI * ic * h * h * h * h);
+    } else {
+        pair->c = (space == PERI_PLANE_STRAIN ? 3.2 : 3.0) * modulus / (PERI_PI * ic * h * h * h);
+    }
+    pair->s0 = PERI_NEVER;
+    if (m->critical_stretch > 0.0) pair->s0 = m->critical_stretch;
+    if (m->fracture_energy > 0.0) {
+        double g0 = m->fracture_energy / (stress * length);
+        pair->s0 = sqrt(solid ? 2.0 * g0 / (PERI_PI * pair->c * is * h * h * h * h * h) : g0 / (pair->c * is * h * h * h * h));
+    }
+    return PERI_OK;
+}
+
+/* The same for the bonds between materials i and j. */
+static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double stress, double length, double edge,
+                                    peri__pair *pair) {
+    peri__pair p, q;
+    for (int64_t k = 0; k < b->interface_count; ++k) {
+        const peri__interface *face = &b->interfaces[k];
+        if ((face->i == i && face->j == j) || (face->i == j && face->j == i))
+            return peri__constants(b, &face->material, stress, length, edge, pair);
+    }
+    int32_t status = peri__constants(b, &b->materials[i], stress, length, edge, &p);
+    if (status == PERI_OK) status = peri__constants(b, &b->materials[j], stress, length, edge, &q);
+    if (status < 0) return status;
+    *pair = p;
+    if (i != j) {
+        pair->c = 2.0 * p.c * q.c / (p.c + q.c);
+        pair->s0 = p.s0 < q.s0 ? p.s0 : q.s0;
+    }
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, double *c, double *s0) {
+    PERI_NEED_BODY(b);
+    int32_t status = peri__check_material_id(b, i);
+    if (status == PERI_OK) status = peri__check_material_id(b, j);
+    if (status < 0) return status;
+    int solid = b->desc.space == PERI_SOLID;
+    double edge = 0.0, length = b->desc.horizon, stress = peri__young(&b->materials[i], b->desc.space);
+    peri__pair pair;
+    if (b->desc.influence == PERI_INFLUENCE_POLE_EDGE) {
+        PERI_NEED_BUILT(b);
+        edge = 0.5 * b->model->spacing / b->model->horizon;
+    }
+    status = peri__pair_constants(b, i, j, stress, length, edge, &pair);
+    if (status < 0) return status;
+    if (c) *c = pair.c * stress / (length * length * length * (solid ? length : b->desc.thickness));
+    if (s0) *s0 = pair.s0 < PERI_NEVER ? pair.s0 : HUGE_VAL;
+    return PERI_OK;
+}

@@ -1,0 +1,74 @@
+/* memory.c - the allocator hook. Every allocation of the library goes through peri__new and can fail.
+   Blocks are aligned to 64 bytes on top of whatever the hook returns; the hook's own pointer is kept just before them. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_ALIGN 64
+
+static void *peri__malloc(void *user, uint64_t bytes) {
+    (void)user;
+    return bytes > SIZE_MAX ? NULL : malloc((size_t)bytes);
+}
+
+static void peri__free(void *user, void *pointer, uint64_t bytes) {
+    (void)user;
+    (void)bytes;
+    free(pointer);
+}
+
+/* Zeroed memory for count items of size bytes; NULL where the hook fails or the size does not fit. count 0 gives a block. */
+static void *peri__new(const peri__memory *memory, int64_t count, size_t size) {
+    if (count < 0 || (uint64_t)count > ((uint64_t)SIZE_MAX / 2 - PERI_ALIGN * 2) / size) return NULL;
+    uint64_t bytes = (uint64_t)count * size + PERI_ALIGN + sizeof(void *);
+    void *raw = memory->allocate(memory->user, bytes);
+    if (!raw) return NULL;
+    uintptr_t place = ((uintptr_t)raw + sizeof(void *) + PERI_ALIGN - 1) & ~(uintptr_t)(PERI_ALIGN - 1);
+    memcpy((void *)(place - sizeof(void *)), &raw, sizeof raw);
+    memset((void *)place, 0, (size_t)count * size);
+    return (void *)place;
+}
+
+/* count and size as at peri__new. */
+static void peri__delete(const peri__memory *memory, void *pointer, int64_t count, size_t size) {
+    void *raw;
+    if (!pointer) return;
+    memcpy(&raw, (void *)((uintptr_t)pointer - sizeof(void *)), sizeof raw);
+    memory->release(memory->user, raw, (uint64_t)count * size + PERI_ALIGN + sizeof(void *));
+}
+
+static void *peri__copy(const peri__memory *memory, const void *from, int64_t count, size_t size) {
+    void *to = peri__new(memory, count, size);
+    if (to && count > 0) memcpy(to, from, (size_t)count * size);
+    return to;
+}
+
+/* Makes room for `need` items in a growing array; 0 where memory is short, the array then being as it was. */
+static int peri__grow(const peri__memory *memory, void *array_pointer, int64_t *capacity, int64_t need, size_t size) {
+    void *old, *grown;
+    if (need <= *capacity) return 1;
+    int64_t room = *capacity < 8 ? 8 : *capacity;
+    while (room < need) room = room > INT64_MAX / 2 ? need : room * 2;
+    grown = peri__new(memory, room, size);
+    if (!grown) return 0;
+    memcpy(&old, array_pointer, sizeof old);
+    if (old) memcpy(grown, old, (size_t)*capacity * size);
+    peri__delete(memory, old, *capacity, size);
+    memcpy(array_pointer, &grown, sizeof grown);
+    *capacity = room;
+    return 1;
+}
+
+/* Users of a shared model. Clones may be destroyed on different threads, so the count is atomic where the compiler offers it. */
+#if defined(__GNUC__) || defined(__clang__)
+static int32_t peri__count_users(volatile int32_t *users, int32_t change) {
+    return __atomic_add_fetch(users, change, __ATOMIC_ACQ_REL);
+}
+#elif defined(_MSC_VER)
+#include <intrin.h>
+static int32_t peri__count_users(volatile int32_t *users, int32_t change) {
+    return (int32_t)_InterlockedExchangeAdd((volatile long *)users, change) + change;
+}
+#else
+static int32_t peri__count_users(volatile int32_t *users, int32_t change) { return *users += change; }
+#endif

@@ -1,0 +1,211 @@
+/* neighbors.c - points to families: the N x M array Ibond of [T] 3.11. Row i holds the ids of the family of i, ascending, and is padded
+   with i. Found by a grid of cells no smaller than the reach, so in O(N) for any cloud; or checked where the caller gave them. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+static int64_t peri__cell_of(const peri__cloud *c, const double *x, int64_t *at) {
+    int64_t cell = 0;
+    for (int32_t d = c->model->dim - 1; d >= 0; --d) {
+        double place = (x[d] - c->lo[d]) * c->scale[d];
+        at[d] = place > 0.0 ? (int64_t)place : 0;
+        if (at[d] >= c->cells[d]) at[d] = c->cells[d] - 1;
+        cell = cell * c->cells[d] + at[d];
+    }
+    return cell;
+}
+
+/* Chooses the grid and sorts the points into it. */
+static int32_t peri__sort_cells(peri__cloud *c, const peri__memory *memory) {
+    peri__model *m = c->model;
+    int32_t dim = m->dim;
+    double hi[3], reach = sqrt(c->reach2), cells, edge = reach * 1.000001; /* a bond spans two cells at most */
+    int64_t at[3];
+    for (int32_t d = 0; d < dim; ++d) {
+        c->lo[d] = hi[d] = c->x[d];
+        for (int64_t i = 1; i < m->points; ++i) {
+            double x = c->x[i * dim + d];
+            if (x < c->lo[d]) c->lo[d] = x;
+            if (x > hi[d]) hi[d] = x;
+        }
+    }
+    do { /* not many more cells than points, however thin the cloud */
+        cells = 1.0;
+        for (int32_t d = 0; d < dim; ++d) {
+            double count = floor((hi[d] - c->lo[d]) / edge);
+            if (count < 1.0) count = 1.0;
+            cells *= count;
+        }
+        edge *= 1.25;
+    } while (cells > 2.0 * (double)m->points + 64.0);
+    edge /= 1.25;
+    c->cell_count = 1;
+    for (int32_t d = 0; d < dim; ++d) {
+        double count = floor((hi[d] - c->lo[d]) / edge);
+        c->cells[d] = count < 1.0 ? 1 : (int64_t)count;
+        c->scale[d] = hi[d] > c->lo[d] ? (double)c->cells[d] / (hi[d] - c->lo[d]) : 0.0;
+        c->cell_count *= c->cells[d];
+    }
+    c->start = (int32_t *)peri__new(memory, c->cell_count + 1, sizeof(int32_t));
+    c->order = (int32_t *)peri__new(memory, m->points, sizeof(int32_t));
+    if (!c->start || !c->order) return PERI_ERROR_MEMORY;
+    for (int64_t i = 0; i < m->points; ++i) c->start[peri__cell_of(c, &c->x[i * dim], at) + 1]++;
+    for (int64_t k = 0; k < c->cell_count; ++k) c->start[k + 1] += c->start[k];
+    for (int64_t i = 0; i < m->points; ++i) c->order[c->start[peri__cell_of(c, &c->x[i * dim], at)]++] = (int32_t)i;
+    for (int64_t k = c->cell_count; k > 0; --k) c->start[k] = c->start[k - 1];
+    c->start[0] = 0;
+    return PERI_OK;
+}
+
+/* Visits the family of i: writes ids (unless row is NULL) and returns their number, or -1 - j where point j is at the same place. */
+static int64_t peri__visit_family(const peri__cloud *c, peri__parts *cache, int64_t i, int32_t *row) {
+    const peri__model *m = c->model;
+    int32_t dim = m->dim, quadrature = c->body->desc.quadrature;
+    int64_t at[3] = { 0, 0, 0 }, count = 0, lo[3] = { 0, 0, 0 }, hi[3] = { 0, 0, 0 };
+    const double *xi = &c->x[i * dim];
+    (void)peri__cell_of(c, xi, at);
+    for (int32_t d = 0; d < dim; ++d) {
+        lo[d] = at[d] > 0 ? at[d] - 1 : 0;
+        hi[d] = at[d] + 1 < c->cells[d] ? at[d] + 1 : at[d];
+    }
+    for (int64_t z = lo[2]; z <= hi[2]; ++z)
+        for (int64_t y = lo[1]; y <= hi[1]; ++y) {
+            int64_t line = ((dim == 3 ? z * c->cells[1] : 0) + y) * c->cells[0];
+            for (int32_t k = c->start[line + lo[0]]; k < c->start[line + hi[0] + 1]; ++k) {
+                int64_t j = c->order[k];
+                double square = 0.0;
+                if (j == i) continue;
+                for (int32_t d = 0; d < dim; ++d) square += peri__square(c->x[j * dim + d] - xi[d]);
+                if (!(square <= c->reach2)) continue;
+                if (square < 1e-24) return -1 - j;
+                if (quadrature != PERI_FULL_VOLUME && !(peri__beta(c, cache, i, j) > 0.0)) continue;
+                if (row) row[count] = (int32_t)j;
+                count++;
+            }
+        }
+    return count;
+}
+
+static void peri__sort_row(int32_t *row, int64_t count) {
+    /* shell sort: rows are short, and runs of neighbouring cells are ascending already */
+    static const int64_t gaps[] = { 132, 57, 23, 10, 4, 1 };
+    for (int g = 0; g < 6; ++g)
+        for (int64_t a = gaps[g]; a < count; ++a) {
+            int32_t id = row[a];
+            int64_t at = a;
+            for (; at >= gaps[g] && row[at - gaps[g]] > id; at -= gaps[g]) row[at] = row[at - gaps[g]];
+            row[at] = id;
+        }
+}
+
+static void peri__count_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    peri__cloud *c = (peri__cloud *)context;
+    peri__parts cache;
+    peri__clear_parts(&cache);
+    for (int64_t i = begin; i < end; ++i) {
+        int64_t count = peri__visit_family(c, &cache, i, NULL);
+        if (count < 0) {
+            if (sums->bad < 0) {
+                sums->bad = i > -1 - count ? i : -1 - count;
+                sums->a = (double)(i > -1 - count ? -1 - count : i);
+            }
+            count = 0;
+        }
+        c->model->count[i] = (int32_t)count;
+        sums->n += count;
+    }
+}
+
+static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    peri__cloud *c = (peri__cloud *)context;
+    peri__model *m = c->model;
+    peri__parts cache;
+    peri__clear_parts(&cache);
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        int32_t *row = &m->ids[i * m->width];
+        int64_t count = peri__visit_family(c, &cache, i, row);
+        peri__sort_row(row, count);
+        for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
+    }
+}
+
+/* Place of j in row i, or -1. */
+static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
+    const int32_t *row = &m->ids[i * m->width];
+    int64_t lo = 0, hi = m->count[i];
+    while (lo < hi) {
+        int64_t mid = (lo + hi) / 2;
+        if (row[mid] < j) lo = mid + 1;
+        else hi = mid;
+    }
+    return lo < m->count[i] && row[lo] == j ? lo : -1;
+}
+
+/* The caller's rows: padding out, ids checked, ascending. */
+static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
+    const peri__setup *s = &b->setup;
+    peri__model *m = c->model;
+    if (s->ibond_entries != s->point_count * s->ibond_width)
+        return peri__fail(b, PERI_ERROR_IBOND, "ibond", -1, (double)s->ibond_entries);
+    m->width = s->ibond_width;
+    m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
+    if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    for (int64_t i = 0; i < m->points; ++i) {
+        int32_t *row = &m->ids[i * m->width];
+        int64_t count = 0;
+        for (int64_t k = 0; k < m->width; ++k) {
+            int32_t j = s->ibond[i * m->width + k];
+            if (j == i) continue;
+            if (j < 0 || j >= m->points) return peri__fail(b, PERI_ERROR_IBOND, "ibond", i * m->width + k, j);
+            row[count++] = j;
+        }
+        peri__sort_row(row, count);
+        m->count[i] = (int32_t)count;
+        m->bonds += count;
+        for (int64_t k = 1; k < count; ++k)
+            if (row[k] == row[k - 1]) return peri__fail(b, PERI_ERROR_IBOND, "ibond", i * m->width, row[k]);
+        for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
+    }
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            int64_t j = m->ids[i * m->width + k];
+            double square = 0.0;
+            if (peri__find_bond(m, j, i) < 0) return peri__fail(b, PERI_ERROR_IBOND, "ibond", i * m->width + k, (double)j);
+            for (int32_t d = 0; d < m->dim; ++d) square += peri__square(c->x[j * m->dim + d] - c->x[i * m->dim + d]);
+            if (square < 1e-24) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", i > j ? i : j, (double)(i > j ? j : i));
+        }
+    return PERI_OK;
+}
+
+static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sums) {
+    peri__model *m = c->model;
+    double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
+    if (b->desc.quadrature == PERI_VOLUME_RAMP) reach += 0.5 * c->largest;
+    if (b->desc.quadrature >= PERI_PARTIAL_VOLUME) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
+    c->reach2 = reach * reach;
+    if (peri__sort_cells(c, &m->memory) < 0) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    peri__for_points(b, m->points, peri__count_block, c, sums);
+    peri__sums total = peri__total(sums, m->points);
+    m->bonds = total.n;
+    for (int64_t k = 0; k < m->blocks; ++k)
+        if (sums[k].bad >= 0) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", sums[k].bad, sums[k].a);
+    for (int64_t i = 0; i < m->points; ++i)
+        if (m->count[i] > m->width) m->width = m->count[i];
+    if (m->width == 0) m->width = 1;
+    m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
+    if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    peri__for_points(b, m->points, peri__fill_block, c, NULL);
+    return PERI_OK;
+}
+
+static int32_t peri__check_families(peri_body *b, const peri__model *m) {
+    for (int64_t i = 0; i < m->points; ++i) {
+        double spacing = pow(m->volume[i], 1.0 / m->dim);
+        if (m->count[i] > 0) continue;
+        if (m->horizon * (1.0 + PERI_HORIZON_TOLERANCE) < spacing)
+            return peri__fail(b, PERI_ERROR_HORIZON, "horizon", i, spacing * m->length);
+        return peri__fail(b, PERI_ERROR_FAMILY, "horizon", i, b->desc.horizon);
+    }
+    return PERI_OK;
+}

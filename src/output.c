@@ -1,0 +1,192 @@
+/* output.c - VTU for ParaView and CSV histories, through a write callback. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+typedef struct peri__writer {
+    peri_write_fn write;
+    void         *user;
+    int32_t       failed;
+    int64_t       used;
+    char          buffer[4096];
+} peri__writer;
+
+static void peri__flush(peri__writer *w) {
+    if (w->used > 0 && !w->failed && w->write(w->user, w->buffer, w->used) != 0) w->failed = 1;
+    w->used = 0;
+}
+
+static void peri__emit(peri__writer *w, const void *bytes, size_t count) {
+    const char *from = (const char *)bytes;
+    while (count > 0) {
+        size_t room = sizeof w->buffer - (size_t)w->used, part = count < room ? count : room;
+        memcpy(w->buffer + w->used, from, part);
+        w->used += (int64_t)part;
+        from += part;
+        count -= part;
+        if (w->used == (int64_t)sizeof w->buffer) peri__flush(w);
+    }
+}
+
+static void peri__emit_text(peri__writer *w, const char *text) { peri__emit(w, text, strlen(text)); }
+
+static void peri__emit_integer(peri__writer *w, int64_t value) {
+    char text[32] = "";
+    peri__emit(w, text, (size_t)(peri__put_integer(text, value) - text));
+}
+
+static int32_t peri__finish(peri_body *b, peri__writer *w) {
+    peri__flush(w);
+    return w->failed ? peri__fail(b, PERI_ERROR_WRITE, "write", -1, 0.0) : PERI_OK;
+}
+
+/* ---- VTU ---------------------------------------------------------------------------------------------------------- */
+
+typedef struct peri__vtu_array {
+    const char *name;
+    int32_t     field, components; /* 3: a vector, with z = 0 in 2D                                                      */
+} peri__vtu_array;
+
+static const peri__vtu_array peri__vtu_arrays[] = {
+    { "displacement", PERI_DISPLACEMENT, 3 },     { "velocity", PERI_VELOCITY, 3 },
+    { "damage", PERI_DAMAGE, 1 },                 { "energy_density", PERI_ENERGY_DENSITY, 1 },
+    { "material", PERI_MATERIAL, 1 },             { "volume", PERI_VOLUME, 1 },
+};
+#define PERI_VTU_ARRAYS (sizeof peri__vtu_arrays / sizeof peri__vtu_arrays[0])
+
+/* The opening tag of an appended array, and the offset of the one after it (8 bytes of length, then the data). */
+static int64_t peri__emit_array(peri__writer *w, const char *type, const char *name, int32_t components, int64_t offset,
+                                int64_t bytes) {
+    peri__emit_text(w, "<DataArray type=\"");
+    peri__emit_text(w, type);
+    peri__emit_text(w, "\" Name=\"");
+    peri__emit_text(w, name);
+    peri__emit_text(w, "\" NumberOfComponents=\"");
+    peri__emit_integer(w, components);
+    peri__emit_text(w, "\" format=\"appended\" offset=\"");
+    peri__emit_integer(w, offset);
+    peri__emit_text(w, "\"/>\n");
+    return offset + 8 + bytes;
+}
+
+static void peri__emit_length(peri__writer *w, int64_t bytes) {
+    uint64_t length = (uint64_t)bytes;
+    peri__emit(w, &length, sizeof length);
+}
+
+/* `values` is scratch for one field. */
+static void peri__emit_field(peri_body *b, peri__writer *w, int32_t field, int32_t components, double *values) {
+    int32_t have = peri__field_of(field)->vector ? b->dim : 1;
+    const double zero = 0.0;
+    peri__compute(b, field, values);
+    peri__emit_length(w, b->model->points * components * 8);
+    for (int64_t i = 0; i < b->model->points; ++i)
+        for (int32_t d = 0; d < components; ++d) peri__emit(w, d < have ? &values[i * have + d] : &zero, sizeof zero);
+}
+
+PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
+    peri__writer w;
+    const uint16_t endian = 1;
+    int64_t n, offset = 0;
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, write, "write");
+    n = b->model->points;
+    double *values = (double *)peri__new(&b->memory, n * b->dim, sizeof(double));
+    if (!values) return peri__fail(b, PERI_ERROR_MEMORY, "vtu", -1, 0.0);
+    w.write = write;
+    w.user = user;
+    w.failed = 0;
+    w.used = 0;
+
+    peri__emit_text(&w, "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
+    peri__emit_text(&w, *(const uint8_t *)&endian ? "LittleEndian" : "BigEndian");
+    peri__emit_text(&w, "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
+    peri__emit_integer(&w, n);
+    peri__emit_text(&w, "\" NumberOfCells=\"");
+    peri__emit_integer(&w, n);
+    peri__emit_text(&w, "\">\n<Points>\n");
+    offset = peri__emit_array(&w, "Float64", "position", 3, offset, n * 24);
+    peri__emit_text(&w, "</Points>\n<PointData Scalars=\"damage\" Vectors=\"displacement\">\n");
+    for (size_t k = 0; k < PERI_VTU_ARRAYS; ++k)
+        offset = peri__emit_array(&w, "Float64", peri__vtu_arrays[k].name, peri__vtu_arrays[k].components, offset,
+                                  n * 8 * peri__vtu_arrays[k].components);
+    peri__emit_text(&w, "</PointData>\n<Cells>\n");
+    offset = peri__emit_array(&w, "Int32", "connectivity", 1, offset, n * 4);
+    offset = peri__emit_array(&w, "Int32", "offsets", 1, offset, n * 4);
+    (void)peri__emit_array(&w, "UInt8", "types", 1, offset, n);
+    peri__emit_text(&w, "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+
+    peri__emit_field(b, &w, PERI_POSITION, 3, values);
+    for (size_t k = 0; k < PERI_VTU_ARRAYS; ++k)
+        peri__emit_field(b, &w, peri__vtu_arrays[k].field, peri__vtu_arrays[k].components, values);
+    for (int32_t ends = 0; ends < 2; ++ends) { /* each point is a cell of its own: VTK_VERTEX */
+        peri__emit_length(&w, n * 4);
+        for (int32_t i = 0; i < (int32_t)n; ++i) {
+            int32_t id = i + ends;
+            peri__emit(&w, &id, sizeof id);
+        }
+    }
+    peri__emit_length(&w, n);
+    for (int64_t i = 0; i < n; ++i) {
+        const uint8_t vertex = 1;
+        peri__emit(&w, &vertex, 1);
+    }
+    peri__emit_text(&w, "\n</AppendedData>\n</VTKFile>\n");
+    peri__delete(&b->memory, values, n * b->dim, sizeof(double));
+    return peri__finish(b, &w);
+}
+
+/* ---- CSV ---------------------------------------------------------------------------------------------------------- */
+
+PERI_API int32_t peri_write_history(peri_body *b, int32_t header, peri_write_fn write, void *user) {
+    peri__writer w;
+    peri_energy e;
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, write, "write");
+    int32_t status = peri_read_energy(b, &e);
+    if (status < 0) return status;
+    w.write = write;
+    w.user = user;
+    w.failed = 0;
+    w.used = 0;
+    if (header)
+        peri__emit_text(&w, "step,time,kinetic,elastic,external,obstacle,damping,fracture,initial,error,broken,cut\n");
+    const double numbers[9] = { peri_time(b), e.kinetic,  e.elastic, e.external, e.obstacle,
+                                e.damping,    e.fracture, e.initial, e.error };
+    peri__emit_integer(&w, b->steps);
+    for (int k = 0; k < 9; ++k) {
+        char text[40] = "";
+        peri__emit_text(&w, ",");
+        peri__emit(&w, text, (size_t)(peri__put_double(text, numbers[k]) - text));
+    }
+    peri__emit_text(&w, ",");
+    peri__emit_integer(&w, b->broken / 2);
+    peri__emit_text(&w, ",");
+    peri__emit_integer(&w, b->cut / 2);
+    peri__emit_text(&w, "\n");
+    return peri__finish(b, &w);
+}
+
+#ifndef PERI_NO_STDIO
+static int32_t peri__to_file(void *user, const void *bytes, int64_t count) {
+    return fwrite(bytes, 1, (size_t)count, (FILE *)user) != (size_t)count;
+}
+
+/* Opens path, writes a VTU (history = 0) or a line of history, closes. */
+static int32_t peri__save(peri_body *b, const char *path, const char *mode, int history) {
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, path, "path");
+    FILE *file = fopen(path, mode);
+    if (!file) return peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
+    int32_t status = history ? peri_write_history(b, mode[0] == 'w', peri__to_file, file)
+                             : peri_write_vtu(b, peri__to_file, file);
+    if (fclose(file) != 0 && status == PERI_OK) status = peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
+    return status;
+}
+
+PERI_API int32_t peri_save_vtu(peri_body *b, const char *path) { return peri__save(b, path, "wb", 0); }
+
+PERI_API int32_t peri_save_history(peri_body *b, const char *path, int32_t append) {
+    return peri__save(b, path, append ? "ab" : "wb", 1);
+}
+#endif

@@ -1,0 +1,59 @@
+/* parallel.c - the one door to threads: a loop over blocks of PERI_BLOCK points.
+   A task writes only what belongs to its own points and its own peri__sums; totals are then summed over blocks in order.
+   So the bits do not depend on the number of threads, nor on who schedules them. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+typedef void (*peri__block_fn)(void *context, int64_t begin, int64_t end, peri__sums *sums);
+
+typedef struct peri__loop {
+    peri__block_fn fn;
+    void          *context;
+    int64_t        points;
+    peri__sums    *sums;
+} peri__loop;
+
+static void peri__block_task(void *context, int64_t k) {
+    const peri__loop *loop = (const peri__loop *)context;
+    peri__sums sums = { 0.0, 0.0, 0, -1 };
+    loop->fn(loop->context, k * PERI_BLOCK, peri__min((k + 1) * PERI_BLOCK, loop->points), &sums);
+    if (loop->sums) loop->sums[k] = sums;
+}
+
+/* Runs fn over all blocks of [0, points). sums is [blocks], or NULL where the totals are not needed. */
+static void peri__for_points(const peri_body *b, int64_t points, peri__block_fn fn, void *context, peri__sums *sums) {
+    peri__loop loop;
+    int64_t blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
+    loop.fn = fn;
+    loop.context = context;
+    loop.points = points;
+    loop.sums = sums;
+    if (b->desc.parallel_for) {
+        b->desc.parallel_for(b->desc.parallel_user, blocks, peri__block_task, &loop);
+        return;
+    }
+#if defined(_OPENMP) && !defined(PERI_NO_OPENMP)
+    if (b->desc.threads != 1 && blocks > 1) {
+        int threads = b->desc.threads > 0 ? (int)b->desc.threads : omp_get_max_threads();
+#pragma omp parallel for schedule(static) num_threads(threads)
+        for (int64_t k = 0; k < blocks; ++k) peri__block_task(&loop, k);
+        return;
+    }
+#endif
+    for (int64_t k = 0; k < blocks; ++k) peri__block_task(&loop, k);
+}
+
+static peri__sums peri__total(const peri__sums *sums, int64_t points) {
+    peri__sums total;
+    int64_t blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
+    memset(&total, 0, sizeof total);
+    total.bad = -1;
+    for (int64_t k = 0; k < blocks; ++k) {
+        total.a += sums[k].a;
+        total.b += sums[k].b;
+        total.n += sums[k].n;
+        if (total.bad < 0) total.bad = sums[k].bad;
+    }
+    return total;
+}

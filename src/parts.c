@@ -1,0 +1,134 @@
+/* parts.c - quadrature: which part beta of a neighbour's cell lies within the horizon. The rules of peri_quadrature. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* Everything that building families and weights needs to know about the points; inner units. */
+typedef struct peri__cloud {
+    const peri_body *body;
+    peri__model     *model;
+    double          *x;        /* [points*dim]                                                                           */
+    double           reach2;   /* square of the largest distance of a bond                                               */
+    double           largest;  /* edge of the largest cell                                                               */
+    int64_t          cells[3]; /* the search grid                                                                        */
+    double           lo[3], scale[3];
+    int32_t         *start;    /* [cells+1] first entry of a cell in `order`                                             */
+    int64_t          cell_count;
+    int32_t         *order;    /* [points] ids by cell, ascending within                                                 */
+    double           gauss_x[PERI_GAUSS], gauss_w[PERI_GAUSS];
+} peri__cloud;
+
+/* Parts by bond vector, for one block of points: a lattice has few different ones. Direct-mapped. */
+#define PERI_PART_SLOTS 256
+typedef struct peri__parts {
+    double  key[PERI_PART_SLOTS][3], part[PERI_PART_SLOTS];
+    uint8_t used[PERI_PART_SLOTS];
+} peri__parts;
+
+static void peri__clear_parts(peri__parts *parts) { memset(parts->used, 0, sizeof parts->used); }
+
+static const peri__piece *peri__piece_of(const peri__cloud *c, int64_t i) {
+    const peri__setup *s = &c->body->setup;
+    int64_t lo = 0, hi = s->piece_count - 1;
+    while (lo < hi) {
+        int64_t mid = (lo + hi + 1) / 2;
+        if (s->pieces[mid].first <= i) lo = mid;
+        else hi = mid - 1;
+    }
+    return &s->pieces[lo];
+}
+
+/* Half the edges of cell i, taken as a box about the point. */
+static void peri__half_cell(const peri__cloud *c, const peri__piece *piece, int64_t i, double *half) {
+    const peri__model *m = c->model;
+    for (int32_t d = 0; d < m->dim; ++d)
+        half[d] = piece->lattice && !piece->vertices ? 0.5 * piece->cell[d] / m->length
+                                                     : 0.5 * pow(m->volume[i], 1.0 / m->dim);
+}
+
+/* Part of the moved quadrilateral j, 2D. */
+static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, const double *xi, int64_t j, double *centroid) {
+    static const int ring[4] = { 0, 1, 3, 2 };
+    const peri__model *m = c->model;
+    double corner[8][3], polygon[4][2];
+    peri__cell_vertices(piece, 2, j - piece->first, corner);
+    for (int k = 0; k < 4; ++k)
+        for (int d = 0; d < 2; ++d)
+            polygon[k][d] = (piece->origin[d] - m->origin[d]) / m->length
+                          + corner[ring[k]][d] * (piece->cell[d] / m->length) - xi[d];
+    peri__overlap o = peri__disk_polygon(m->horizon, polygon, 4);
+    if (centroid && o.area > 0.0)
+        for (int d = 0; d < 2; ++d) centroid[d] = o.moment[d] / o.area;
+    return o.area / m->volume[j];
+}
+
+/* Part of cell j within the horizon of i, in [0, 1], and (2D, where asked) the centroid of that part less x_i. */
+static double peri__part(const peri__cloud *c, int64_t i, int64_t j, double *centroid) {
+    const peri__model *m = c->model;
+    const peri__piece *piece = peri__piece_of(c, j);
+    double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2 = 0.0, far2 = 0.0, part;
+    for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
+    if (centroid) memcpy(centroid, xi, (size_t)m->dim * sizeof(double));
+    if (piece->vertices && m->dim == 2) {
+        part = peri__moved_part(c, piece, &c->x[i * 2], j, centroid);
+    } else {
+        peri__half_cell(c, piece, j, half);
+        for (int32_t d = 0; d < m->dim; ++d) {
+            double a = fabs(xi[d]);
+            if (a > half[d]) near2 += peri__square(a - half[d]);
+            far2 += peri__square(a + half[d]);
+        }
+        if (far2 <= m->horizon * m->horizon) return 1.0;
+        if (near2 >= m->horizon * m->horizon) return 0.0;
+        if (m->dim == 3) {
+            part = peri__ball_box(m->horizon, xi, half, c->gauss_x, c->gauss_w) / (8.0 * half[0] * half[1] * half[2]);
+        } else {
+            peri__overlap o = peri__disk_rectangle(m->horizon, xi, half[0], half[1]);
+            part = o.area / (4.0 * half[0] * half[1]);
+            if (centroid && o.area > 0.0)
+                for (int d = 0; d < 2; ++d) centroid[d] = o.moment[d] / o.area;
+        }
+    }
+    return part > 1.0 ? 1.0 : part;
+}
+
+/* [T] Fig. 3.7: 1 up to h - spacing/2, then linear to 0 at h + spacing/2; spacing is the mean of both cells'. */
+static double peri__ramp(const peri__cloud *c, int64_t i, int64_t j) {
+    const peri__model *m = c->model;
+    double square = 0.0, spacing = 0.5 * (pow(m->volume[i], 1.0 / m->dim) + pow(m->volume[j], 1.0 / m->dim));
+    for (int32_t d = 0; d < m->dim; ++d) square += peri__square(c->x[j * m->dim + d] - c->x[i * m->dim + d]);
+    double part = (m->horizon + 0.5 * spacing - sqrt(square)) / spacing;
+    return part > 1.0 ? 1.0 : part;
+}
+
+/* beta of bond (i,j): the mean of both directions, so that V_i beta V_j is the same from both ends and momentum is conserved.
+   Parts below 1e-12 are a touch, no part: 0. */
+static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, int64_t j) {
+    const peri__model *m = c->model;
+    const peri__piece *pi = peri__piece_of(c, i);
+    double part, xi[3] = { 0.0, 0.0, 0.0 };
+    int regular = pi->lattice && !pi->vertices && j >= pi->first && j < pi->first + pi->count;
+    size_t slot = 0;
+    if (c->body->desc.quadrature == PERI_FULL_VOLUME) return 1.0;
+    if (c->body->desc.quadrature == PERI_VOLUME_RAMP) {
+        part = peri__ramp(c, i, j);
+        return part > 1e-9 ? part : 0.0;
+    }
+    if (!regular) {
+        part = 0.5 * (peri__part(c, i, j, NULL) + peri__part(c, j, i, NULL));
+        return part > 1e-12 ? part : 0.0;
+    }
+    uint64_t hash = 0;
+    for (int32_t d = 0; d < m->dim; ++d) { /* the cell is symmetric, so signs do not matter; 2^-44 is below any kink of beta */
+        xi[d] = floor(fabs(c->x[j * m->dim + d] - c->x[i * m->dim + d]) * 17592186044416.0 + 0.5);
+        hash = (hash ^ (uint64_t)xi[d]) * UINT64_C(0x9E3779B97F4A7C15);
+    }
+    slot = (size_t)(hash >> 56) % PERI_PART_SLOTS;
+    if (!parts->used[slot] || memcmp(parts->key[slot], xi, sizeof xi) != 0) {
+        part = peri__part(c, i, j, NULL);
+        parts->part[slot] = part > 1e-12 ? part : 0.0;
+        parts->used[slot] = 1;
+        memcpy(parts->key[slot], xi, sizeof xi);
+    }
+    return parts->part[slot];
+}

@@ -1,0 +1,98 @@
+/* quadrature.c - families to the lengths and weights of bonds, and the bound of the highest frequency. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
+    if (f32) ((float *)array)[at] = (float)value;
+    else ((double *)array)[at] = value;
+}
+
+static double peri__get_real(const void *array, int32_t f32, int64_t at) {
+    return f32 ? (double)((const float *)array)[at] : ((const double *)array)[at];
+}
+
+/* Weights of a block of rows. sums->a: largest 2 sum(c w beta V/|xi|)/rho of a point; sums->bad with sums->n = status. */
+static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    peri__cloud *c = (peri__cloud *)context;
+    const peri_body *b = c->body;
+    peri__model *m = c->model;
+    int32_t dim = m->dim, quadrature = b->desc.quadrature;
+    int by_centroid = quadrature == PERI_PARTIAL_CENTROID || quadrature == PERI_PARTIAL_MOMENT;
+    double edge = 0.5 * m->spacing / m->horizon;
+    peri__parts parts;
+    peri__clear_parts(&parts);
+    for (int64_t i = begin; i < end; ++i) {
+        double rate = 0.0, total = 0.0;
+        for (int64_t k = 0; k < m->width; ++k) {
+            int64_t at = i * m->width + k, j = m->ids[at];
+            double xi[3], centre[3], square = 0.0, bond, length, w, beta;
+            if (k >= m->count[i]) { /* padding: no weight, and a length that is safe to divide by */
+                peri__put_real(m->bond, b->f32, at, 1.0);
+                continue;
+            }
+            for (int32_t d = 0; d < dim; ++d) {
+                xi[d] = c->x[j * dim + d] - c->x[i * dim + d];
+                square += xi[d] * xi[d];
+            }
+            bond = length = sqrt(square);
+            beta = peri__beta(c, &parts, i, j);
+            if (by_centroid) {
+                (void)peri__part(c, i, j, centre);
+                length = sqrt(peri__dot(centre, centre, dim));
+            }
+            w = peri__influence(&b->desc, length / m->horizon, edge);
+            if (!peri__finite(w)) {
+                sums->bad = i;
+                sums->n = PERI_ERROR_INFLUENCE;
+                return;
+            }
+            w *= beta * m->volume[j];
+            if (quadrature == PERI_PARTIAL_MOMENT) {
+                w *= length / bond;
+                length = bond;
+            }
+            if (m->part) m->part[at] = (float)(beta * m->volume[j]);
+            if (m->centroid)
+                for (int32_t d = 0; d < dim; ++d) peri__put_real(m->centroid, b->f32, at * dim + d, centre[d]);
+            peri__put_real(m->weight, b->f32, at, w);
+            peri__put_real(m->bond, b->f32, at, length);
+            rate += m->pairs[m->material[i] * m->materials + m->material[j]].c * w / length;
+            total += fabs(w);
+        }
+        rate *= 2.0 / m->rho[m->material[i]];
+        if (rate > sums->a) sums->a = rate;
+        if (!(total > 0.0)) {
+            sums->bad = i;
+            sums->n = PERI_ERROR_FAMILY;
+            return;
+        }
+    }
+}
+
+static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
+    peri__model *m = c->model;
+    size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    int64_t entries = m->points * m->width;
+    m->weight = peri__new(&m->memory, entries, real);
+    m->bond = peri__new(&m->memory, entries, real);
+    if (b->desc.quadrature != PERI_FULL_VOLUME) m->part = (float *)peri__new(&m->memory, entries, sizeof(float));
+    if (b->desc.quadrature == PERI_PARTIAL_CENTROID) m->centroid = peri__new(&m->memory, entries * m->dim, real);
+    if (!m->weight || !m->bond || (b->desc.quadrature != PERI_FULL_VOLUME && !m->part)
+        || (b->desc.quadrature == PERI_PARTIAL_CENTROID && !m->centroid))
+        return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
+    if (b->desc.influence == PERI_INFLUENCE_USER) { /* the caller's function runs on the caller's thread */
+        for (int64_t k = 0; k < m->blocks; ++k) {
+            memset(&sums[k], 0, sizeof sums[k]);
+            sums[k].bad = -1;
+            peri__weigh_block(c, k * PERI_BLOCK, peri__min((k + 1) * PERI_BLOCK, m->points), &sums[k]);
+        }
+    } else {
+        peri__for_points(b, m->points, peri__weigh_block, c, sums);
+    }
+    for (int64_t k = 0; k < m->blocks; ++k) {
+        if (sums[k].bad >= 0) return peri__fail(b, (int32_t)sums[k].n, "influence", sums[k].bad, 0.0);
+        if (sums[k].a > m->rate) m->rate = sums[k].a;
+    }
+    return PERI_OK;
+}

@@ -1,0 +1,153 @@
+/* sets.c - named selections of points. Set 0, PERI_ALL, holds all and is stored nowhere. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* Component d of point i, user's units: reference position. */
+static double peri__position(const peri_body *b, int64_t i, int32_t d) {
+    const peri__model *m = b->model;
+    return m->origin[d] + m->length * peri__get_real(m->x, b->f32, d * m->stride + i);
+}
+
+static int64_t peri__set_count(const peri_body *b, int32_t set) {
+    return set == PERI_ALL ? b->model->points : b->sets[set - 1].count;
+}
+
+static int32_t peri__set_point(const peri_body *b, int32_t set, int64_t k) {
+    return set == PERI_ALL ? (int32_t)k : b->sets[set - 1].points[k];
+}
+
+static int32_t peri__check_set(peri_body *b, int32_t set) {
+    return set >= 0 && set <= b->set_count ? PERI_OK : peri__fail(b, PERI_ERROR_SET, "set", set, 0.0);
+}
+
+PERI_API int32_t peri_find_set(const peri_body *b, const char *name) {
+    if (!b || !name) return PERI_ERROR_ARGUMENT;
+    for (int64_t k = 0; k < b->set_count; ++k)
+        if (b->sets[k].name && strcmp(b->sets[k].name, name) == 0) return (int32_t)(k + 1);
+    return PERI_ERROR_SET;
+}
+
+/* Takes over points[capacity], of which the first count are the set (ascending); frees them where it fails. */
+static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, int64_t capacity, int64_t count) {
+    peri__set set;
+    int32_t status = PERI_OK;
+    memset(&set, 0, sizeof set);
+    if (count == 0) status = peri__fail(b, PERI_ERROR_SET, "selection", -1, 0.0);
+    else if (name && peri_find_set(b, name) > 0) status = peri__fail(b, PERI_ERROR_SET, "name", peri_find_set(b, name), 0.0);
+    else if (!peri__grow(&b->memory, &b->sets, &b->set_capacity, b->set_count + 1, sizeof *b->sets))
+        status = peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
+    if (status == PERI_OK) {
+        set.points = (int32_t *)peri__copy(&b->memory, points, count, sizeof *points);
+        set.count = count;
+        if (name) {
+            set.name_bytes = (int64_t)strlen(name) + 1;
+            set.name = (char *)peri__copy(&b->memory, name, set.name_bytes, 1);
+        }
+        if (!set.points || (name && !set.name)) {
+            peri__delete(&b->memory, set.points, count, sizeof *points);
+            peri__delete(&b->memory, set.name, set.name_bytes, 1);
+            status = peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
+        }
+    }
+    peri__delete(&b->memory, points, capacity, sizeof *points);
+    if (status < 0) return status;
+    b->sets[b->set_count++] = set;
+    return (int32_t)b->set_count;
+}
+
+static int32_t peri__select(peri_body *b, const char *name, peri_point_fn take, void *user) {
+    const peri__model *m = b->model;
+    int32_t *points = (int32_t *)peri__new(&b->memory, m->points, sizeof *points);
+    int64_t count = 0;
+    if (!points) return peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
+    for (int64_t i = 0; i < m->points; ++i) {
+        double x[3];
+        for (int32_t d = 0; d < m->dim; ++d) x[d] = peri__position(b, i, d);
+        if (take(user, i, x)) points[count++] = (int32_t)i;
+    }
+    return peri__new_set(b, name, points, m->points, count);
+}
+
+typedef struct peri__inside_box {
+    double  lo[3], hi[3];
+    int32_t dim;
+} peri__inside_box;
+
+static int32_t peri__is_inside_box(void *user, int64_t index, const double *x) {
+    const peri__inside_box *box = (const peri__inside_box *)user;
+    (void)index;
+    for (int32_t d = 0; d < box->dim; ++d)
+        if (!(x[d] >= box->lo[d] && x[d] <= box->hi[d])) return 0;
+    return 1;
+}
+
+PERI_API int32_t peri_select_box(peri_body *b, const char *name, const double *lo, const double *hi) {
+    peri__inside_box box;
+    PERI_NEED_BUILT(b);
+    PERI_NEED_VECTOR(b, lo);
+    PERI_NEED_VECTOR(b, hi);
+    double touch = PERI_TOUCH * b->model->spacing * b->model->length;
+    box.dim = b->dim;
+    for (int32_t d = 0; d < b->dim; ++d) {
+        box.lo[d] = lo[d] - touch;
+        box.hi[d] = hi[d] + touch;
+    }
+    return peri__select(b, name, peri__is_inside_box, &box);
+}
+
+PERI_API int32_t peri_select_ball(peri_body *b, const char *name, const double *centre, double radius) {
+    peri__within ball;
+    PERI_NEED_BUILT(b);
+    PERI_NEED_VECTOR(b, centre);
+    PERI_NEED_NUMBER(b, radius > 0.0, radius);
+    ball.centre = centre;
+    ball.radius = radius + PERI_TOUCH * b->model->spacing * b->model->length;
+    ball.dim = b->dim;
+    return peri__select(b, name, peri__is_within, &ball);
+}
+
+PERI_API int32_t peri_select_if(peri_body *b, const char *name, peri_point_fn take, void *user) {
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, take, "take");
+    return peri__select(b, name, take, user);
+}
+
+PERI_API int32_t peri_select_points(peri_body *b, const char *name, int64_t count, const int32_t *points) {
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, points && count >= 0, "points");
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < count; ++k)
+        if (points[k] < 0 || points[k] >= m->points) return peri__fail(b, PERI_ERROR_ID, "points", k, points[k]);
+    /* mark, then collect: ascending, and each once */
+    uint8_t *marked = (uint8_t *)peri__new(&b->memory, m->points, 1);
+    int32_t *ids = (int32_t *)peri__new(&b->memory, m->points, sizeof *ids);
+    int64_t kept = 0;
+    if (!marked || !ids) {
+        peri__delete(&b->memory, marked, m->points, 1);
+        peri__delete(&b->memory, ids, m->points, sizeof *ids);
+        return peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
+    }
+    for (int64_t k = 0; k < count; ++k) marked[points[k]] = 1;
+    for (int64_t i = 0; i < m->points; ++i)
+        if (marked[i]) ids[kept++] = (int32_t)i;
+    peri__delete(&b->memory, marked, m->points, 1);
+    return peri__new_set(b, name, ids, m->points, kept);
+}
+
+PERI_API int64_t peri_set_size(const peri_body *b, int32_t set) {
+    if (!b) return PERI_ERROR_ARGUMENT;
+    if (!b->model) return PERI_ERROR_ORDER;
+    return set >= 0 && set <= b->set_count ? peri__set_count(b, set) : PERI_ERROR_SET;
+}
+
+PERI_API int32_t peri_read_set(peri_body *b, int32_t set, int32_t *points, int64_t capacity) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    PERI_NEED(b, points, "points");
+    int64_t count = peri__set_count(b, set);
+    if (capacity < count) return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)count);
+    for (int64_t k = 0; k < count; ++k) points[k] = peri__set_point(b, set, k);
+    return PERI_OK;
+}

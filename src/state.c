@@ -1,0 +1,68 @@
+/* state.c - changes to displacement and velocity, the energies, and what the ledger must know of changes from outside. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+static peri__step peri__no_step(const peri_body *b) {
+    peri__step step;
+    memset(&step, 0, sizeof step);
+    step.body = (peri_body *)b;
+    return step;
+}
+
+static double peri__kinetic_energy(peri_body *b) {
+    peri__step step = peri__no_step(b);
+    peri__for_points(b, b->model->points, b->ops->kinetic, &step, b->sums);
+    return peri__total(b->sums, b->model->points).a;
+}
+
+/* Energy of the intact bonds; per point to density[points] where it is not NULL. */
+static double peri__elastic_energy(peri_body *b, double *density) {
+    peri__step step = peri__no_step(b);
+    step.out = density;
+    peri__for_points(b, b->model->points, b->ops->energy, &step, b->sums);
+    return peri__total(b->sums, b->model->points).a;
+}
+
+/* Displacement, velocity or bonds are about to be changed by the caller, not by the equations of motion: the force is stale, and the
+   change of energy counts as `initial`. It is measured when next needed, so that a hundred cuts cost two energy passes. */
+static void peri__touch(peri_body *b, int changes_energy) {
+    b->force_current = 0;
+    if (!b->desc.ledger || !changes_energy || b->ledger.pending) return;
+    b->ledger.before = b->steps == 0 && b->ledger.initial == 0.0 ? 0.0 : peri__kinetic_energy(b) + peri__elastic_energy(b, NULL);
+    b->ledger.pending = 1;
+}
+
+static void peri__settle(peri_body *b) {
+    if (!b->ledger.pending) return;
+    b->ledger.initial += peri__kinetic_energy(b) + peri__elastic_energy(b, NULL) - b->ledger.before;
+    b->ledger.pending = 0;
+}
+
+static double peri__velocity_unit(const peri__model *m) { return m->length / m->time; }
+
+static double peri__force_unit(const peri__model *m) { return m->stress / m->length; }
+
+static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t set, const double *value) {
+    PERI_NEED_VECTOR(b, value);
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    if (b->running) return peri__fail(b, PERI_ERROR_ORDER, "on_frame", -1, 0.0);
+    peri__touch(b, 1);
+    for (int64_t k = 0; k < peri__set_count(b, set); ++k)
+        for (int32_t d = 0; d < b->dim; ++d) {
+            int64_t at = d * b->model->stride + peri__set_point(b, set, k);
+            peri__put_real(array, b->f32, at, peri__get_real(array, b->f32, at) + value[d] / unit);
+        }
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_add_displacement(peri_body *b, int32_t set, const double *value) {
+    PERI_NEED_BUILT(b);
+    return peri__add_to(b, b->u, b->model->length, set, value);
+}
+
+PERI_API int32_t peri_add_velocity(peri_body *b, int32_t set, const double *value) {
+    PERI_NEED_BUILT(b);
+    return peri__add_to(b, b->v, peri__velocity_unit(b->model), set, value);
+}

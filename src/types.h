@@ -1,0 +1,194 @@
+/* types.h - every internal struct, and the glossary of symbols.
+
+   Symbols, as in the source texts:
+     i, j      points; j is in the family of i            xi     x_j - x_i, reference bond
+     u, v      displacement, velocity                     eta    u_j - u_i, relative displacement
+     w         influence function w(|xi|)                 e      extension |xi+eta| - |xi|
+     beta      part of cell j within the horizon of i     s      stretch e/|xi|
+     V         volume (2D: area)                          c, s0  micromodulus, critical stretch
+   Inside, lengths are in units of `length` (the spacing), stresses of `stress` (Young's modulus), densities of `density`,
+   times of length*sqrt(density/stress). So c, forces and velocities are of order one for nanometres and for kilometres, and the
+   coordinates of a lattice are small half-integers: exact in single precision too.
+
+   Who owns what: peri__model is what peri_build makes and nothing changes afterwards; clones share it by count.
+   peri_body holds the rest. */
+#ifndef PERI_TYPES_H
+#define PERI_TYPES_H
+
+#define PERI_BLOCK 64          /* points per task; totals are summed block by block, whatever the threads                */
+#define PERI_LANES 16          /* component planes of vectors are padded to a multiple of this                           */
+#define PERI_MATERIAL_LIMIT 120 /* a point's class is material + (no-fail ? materials : 0), in 8 bits                    */
+#define PERI_NEVER 1e30        /* critical stretch of bonds that do not break; finite, so that 0*PERI_NEVER is 0         */
+
+typedef struct peri__memory {
+    peri_allocate_fn allocate;
+    peri_release_fn  release;
+    void            *user;
+} peri__memory;
+
+/* Where points came from: a lattice of cells, or the caller's arrays. A point of a lattice piece is at
+   origin + local*cell per axis, local being half-integers (or moved centroids); a caller's point is at local. */
+typedef struct peri__piece {
+    int64_t first, count;
+    int32_t lattice;      /* 1: cells are boxes or moved boxes; 0: caller's points, cells taken as squares or cubes       */
+    double  origin[3];    /* [L] lower corner                                                                            */
+    double  cell[3];      /* [L] edges of a cell                                                                         */
+    int64_t cells[3];     /* cells per axis                                                                              */
+    double *vertices;     /* moved vertices in cell units, [(cells+1)^dim][dim], x fastest; NULL where none moved         */
+    int64_t vertex_bytes;
+} peri__piece;
+
+/* What is described before peri_build. */
+typedef struct peri__setup {
+    peri__piece *pieces;
+    int64_t      piece_count, piece_capacity;
+    double      *local;    /* [points*dim], see peri__piece                                                              */
+    double      *volume;   /* [points], user's units                                                                     */
+    uint8_t     *material; /* [points]                                                                                   */
+    int64_t      point_count, point_capacity;
+    int32_t     *ibond;    /* the caller's families, or NULL                                                             */
+    int64_t      ibond_entries;
+    int32_t      ibond_width;
+} peri__setup;
+
+typedef struct peri__pair { /* constants of the bonds between two materials, in inner units                               */
+    double c, s0;
+} peri__pair;
+
+typedef struct peri__interface {
+    int32_t       i, j;
+    peri_material material;
+} peri__interface;
+
+typedef struct peri__ops peri__ops;
+
+/* What peri_build makes. */
+typedef struct peri__model {
+    peri__memory     memory;
+    volatile int32_t users;
+
+    int32_t dim, width, words; /* words: 32-bit words of bond flags per row                                              */
+    int64_t points, stride;    /* stride: length of a component plane                                                    */
+    int64_t blocks, bonds;     /* bonds: directed                                                                        */
+    double  length, stress, density, time, origin[3]; /* the units                                                       */
+    double  horizon;           /* inner units                                                                            */
+    double  spacing;           /* mean, inner units                                                                      */
+    double  energy;            /* unit of energy, thickness included                                                     */
+    double  rate;              /* largest 2 sum(c w V/|xi|)/rho of a point: bounds the square of the highest frequency    */
+
+    void      *x;        /* real [dim][stride] reference positions                                                       */
+    double    *volume;   /* [points]                                                                                     */
+    uint8_t   *material; /* [points]                                                                                     */
+    int32_t   *ids;      /* [points][width] Ibond: ascending ids, padded with the row's own                              */
+    int32_t   *count;    /* [points] family sizes                                                                        */
+    void      *weight;   /* real [points][width] w(|xi|) beta V_j, 0 in the padding                                      */
+    void      *bond;     /* real [points][width] |xi|, 1 in the padding                                                  */
+    void      *centroid; /* real [points][width][dim] bond to the centroid of the part; NULL but for that rule           */
+    float     *part;     /* [points][width] beta V_j; NULL for whole cells                                               */
+
+    int32_t    materials;
+    double     rho[PERI_MATERIAL_LIMIT];
+    int32_t    breakable; /* 1 where some pair has a finite s0                                                           */
+    peri__pair *pairs;    /* [materials][materials]                                                                      */
+} peri__model;
+
+typedef struct peri__set {
+    char    *name;
+    int64_t  name_bytes;
+    int32_t *points; /* ascending; NULL for the set of all points                                                        */
+    int64_t  count;
+} peri__set;
+
+typedef enum peri__load_kind { PERI__FREE, PERI__DISPLACEMENT, PERI__VELOCITY, PERI__FORCE } peri__load_kind;
+
+typedef struct peri__load {
+    int32_t      kind, set, axes;
+    double       constant[3]; /* user's units; for a traction already a force density                                    */
+    double       per_value;   /* force density per value: 1, or area/volume of the set for a traction                    */
+    peri_load_fn fn;
+    void        *user;
+    double      *value;       /* [count*dim] buffer for fn, user's units; NULL where fn is NULL                          */
+    double      *force;       /* supports: [2][count*dim] force density before it was replaced, velocity held; else NULL */
+    int32_t     *all;         /* [count] 0, 1, ... for fn on PERI_ALL, which is stored nowhere else; else NULL           */
+    uint8_t     *owned;       /* supports: [count] axes that no later support has taken; else NULL                       */
+    int64_t      count;
+} peri__load;
+
+typedef struct peri__obstacle {
+    int32_t        ball;
+    double         place[3], place0[3], normal[3], radius, stiffness; /* inner units                                     */
+    peri_motion_fn motion;
+    void          *user;
+} peri__obstacle;
+
+typedef struct peri__sums { /* what a block of points adds up; summed over blocks in order                                */
+    double  a, b;
+    int64_t n, bad; /* bad: first point whose motion is not finite, or -1                                                */
+} peri__sums;
+
+typedef struct peri__step { /* what a pass over the points needs to know                                                  */
+    peri_body *body;
+    double     keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                                */
+    double     loss;              /* factor of the damping work; 0: none                                                 */
+    double     impulse;           /* time that a bond still acts after it broke: half a step, or 0                       */
+    int32_t    central;           /* the kick spans a whole step                                                         */
+    int32_t    breaking;          /* bonds may break                                                                     */
+    double    *out;               /* energy density per point, or NULL                                                   */
+} peri__step;
+
+typedef struct peri__ledger { /* inner units of energy                                                                    */
+    double  external, obstacle, damping, fracture, initial;
+    double  before;  /* kinetic + elastic before the first unaccounted change                                            */
+    int32_t pending; /* 1 from such a change until it is accounted                                                       */
+} peri__ledger;
+
+struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn on a peri__step                  */
+    void (*force)(void *, int64_t, int64_t, peri__sums *);
+    void (*energy)(void *, int64_t, int64_t, peri__sums *);
+    void (*kick)(void *, int64_t, int64_t, peri__sums *);
+    void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
+};
+
+struct peri_body {
+    peri_body_desc desc;
+    peri__memory   memory;
+    peri_error     error;
+    int32_t        dim, f32;
+
+    peri_material    materials[PERI_MATERIAL_LIMIT];
+    int32_t          material_count;
+    peri__interface *interfaces;
+    int64_t          interface_count, interface_capacity;
+    peri__setup      setup;
+
+    peri__model      *model; /* NULL before peri_build                                                                   */
+    const peri__ops  *ops;
+    void     *u, *v, *f;     /* real [dim][stride]; f: force density                                                     */
+    uint32_t *alive;         /* [points][words] bond carries force; NULL where nothing can break and nothing is cut      */
+    uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
+    uint32_t *before;        /* [points][words] alive before the step, for break events; NULL without a callback         */
+    uint8_t  *no_fail;       /* [points]; NULL where none                                                                */
+    uint8_t  *cls;           /* [points] class: row of `pairs`; NULL where there is one class                            */
+    peri__pair *pairs;       /* [classes][classes]                                                                       */
+    int32_t   classes;
+    peri__sums *sums;        /* [blocks]                                                                                 */
+    double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
+    double   *derived[16];   /* by field: what peri_view_field computed, [points*dim]; NULL until first asked for         */
+
+    peri__set      *sets;
+    int64_t         set_count, set_capacity;
+    peri__load     *loads;
+    int64_t         load_count, load_capacity;
+    peri__obstacle *obstacles;
+    int64_t         obstacle_count, obstacle_capacity;
+    peri_break_fn   on_break;
+    void           *break_user;
+
+    int64_t cut, broken, steps; /* cut, broken: directed                                                                 */
+    double  time;               /* inner units                                                                           */
+    int32_t force_current;      /* 1: f belongs to u, loads and cracks as they are                                       */
+    int32_t running;            /* 1 inside peri_advance                                                                 */
+    peri__ledger ledger;
+};
+
+#endif

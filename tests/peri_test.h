@@ -1,0 +1,90 @@
+/* peri_test.h - the test harness: one program per subject, each a list of RUN(case).
+
+   A case is a function `static void name(void)`; it passes when no CHECK in it failed. Programs close with
+   "<program>: N passed, N failed" and return the number of failed cases. `program word` runs only the cases whose name
+   contains word; `program --long` also runs what LONG_RUN guards (make validate). */
+#ifndef PERI_TEST_H
+#define PERI_TEST_H
+
+#include "../peri.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int test_passed, test_failed, test_bad, test_long;
+static const char *test_filter;
+
+#define CHECK(condition)                                                                                               \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            test_bad++;                                                                                                \
+            if (test_bad <= 10) printf("    %s:%d: not true: %s\n", __FILE__, __LINE__, #condition);                   \
+        }                                                                                                              \
+    } while (0)
+
+/* |got - want| <= rel*|want| + abs */
+#define CHECK_NEAR(got, want, rel, abs)                                                                                \
+    test_near((double)(got), (double)(want), (double)(rel), (double)(abs), #got, __FILE__, __LINE__)
+
+/* A call that must succeed; prints the error record of the body where it does not. Yields the value. */
+#define MUST(body, call) test_must((body), (int64_t)(call), #call, __FILE__, __LINE__)
+
+#define RUN(name) test_run(name, #name)
+#define LONG_RUN(name)                                                                                                 \
+    do {                                                                                                               \
+        if (test_long) test_run(name, #name);                                                                          \
+    } while (0)
+
+static inline void test_near(double got, double want, double rel, double abs, const char *text, const char *file, int line) {
+    if (!(fabs(got - want) <= rel * fabs(want) + abs)) {
+        test_bad++;
+        if (test_bad <= 10)
+            printf("    %s:%d: %s = %.17g, expected %.17g (relative error %.3g)\n", file, line, text, got, want,
+                   want != 0.0 ? fabs(got / want - 1.0) : fabs(got));
+    }
+}
+
+static inline int64_t test_must(const peri_body *body, int64_t result, const char *text, const char *file, int line) {
+    if (result < 0) {
+        char buffer[256] = "";
+        peri_error error;
+        if (body && peri_last_error(body, &error) == PERI_OK) (void)peri_error_format(&error, buffer, sizeof buffer);
+        test_bad++;
+        printf("    %s:%d: %s failed: %s [%s]\n", file, line, text, peri_status_text((int32_t)result), buffer);
+    }
+    return result;
+}
+
+static inline void test_run(void (*function)(void), const char *name) {
+    if (test_filter && !strstr(name, test_filter)) return;
+    test_bad = 0;
+    function();
+    if (test_bad) test_failed++;
+    else test_passed++;
+    printf("  %s %s\n", test_bad ? "FAIL" : "pass", name);
+    (void)fflush(stdout);
+}
+
+static inline void test_begin(int argc, char **argv) {
+    int k;
+    for (k = 1; k < argc; ++k) {
+        if (strcmp(argv[k], "--long") == 0) test_long = 1;
+        else test_filter = argv[k];
+    }
+}
+
+static inline int test_end(const char *program) {
+    printf("%s: %d passed, %d failed\n", program, test_passed, test_failed);
+    return test_failed;
+}
+
+/* A fixed generator, uniform in [0, 1): the same numbers on every machine. */
+static inline double test_random(uint64_t *state) {
+    uint64_t z = (*state += UINT64_C(0x9E3779B97F4A7C15));
+    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
+    return (double)((z ^ (z >> 31)) >> 11) * (1.0 / 9007199254740992.0);
+}
+
+#endif
