@@ -14,6 +14,9 @@ STRICT = -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror
 OPENMP := $(shell echo 'int main(void){return 0;}' | $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 COMPILE = $(CC) $(STRICT) $(CFLAGS) $(OPENMP) -I.
 
+# threads that wait must not spin where other work shares the machine
+export OMP_WAIT_POLICY ?= passive
+
 SOURCES = peri.h peri_impl.c $(wildcard src/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
@@ -60,6 +63,7 @@ validate: $(TESTS:%=build/tests/%)
 	@sh tests/run.sh --long
 
 bench: build/bench/bench
+	@mkdir -p out
 	build/bench/bench
 
 dist: build/dist/peri.h

@@ -42,6 +42,8 @@
               A call that fails has changed nothing, unless its text says otherwise. An id that came from a failed call is
               negative and is refused by the next call, so a chain of set-up calls cannot go silently wrong.
      Owner    You own what you pass in: descriptors and arrays are copied. The body owns what views point to.
+     Callbacks may read the body. on_frame may also cut, select, and add or remove loads and obstacles. Any other change to the
+              body that made the call is refused with PERI_ERROR_ORDER.
      Threads  One body: one thread at a time. Different bodies, clones included: any threads at once. Callbacks run on the
               thread that made the call, one at a time (exception: the tasks that you are given in parallel_for).
      Same bits for any number of threads: each point sums its own bonds in a fixed order, and totals are summed over
@@ -127,7 +129,7 @@ typedef struct peri_error {
 /* Constant text of a status; "unknown status" for other numbers. Never NULL. */
 PERI_API const char *peri_status_text(int32_t status);
 
-/* Writes "text (field, index, value)" of an error, zero-terminated, truncated to capacity bytes. Returns the length that
+/* Writes "text: field index i, value v" of an error, zero-terminated, truncated to capacity bytes. Returns the length that
    the full text needs without its zero, or PERI_ERROR_ARGUMENT. buffer may be NULL where capacity is 0. */
 PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_t capacity);
 
@@ -146,8 +148,8 @@ typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn tas
 /* Remarks that are no errors (level 0 information, 1 warning), such as a time step that was forced. */
 typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
 
-/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite. Called at peri_build only. Negative values are
-   accepted, but only a non-negative w gives a stable solid. */
+/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite. Called by peri_build and
+   peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. */
 typedef double (*peri_influence_fn)(void *user, double q);
 
 /* Nonzero takes the point at x[dim], zero leaves it out. index numbers the candidates (lattice sites or points). */
@@ -157,7 +159,7 @@ typedef int32_t (*peri_point_fn)(void *user, int64_t index, const double *x);
 typedef int32_t (*peri_pair_fn)(void *user, int32_t i, int32_t j, const double *xi, const double *xj);
 
 /* Values of a load or support at `time` on the points[count] of its set. value[count*dim] holds the constant value at entry;
-   overwrite what varies. Called once per step and set. */
+   overwrite what varies. Called once per step, for the time at its end; loads and velocities also at the start of a run. */
 typedef void (*peri_load_fn)(void *user, double time, int64_t count, const int32_t *points, double *value);
 
 /* Where a moving obstacle is: write its reference place (peri_add_ball_obstacle: the centre) at `time` to place[dim]. */
@@ -341,8 +343,8 @@ PERI_API double  peri_time(const peri_body *body);           /* [T] since build 
 PERI_API double peri_stable_step(const peri_body *body);
 
 /* Rows [first, first+count) of the N x M family array ([T] 3.11) to rows[count*width]: ascending ids, padded with the
-   row's own id. Broken and cut bonds are listed too: see peri_bond_is_intact. */
-PERI_API int32_t peri_read_families(peri_body *body, int64_t first, int64_t count, int32_t *rows);
+   row's own id. capacity counts entries. Broken and cut bonds are listed too: see peri_bond_is_intact. */
+PERI_API int32_t peri_read_families(peri_body *body, int64_t first, int64_t count, int32_t *rows, int64_t capacity);
 
 /* 1 = bond (i,j) carries force, 0 = broken or cut, PERI_ERROR_PAIR = no such bond. */
 PERI_API int32_t peri_bond_is_intact(peri_body *body, int32_t i, int32_t j);
@@ -373,7 +375,7 @@ PERI_API int32_t peri_read_set(peri_body *body, int32_t set, int32_t *points, in
 /* ---- cracks and failure ------------------------------------------------------------------------------------------- */
 
 /* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (tolerance
-   1e-9 of the spacing). Return the number of bonds (pairs) newly cut. Made before the first step they are the initial crack
+   1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). Return the number of bonds (pairs) newly cut. Made before the first step they are the initial crack
    and survive peri_reset; later they count as broken. */
 PERI_API int64_t peri_cut_segment(peri_body *body, const double *from, const double *to);                    /* 2D        */
 PERI_API int64_t peri_cut_polyline(peri_body *body, int64_t count, const double *vertices);                 /* 2D        */
@@ -403,8 +405,8 @@ PERI_API int32_t peri_add_displacement(peri_body *body, int32_t set, const doubl
 PERI_API int32_t peri_add_velocity(peri_body *body, int32_t set, const double *value);
 
 /* Supports: prescribe the components in `axes` (PERI_X | PERI_Y | PERI_Z) of the displacement [L] or velocity [L T^-1] of a
-   set, constant value[dim] (NULL = zero) or as fn says; fn may be NULL. Later supports win where they overlap. Each returns
-   a load id (0, 1, ...) or an error. */
+   set, constant value[dim] (NULL = zero) or as fn says; fn may be NULL. Later supports win where they overlap. The velocity of a
+   point with prescribed displacement is the mean of the last step. Each returns a load id (0, 1, ...) or an error. */
 PERI_API int32_t peri_prescribe_displacement(peri_body *body, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
                                              void *user);
 PERI_API int32_t peri_prescribe_velocity(peri_body *body, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
@@ -475,8 +477,8 @@ typedef enum peri_field {
     PERI_POSITION       = 1,  /* [dim] reference position [L]                                                    stored  */
     PERI_DISPLACEMENT   = 2,  /* [dim] [L]                                                             stored, writable  */
     PERI_VELOCITY       = 3,  /* [dim] [L T^-1]                                                        stored, writable  */
-    PERI_FORCE_DENSITY  = 4,  /* [dim] internal + loads + obstacles [M L^-2 T^-2]; where supported only what
-                                 damping takes                                                                   stored  */
+    PERI_FORCE_DENSITY  = 4,  /* [dim] internal + loads + obstacles [M L^-2 T^-2]; where supported, what the
+                                 prescribed acceleration needs                                                   stored  */
     PERI_VOLUME         = 5,  /* [L^3], 2D: area [L^2]                                                           stored  */
     PERI_MATERIAL       = 6,  /* material id                                                                    derived  */
     PERI_FAMILY_SIZE    = 7,  /* bonds of the point, broken ones included                                       derived  */

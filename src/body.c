@@ -174,7 +174,7 @@ static void peri__free_state(peri_body *b) {
     peri__delete(memory, b->sets, b->set_capacity, sizeof *b->sets);
     for (int64_t k = 0; k < b->load_count; ++k) {
         peri__delete(memory, b->loads[k].value, b->loads[k].count * m->dim, sizeof(double));
-        peri__delete(memory, b->loads[k].force, 2 * b->loads[k].count * m->dim, sizeof(double));
+        peri__delete(memory, b->loads[k].force, PERI__HELD_PLANES * b->loads[k].count * m->dim, sizeof(double));
         peri__delete(memory, b->loads[k].all, b->loads[k].count, sizeof(int32_t));
         peri__delete(memory, b->loads[k].owned, b->loads[k].count, 1);
     }
@@ -335,7 +335,7 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         b->loads[k].all = NULL;
         PERI_COPY_(loads[k].all, from->loads[k].count, sizeof(int32_t))
         PERI_COPY_(loads[k].value, from->loads[k].count * m->dim, sizeof(double))
-        PERI_COPY_(loads[k].force, 2 * from->loads[k].count * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].force, PERI__HELD_PLANES * from->loads[k].count * m->dim, sizeof(double))
         PERI_COPY_(loads[k].owned, from->loads[k].count, 1)
         b->load_count = k + 1;
     }
@@ -349,6 +349,7 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
     if (copy) *copy = NULL;
     if (!from || !copy) return peri__set_error(error, PERI_ERROR_ARGUMENT, from ? "copy" : "body", -1, 0.0);
     if (!from->model) return peri__set_error(error, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
+    if (from->running > 1) return peri__set_error(error, PERI_ERROR_ORDER, "callback", -1, 0.0);
     b = (peri_body *)peri__new(&from->memory, 1, sizeof *b);
     if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
     b->desc = from->desc;
@@ -389,8 +390,7 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
 }
 
 PERI_API int32_t peri_reset(peri_body *b) {
-    PERI_NEED_BUILT(b);
-    if (b->running) return peri__fail(b, PERI_ERROR_ORDER, "on_frame", -1, 0.0);
+    PERI_NEED_IDLE(b);
     const peri__model *m = b->model;
     size_t vector = (size_t)(m->stride * m->dim) * peri__real(b);
     memset(b->u, 0, vector);
@@ -433,11 +433,13 @@ PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->steps : PER
 
 PERI_API double peri_time(const peri_body *b) { return b && b->model ? b->time * b->model->time : 0.0; }
 
-PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows) {
+PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows, int64_t capacity) {
     PERI_NEED_BUILT(b);
     PERI_NEED(b, rows, "rows");
     if (first < 0 || count < 0 || first > b->model->points || count > b->model->points - first)
         return peri__fail(b, PERI_ERROR_ID, "first, count", first, (double)count);
+    if (capacity < count * b->model->width)
+        return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)(count * b->model->width));
     memcpy(rows, &b->model->ids[first * b->model->width], (size_t)(count * b->model->width) * sizeof *rows);
     return PERI_OK;
 }

@@ -66,6 +66,12 @@ static void peri__cross(const double *a, const double *b, double *out) {
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* Nearer than this touches; inner units. Single precision moves points by the rounding of their coordinates. */
+static double peri__touching(const peri_body *b) {
+    const peri__model *m = b->model;
+    return PERI_TOUCH * m->spacing + (b->f32 ? 0.5 * (double)FLT_EPSILON * m->extent : 0.0);
+}
+
 /* A place in inner units. */
 static void peri__inner(const peri_body *b, const double *place, double *out) {
     for (int32_t d = 0; d < b->dim; ++d) out[d] = (place[d] - b->model->origin[d]) / b->model->length;
@@ -152,7 +158,7 @@ static int64_t peri__apply_crack(peri_body *b, const peri__crack *crack) {
 static int64_t peri__cut_polygon(peri_body *b, int count, double vertex[4][3]) {
     peri__crack crack;
     int32_t dim = b->dim;
-    double touch = PERI_TOUCH * b->model->spacing, normal[3] = { 0.0, 0.0, 0.0 };
+    double touch = peri__touching(b), normal[3] = { 0.0, 0.0, 0.0 };
     double edge[3] = { 0.0, 0.0, 0.0 }, other[3] = { 0.0, 0.0, 0.0 }, extent = 0.0;
     memset(&crack, 0, sizeof crack);
     for (int32_t d = 0; d < dim; ++d) {
@@ -197,7 +203,7 @@ static int64_t peri__cut_polygon(peri_body *b, int count, double vertex[4][3]) {
 
 PERI_API int64_t peri_cut_segment(peri_body *b, const double *from, const double *to) {
     double vertex[4][3];
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 2);
     PERI_NEED_VECTOR(b, from);
     PERI_NEED_VECTOR(b, to);
@@ -208,7 +214,7 @@ PERI_API int64_t peri_cut_segment(peri_body *b, const double *from, const double
 
 PERI_API int64_t peri_cut_polyline(peri_body *b, int64_t count, const double *vertices) {
     int64_t cut = 0;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 2);
     PERI_NEED(b, count >= 2, "count");
     PERI_NEED(b, vertices, "vertices");
@@ -227,7 +233,7 @@ PERI_API int64_t peri_cut_polyline(peri_body *b, int64_t count, const double *ve
 
 PERI_API int64_t peri_cut_triangle(peri_body *b, const double *p, const double *q, const double *r) {
     double vertex[4][3];
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 3);
     PERI_NEED_VECTOR(b, p);
     PERI_NEED_VECTOR(b, q);
@@ -240,7 +246,7 @@ PERI_API int64_t peri_cut_triangle(peri_body *b, const double *p, const double *
 
 PERI_API int64_t peri_cut_rectangle(peri_body *b, const double *corner, const double *edge1, const double *edge2) {
     double vertex[4][3];
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 3);
     PERI_NEED_VECTOR(b, corner);
     PERI_NEED_VECTOR(b, edge1);
@@ -257,14 +263,14 @@ PERI_API int64_t peri_cut_rectangle(peri_body *b, const double *corner, const do
 PERI_API int64_t peri_cut_disc(peri_body *b, const double *centre, const double *normal, double radius) {
     peri__crack crack;
     double length, opposite[3], touch;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 3);
     PERI_NEED_VECTOR(b, centre);
     PERI_NEED_VECTOR(b, normal);
     PERI_NEED_NUMBER(b, radius >= 0.0, radius);
     length = sqrt(peri__dot(normal, normal, 3));
     if (!(length > 0.0) || !(radius > 0.0)) return peri__fail(b, PERI_ERROR_CRACK, radius > 0.0 ? "normal" : "radius", -1, 0.0);
-    touch = PERI_TOUCH * b->model->spacing;
+    touch = peri__touching(b);
     memset(&crack, 0, sizeof crack);
     peri__inner(b, centre, crack.centre);
     crack.radius = radius / b->model->length + touch;
@@ -281,7 +287,7 @@ PERI_API int64_t peri_cut_disc(peri_body *b, const double *centre, const double 
 
 PERI_API int64_t peri_cut_pairs(peri_body *b, int64_t count, const int32_t *pairs) {
     int64_t cut = 0;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED(b, count >= 0, "count");
     PERI_NEED(b, pairs || count == 0, "pairs");
     for (int64_t k = 0; k < count; ++k) {
@@ -303,12 +309,14 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int64_t count, const int32_t *pair
 
 PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
     int64_t count = 0;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED(b, cut, "cut");
     const peri__model *m = b->model;
     int32_t status = peri__need_flags(b);
     if (status < 0) return status;
     peri__touch(b, b->steps > 0 || b->ledger.pending || b->ledger.initial != 0.0);
+    int32_t running = b->running;
+    b->running = 2;
     for (int64_t i = 0; i < m->points; ++i)
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t j = m->ids[i * m->width + k];
@@ -322,6 +330,7 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
             count += peri__cut_one(b, i, k);
             (void)peri__cut_one(b, j, peri__find_bond(m, j, i));
         }
+    b->running = running;
     return count;
 }
 
@@ -335,7 +344,7 @@ PERI_API int32_t peri_bond_is_intact(peri_body *b, int32_t i, int32_t j) {
 }
 
 PERI_API int32_t peri_set_no_fail(peri_body *b, int32_t set, int32_t on) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     int32_t status = peri__check_set(b, set);
     if (status < 0) return status;
     uint8_t *fresh = NULL;
@@ -355,7 +364,7 @@ PERI_API int32_t peri_set_no_fail(peri_body *b, int32_t set, int32_t on) {
 }
 
 PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     if (fn && !b->before) {
         b->before = (uint32_t *)peri__new(&b->memory, b->model->points * b->model->words, sizeof *b->before);
         if (!b->before) return peri__fail(b, PERI_ERROR_MEMORY, "break events", -1, 0.0);
@@ -387,6 +396,8 @@ static double peri__stretch(const peri_body *b, int64_t i, int64_t k) {
 /* Reports the bonds that broke in the blocks whose sums say so. */
 static void peri__report_breaks(peri_body *b) {
     const peri__model *m = b->model;
+    int32_t running = b->running;
+    b->running = 2;
     for (int64_t block = 0; block < m->blocks; ++block) {
         if (b->sums[block].n == 0) continue;
         for (int64_t i = block * PERI_BLOCK; i < peri__min((block + 1) * PERI_BLOCK, m->points); ++i)
@@ -396,4 +407,5 @@ static void peri__report_breaks(peri_body *b) {
                 b->on_break(b->break_user, (int32_t)i, (int32_t)j, b->time * m->time, peri__stretch(b, i, k));
             }
     }
+    b->running = running;
 }

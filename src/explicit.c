@@ -43,36 +43,43 @@ PERI_API double peri_stable_step(const peri_body *b) { return b && b->model ? pe
 static int32_t peri__update_force(peri_body *b) {
     peri__step step = peri__no_step(b);
     const peri__model *m = b->model;
+    int32_t running = b->running;
     if (b->force_current) return PERI_OK;
+    b->running = 2;
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
     int32_t status = peri__apply_loads(b, b->time, 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, b->time, 0.0);
-    if (status < 0) return status;
-    peri__for_points(b, m->points, b->ops->force, &step, b->sums);
-    peri__hold_supports(b, 0.0, 0.0);
-    b->force_current = 1;
-    return PERI_OK;
+    if (status == PERI_OK) {
+        peri__for_points(b, m->points, b->ops->force, &step, b->sums);
+        status = peri__meet_supports(b);
+    }
+    b->running = running;
+    b->force_current = status == PERI_OK;
+    return status;
 }
 
 static void peri__kick(peri_body *b, const peri__step *step, int64_t *bad) {
+    peri__supply_supports(b, step);
     peri__for_points(b, b->model->points, b->ops->kick, (void *)(uintptr_t)step, b->sums);
     peri__sums total = peri__total(b->sums, b->model->points);
     b->ledger.damping += total.b;
     if (bad && *bad < 0) *bad = total.bad;
 }
 
-/* Central difference keeps v half a step behind; these move it there and back. */
-static void peri__stagger(peri_body *b, double dt, double h) {
+/* Central difference keeps v half a step behind. These move it there and back, with their half of what damping takes. */
+static void peri__stagger(peri_body *b, double dt, double damping) {
     peri__step step = peri__no_step(b);
-    step.keep = 1.0 + h;
+    step.keep = 1.0 + 0.5 * damping * dt;
     step.kick = -0.5 * dt;
+    step.loss = b->desc.ledger ? -0.5 * damping * dt : 0.0;
     peri__kick(b, &step, NULL);
 }
 
-static void peri__unstagger(peri_body *b, double dt, double h) {
+static void peri__unstagger(peri_body *b, double dt, double damping) {
     peri__step step = peri__no_step(b);
-    step.keep = 1.0 / (1.0 + h);
-    step.kick = 0.5 * dt / (1.0 + h);
+    step.keep = 1.0 / (1.0 + 0.5 * damping * dt);
+    step.kick = 0.5 * dt * step.keep;
+    step.loss = b->desc.ledger ? 0.5 * damping * dt : 0.0;
     peri__kick(b, &step, NULL);
 }
 
@@ -83,7 +90,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
     peri__step step = peri__no_step(b);
-    int32_t status = peri__drive_supports(b, b->time, dt, damping);
+    int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
         b->force_current = 0;
         return status;
@@ -129,7 +136,6 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
 static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     PERI_NEED(b, r, "run");
     if (r->cookie != PERI_COOKIE_RUN) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "run", -1, 0.0);
-    if (b->running) return peri__fail(b, PERI_ERROR_ORDER, "on_frame", -1, 0.0);
     PERI_NEED(b, r->integrator == PERI_VELOCITY_VERLET || r->integrator == PERI_CENTRAL_DIFFERENCE, "integrator");
     PERI_NEED_NUMBER(b, r->duration >= 0.0, r->duration);
     PERI_NEED_NUMBER(b, r->time_step >= 0.0, r->time_step);
@@ -145,10 +151,7 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     return PERI_OK;
 }
 
-PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
-    PERI_NEED_BUILT(b);
-    int32_t status = peri__check_run(b, r);
-    if (status < 0) return status;
+static int32_t peri__march(peri_body *b, const peri_run *r) {
     const peri__model *m = b->model;
     int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
     double damping = r->damping * m->time, start = b->time, duration = r->duration / m->time;
@@ -160,7 +163,7 @@ PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
         steps = (int64_t)count;
         last = duration - (double)(steps - 1) * dt;
     }
-    status = peri__update_force(b);
+    int32_t status = peri__update_force(b);
     if (status < 0) return status;
     if (b->desc.ledger) peri__settle(b);
     while (done < steps && status == PERI_OK) {
@@ -170,19 +173,19 @@ PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
         if (r->on_frame && r->frame_steps > 0 && stretch > left_to_frame) stretch = left_to_frame;
         if (last < dt && done + stretch == steps && stretch > 1) stretch--;
         if (last < dt && done + 1 == steps) size = last;
-        if (central) peri__stagger(b, size, 0.5 * damping * size);
+        if (central) peri__stagger(b, size, damping);
         for (int64_t k = 0; k < stretch && status == PERI_OK; ++k, ++done) {
             double next = done + 1 == steps && r->steps == 0 ? start + duration : start + (double)done * dt + size;
             status = peri__one_step(b, r, size, next, damping);
         }
-        if (central && status == PERI_OK) peri__unstagger(b, size, 0.5 * damping * size);
+        if (central && status == PERI_OK) peri__unstagger(b, size, damping);
         left_to_frame -= stretch;
         if (status != PERI_OK) break;
         if (r->on_frame && (done == steps || (r->frame_steps > 0 && left_to_frame == 0))) {
             left_to_frame = r->frame_steps;
             b->running = 1;
             int32_t stop = r->on_frame(r->user, b);
-            b->running = 0;
+            b->running = 2;
             if (stop) return PERI_STOPPED;
             status = peri__update_force(b);
             if (b->desc.ledger) peri__settle(b);
@@ -191,12 +194,22 @@ PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
     return status;
 }
 
+PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
+    PERI_NEED_IDLE(b);
+    int32_t status = peri__check_run(b, r);
+    if (status < 0) return status;
+    b->running = 2;
+    status = peri__march(b, r);
+    b->running = 0;
+    return status;
+}
+
 PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
     PERI_NEED_BUILT(b);
     int32_t status = peri__check_load(b, id);
     if (status < 0) return status;
     PERI_NEED(b, force, "force");
-    if (!b->running) status = peri__update_force(b);
+    if (b->running < 2) status = peri__update_force(b);
     if (status < 0) return status;
     const peri__model *m = b->model;
     const peri__load *load = &b->loads[id];

@@ -101,7 +101,7 @@ static void peri__compute(peri_body *b, int32_t field, double *out) {
 /* The force is the one field that a write or a cut can leave out of date. */
 static int32_t peri__ready_field(peri_body *b, int32_t field) {
     if (!peri__field_of(field)) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
-    return field == PERI_FORCE_DENSITY && !b->running ? peri__update_force(b) : PERI_OK;
+    return field == PERI_FORCE_DENSITY && b->running < 2 ? peri__update_force(b) : PERI_OK;
 }
 
 PERI_API int32_t peri_read(peri_body *b, int32_t field, double *out, int64_t capacity) {
@@ -135,11 +135,10 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
 }
 
 PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64_t count) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_IDLE(b);
     const peri__field_row *row = peri__field_of(field);
     if (!row || !row->writable) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
     PERI_NEED(b, in, "in");
-    if (b->running) return peri__fail(b, PERI_ERROR_ORDER, "on_frame", -1, 0.0);
     const peri__model *m = b->model;
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
     for (int64_t k = 0; k < count; ++k)

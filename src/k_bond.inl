@@ -8,7 +8,7 @@
    Each row adds its own bonds in ascending order and writes only to its own point. Both ends of a bond compute the same e to the last
    bit (only signs differ), so both find it broken in the same step without telling each other. */
 
-/* Bond (i, j): reference bond xi and current one y. */
+/* Bond (i, j), entry `at`: reference bond xi and relative displacement eta. */
 PERI_INLINE void PERI_FN(bond_vectors)(const peri_body *b, int64_t i, int64_t at, int64_t j, peri_r *xi, peri_r *eta) {
     const peri__model *m = b->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
@@ -45,6 +45,16 @@ PERI_INLINE const peri__pair *PERI_FN(pair)(const peri_body *b, int64_t i, int64
     return b->cls ? &b->pairs[b->cls[i] * b->classes + b->cls[j]] : b->pairs;
 }
 
+/* Stretch of bond (i, j) as point j sees it. With centroid bonds the two ends differ; the end of lower id decides for both. */
+static peri_r PERI_FN(other_stretch)(const peri_body *b, int64_t i, int64_t j) {
+    const peri__model *m = b->model;
+    int64_t at = j * m->width + peri__find_bond(m, j, i);
+    peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, bond = ((const peri_r *)m->bond)[at];
+    PERI_FN(bond_vectors)(b, j, at, i, xi, eta);
+    (void)PERI_FN(extension)(b->desc.geometry == PERI_LINEAR, xi, eta, bond, &e, y);
+    return e / bond;
+}
+
 /* The textbook kernel of one row: every quantity by its formula. f, impulse: [PERI_D] of row i, see the row below. */
 static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, peri_r *f, peri_r *impulse, double *lost) {
     peri_body *b = step->body;
@@ -62,7 +72,7 @@ static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, pe
         length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         s = e / bond;
         force = (peri_r)pair->c * s * weight;
-        if (step->breaking && flags && s > (peri_r)pair->s0) {
+        if (step->breaking && flags && (m->centroid && j < i ? PERI_FN(other_stretch)(b, i, j) : s) > (peri_r)pair->s0) {
             *flags &= ~flag;
             broke++;
             *lost += 0.25 * pair->c * (double)weight * (double)s * (double)s * (double)bond * m->volume[i];

@@ -16,7 +16,7 @@ static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums 
             int64_t at = d * m->stride + i;
             peri_r *u = (peri_r *)b->u + at, *v = (peri_r *)b->v + at, *f = (peri_r *)b->f + at;
             peri_r old = *v, now = keep * old + kick * *f;
-            if (step->loss > 0.0)
+            if (step->loss != 0.0)
                 work += step->central ? peri__square(0.5 * ((double)old + (double)now)) : (double)old * (double)now;
             *v = now;
             if (step->drift > 0.0) {
@@ -26,7 +26,7 @@ static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums 
             /* a comparison that NaN fails; the bound is far beyond any speed in inner units */
             if (!(now > (peri_r)-1e9 && now < (peri_r)1e9) && sums->bad < 0) sums->bad = i;
         }
-        if (step->loss > 0.0) sums->b += step->loss * work * rho * m->volume[i];
+        if (step->loss != 0.0) sums->b += step->loss * work * rho * m->volume[i];
     }
 }
 

@@ -34,7 +34,7 @@ static void peri__assign_supports(peri_body *b) {
 
 static void peri__free_load(const peri_body *b, peri__load *load) {
     peri__delete(&b->memory, load->value, load->count * b->dim, sizeof(double));
-    peri__delete(&b->memory, load->force, 2 * load->count * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->force, PERI__HELD_PLANES * load->count * b->dim, sizeof(double));
     peri__delete(&b->memory, load->owned, load->count, 1);
     peri__delete(&b->memory, load->all, load->count, sizeof *load->all);
     load->value = load->force = NULL;
@@ -64,7 +64,7 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
         return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     if (fn) load.value = (double *)peri__new(&b->memory, load.count * b->dim, sizeof(double));
     if (fn && set == PERI_ALL) load.all = (int32_t *)peri__new(&b->memory, load.count, sizeof *load.all);
-    if (support) load.force = (double *)peri__new(&b->memory, 2 * load.count * b->dim, sizeof(double));
+    if (support) load.force = (double *)peri__new(&b->memory, PERI__HELD_PLANES * load.count * b->dim, sizeof(double));
     if (support) load.owned = (uint8_t *)peri__new(&b->memory, load.count, 1);
     if ((fn && !load.value) || (fn && set == PERI_ALL && !load.all) || (support && (!load.force || !load.owned))) {
         peri__free_load(b, &load);
@@ -79,25 +79,25 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
 
 PERI_API int32_t peri_prescribe_displacement(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
                                              void *user) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     return peri__add_load(b, PERI__DISPLACEMENT, set, axes, value, fn, user);
 }
 
 PERI_API int32_t peri_prescribe_velocity(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
                                          void *user) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     return peri__add_load(b, PERI__VELOCITY, set, axes, value, fn, user);
 }
 
 PERI_API int32_t peri_apply_body_force(peri_body *b, int32_t set, const double *value, peri_load_fn fn, void *user) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     return peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
 }
 
 PERI_API int32_t peri_apply_traction(peri_body *b, int32_t set, double area, const double *value, peri_load_fn fn,
                                      void *user) {
     double volume = 0.0;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_NUMBER(b, area > 0.0, area);
     int32_t status = peri__check_set(b, set);
     if (status < 0) return status;
@@ -115,7 +115,7 @@ static int32_t peri__check_load(peri_body *b, int32_t load) {
 }
 
 PERI_API int32_t peri_remove_load(peri_body *b, int32_t load) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     int32_t status = peri__check_load(b, load);
     if (status < 0) return status;
     peri__free_load(b, &b->loads[load]);
@@ -174,36 +174,47 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
     return PERI_OK;
 }
 
-/* Before the kick of a step from `time`: sets v of the supported dofs to what carries them through the step, and f to what keeps it
-   there under damping (alpha rho v). The support's work over the step is what the dof gains in kinetic energy, plus what damping takes,
-   less the work of all other forces, 1/2 (F_n + F_n+1).du; the second half of that is added by peri__hold_supports. */
-static int32_t peri__drive_supports(peri_body *b, double time, double dt, double damping) {
+static double *peri__held(const peri_body *b, const peri__load *load, int plane, int64_t k, int32_t d) {
+    return &load->force[(plane * load->count + k) * b->dim + d];
+}
+
+/* Before the kick of a step: sets v of the supported dofs to what carries them through the step, and f to what keeps it there under
+   damping (alpha rho v). The work of a support is what its dof gains in kinetic energy and gives to damping, less the work of all other
+   forces, 1/2 (F_n + F_n+1).du; peri__hold_supports adds the second halves. */
+static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
     const peri__model *m = b->model;
     for (int64_t s = 0; s < b->load_count; ++s) {
         peri__load *load = &b->loads[s];
         if (!load->owned) continue;
-        int moved = load->kind == PERI__DISPLACEMENT;
-        int32_t status = peri__refresh_load(b, load, moved ? time + dt : time + 0.5 * dt);
+        int32_t status = peri__refresh_load(b, load, b->time + dt);
         if (status < 0) return status;
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
-                double rho = m->rho[m->material[i]], value = peri__load_value(b, load, k, d), old, v, work;
+                double rho = m->rho[m->material[i]], value = peri__load_value(b, load, k, d), v, work;
+                double *old = peri__held(b, load, PERI__HELD_VALUE, k, d);
                 if (!(load->owned[k] >> d & 1)) continue;
-                old = peri__get_real(b->v, b->f32, at);
-                if (moved) v = (value / m->length - peri__get_real(b->u, b->f32, at)) / dt;
-                else v = value / peri__velocity_unit(m);
+                if (load->kind == PERI__DISPLACEMENT) {
+                    value /= m->length;
+                    v = (value - peri__get_real(b->u, b->f32, at)) / dt;
+                } else {
+                    value /= peri__velocity_unit(m);
+                    v = 0.5 * (*old + value);
+                }
+                *old = value;
                 peri__put_real(b->v, b->f32, at, v);
-                v = load->force[(load->count + k) * m->dim + d] = peri__get_real(b->v, b->f32, at);
+                v = *peri__held(b, load, PERI__HELD_VELOCITY, k, d) = peri__get_real(b->v, b->f32, at);
                 peri__put_real(b->f, b->f32, at, damping * rho * v);
-                work = 0.5 * rho * (v * v - old * old) + damping * rho * v * v * dt - 0.5 * dt * load->force[k * m->dim + d] * v;
+                work = 0.5 * rho * (v * v - peri__square(*peri__held(b, load, PERI__HELD_ENERGY, k, d)))
+                     - 0.5 * dt * *peri__held(b, load, PERI__HELD_FORCE, k, d) * v;
                 if (b->desc.ledger) b->ledger.external += work * m->volume[i];
             }
     }
     return PERI_OK;
 }
 
-/* After the forces of the new time: keeps them for the reaction and the ledger, and holds the supported dofs. dt > 0 in a step. */
+/* After the forces of the new time: keeps them for the reaction and the ledger, and sets f to what kicks the supported dofs from the
+   velocity of the step to that of its end: the prescribed one, or the mean of the step where displacement is prescribed. */
 static void peri__hold_supports(peri_body *b, double dt, double damping) {
     const peri__model *m = b->model;
     for (int64_t s = 0; s < b->load_count; ++s) {
@@ -212,21 +223,55 @@ static void peri__hold_supports(peri_body *b, double dt, double damping) {
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
-                double rho = m->rho[m->material[i]], force = peri__get_real(b->f, b->f32, at), v;
+                double rho = m->rho[m->material[i]], force = peri__get_real(b->f, b->f32, at);
+                double v = *peri__held(b, load, PERI__HELD_VELOCITY, k, d), end = v, kicked;
                 if (!(load->owned[k] >> d & 1)) continue;
-                load->force[k * m->dim + d] = force;
-                if (!(dt > 0.0)) {
-                    peri__put_real(b->f, b->f32, at, 0.0);
-                    continue;
-                }
-                /* bonds that broke in this step have kicked v away from what the support prescribes */
-                v = load->force[(load->count + k) * m->dim + d];
-                if (b->desc.ledger) {
-                    double kicked = rho * (peri__get_real(b->v, b->f32, at) - v);
-                    b->ledger.external -= (0.5 * dt * force + kicked) * v * m->volume[i];
-                }
+                *peri__held(b, load, PERI__HELD_FORCE, k, d) = force;
+                if (load->kind == PERI__VELOCITY) end = *peri__held(b, load, PERI__HELD_VALUE, k, d);
+                /* bonds that broke in this step have kicked v away from what is prescribed */
+                kicked = rho * (peri__get_real(b->v, b->f32, at) - v);
+                if (b->desc.ledger)
+                    b->ledger.external += (0.5 * rho * (end * end - v * v) - (0.5 * dt * force + kicked) * v) * m->volume[i];
+                *peri__held(b, load, PERI__HELD_ENERGY, k, d) = end;
                 peri__put_real(b->v, b->f32, at, v);
-                peri__put_real(b->f, b->f32, at, damping * rho * v);
+                peri__put_real(b->f, b->f32, at, 2.0 * rho * ((1.0 + 0.5 * damping * dt) * end - v) / dt);
+            }
+    }
+}
+
+/* The same without a step, where forces were taken at a state that the caller may have changed. */
+static int32_t peri__meet_supports(peri_body *b) {
+    const peri__model *m = b->model;
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        peri__load *load = &b->loads[s];
+        if (!load->owned) continue;
+        int32_t status = load->kind == PERI__VELOCITY ? peri__refresh_load(b, load, b->time) : PERI_OK;
+        if (status < 0) return status;
+        for (int64_t k = 0; k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t at = peri__dof(b, load, k, d);
+                if (!(load->owned[k] >> d & 1)) continue;
+                *peri__held(b, load, PERI__HELD_FORCE, k, d) = peri__get_real(b->f, b->f32, at);
+                *peri__held(b, load, PERI__HELD_ENERGY, k, d) = peri__get_real(b->v, b->f32, at);
+                *peri__held(b, load, PERI__HELD_VALUE, k, d) = peri__load_value(b, load, k, d) / peri__velocity_unit(m);
+                peri__put_real(b->f, b->f32, at, 0.0);
+            }
+    }
+    return PERI_OK;
+}
+
+/* The supports make good what the coming kick will take from their dofs by damping: the same formula as in the kick itself. */
+static void peri__supply_supports(peri_body *b, const peri__step *step) {
+    const peri__model *m = b->model;
+    for (int64_t s = 0; s < b->load_count && step->loss != 0.0; ++s) {
+        const peri__load *load = &b->loads[s];
+        for (int64_t k = 0; load->owned && k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
+                double rho = m->rho[m->material[i]], old = peri__get_real(b->v, b->f32, at);
+                double now = step->keep * old + step->kick / rho * peri__get_real(b->f, b->f32, at);
+                if (!(load->owned[k] >> d & 1)) continue;
+                b->ledger.external += step->loss * rho * m->volume[i] * (step->central ? peri__square(0.5 * (old + now)) : old * now);
             }
     }
 }
@@ -254,7 +299,7 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
 PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, const double *normal, double stiffness,
                                          peri_motion_fn motion, void *user) {
     peri__obstacle obstacle;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, place);
     PERI_NEED_VECTOR(b, normal);
     double length = sqrt(peri__dot(normal, normal, b->dim));
@@ -269,7 +314,7 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, cons
 PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, double radius, double stiffness,
                                         peri_motion_fn motion, void *user) {
     peri__obstacle obstacle;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, centre);
     PERI_NEED_NUMBER(b, radius > 0.0, radius);
     memset(&obstacle, 0, sizeof obstacle);

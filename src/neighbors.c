@@ -142,36 +142,46 @@ static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
     return lo < m->count[i] && row[lo] == j ? lo : -1;
 }
 
-/* The caller's rows: padding out, ids checked, ascending. */
+/* Place of the last entry j in the caller's row i. */
+static int64_t peri__given_entry(const peri__setup *s, int64_t i, int64_t j) {
+    int64_t k = (i + 1) * s->ibond_width - 1;
+    while (k > i * s->ibond_width && s->ibond[k] != j) --k;
+    return k;
+}
+
+/* The caller's rows: ids checked, padding out, ascending, each in the row of its partner too. */
 static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
     const peri__setup *s = &b->setup;
     peri__model *m = c->model;
     if (s->ibond_entries != s->point_count * s->ibond_width)
         return peri__fail(b, PERI_ERROR_IBOND, "ibond", -1, (double)s->ibond_entries);
-    m->width = s->ibond_width;
+    for (int64_t k = 0; k < s->ibond_entries; ++k) {
+        int64_t i = k / s->ibond_width, j = s->ibond[k];
+        if (j < 0 || j >= m->points) return peri__fail(b, PERI_ERROR_IBOND, "ibond", k, (double)j);
+        m->count[i] += j != i;
+        m->bonds += j != i;
+        if (m->count[i] > m->width) m->width = m->count[i];
+    }
+    if (m->width == 0) m->width = 1;
     m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
     if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     for (int64_t i = 0; i < m->points; ++i) {
         int32_t *row = &m->ids[i * m->width];
         int64_t count = 0;
-        for (int64_t k = 0; k < m->width; ++k) {
-            int32_t j = s->ibond[i * m->width + k];
-            if (j == i) continue;
-            if (j < 0 || j >= m->points) return peri__fail(b, PERI_ERROR_IBOND, "ibond", i * m->width + k, j);
-            row[count++] = j;
-        }
+        for (int64_t k = i * s->ibond_width; k < (i + 1) * s->ibond_width; ++k)
+            if (s->ibond[k] != i) row[count++] = s->ibond[k];
         peri__sort_row(row, count);
-        m->count[i] = (int32_t)count;
-        m->bonds += count;
         for (int64_t k = 1; k < count; ++k)
-            if (row[k] == row[k - 1]) return peri__fail(b, PERI_ERROR_IBOND, "ibond", i * m->width, row[k]);
+            if (row[k] == row[k - 1])
+                return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, row[k]), (double)row[k]);
         for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
     }
     for (int64_t i = 0; i < m->points; ++i)
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t j = m->ids[i * m->width + k];
             double square = 0.0;
-            if (peri__find_bond(m, j, i) < 0) return peri__fail(b, PERI_ERROR_IBOND, "ibond", i * m->width + k, (double)j);
+            if (peri__find_bond(m, j, i) < 0)
+                return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, j), (double)j);
             for (int32_t d = 0; d < m->dim; ++d) square += peri__square(c->x[j * m->dim + d] - c->x[i * m->dim + d]);
             if (square < 1e-24) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", i > j ? i : j, (double)(i > j ? j : i));
         }

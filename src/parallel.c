@@ -5,6 +5,10 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* Fewer blocks than this (2,048 points) are not worth waking threads for. Blocks are handed out four at a time, so that a thread which
+   the machine takes away holds up the others by four blocks and not by its half. */
+#define PERI_THREAD_BLOCKS 32
+
 typedef void (*peri__block_fn)(void *context, int64_t begin, int64_t end, peri__sums *sums);
 
 typedef struct peri__loop {
@@ -34,9 +38,9 @@ static void peri__for_points(const peri_body *b, int64_t points, peri__block_fn 
         return;
     }
 #if defined(_OPENMP) && !defined(PERI_NO_OPENMP)
-    if (b->desc.threads != 1 && blocks > 1) {
+    if (b->desc.threads != 1 && blocks >= PERI_THREAD_BLOCKS) {
         int threads = b->desc.threads > 0 ? (int)b->desc.threads : omp_get_max_threads();
-#pragma omp parallel for schedule(static) num_threads(threads)
+#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
         for (int64_t k = 0; k < blocks; ++k) peri__block_task(&loop, k);
         return;
     }

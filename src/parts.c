@@ -21,11 +21,11 @@ typedef struct peri__cloud {
 /* Parts by bond vector, for one block of points: a lattice has few different ones. Direct-mapped. */
 #define PERI_PART_SLOTS 256
 typedef struct peri__parts {
-    double  key[PERI_PART_SLOTS][3], part[PERI_PART_SLOTS];
-    uint8_t used[PERI_PART_SLOTS];
+    double             key[PERI_PART_SLOTS][3], part[PERI_PART_SLOTS];
+    const peri__piece *piece[PERI_PART_SLOTS]; /* pieces differ in their cells; NULL: free                               */
 } peri__parts;
 
-static void peri__clear_parts(peri__parts *parts) { memset(parts->used, 0, sizeof parts->used); }
+static void peri__clear_parts(peri__parts *parts) { memset((void *)parts->piece, 0, sizeof parts->piece); }
 
 static const peri__piece *peri__piece_of(const peri__cloud *c, int64_t i) {
     const peri__setup *s = &c->body->setup;
@@ -46,6 +46,18 @@ static void peri__half_cell(const peri__cloud *c, const peri__piece *piece, int6
                                                      : 0.5 * pow(m->volume[i], 1.0 / m->dim);
 }
 
+/* Parts below this are a touch, or the rounding of one: no part. */
+#define PERI_NO_PART 1e-12
+
+static double peri__part_of(peri__overlap o, double whole, double *centroid) {
+    if (!(o.area > PERI_NO_PART * whole)) return 0.0;
+    if (centroid) {
+        centroid[0] = o.moment[0] / o.area;
+        centroid[1] = o.moment[1] / o.area;
+    }
+    return o.area / whole;
+}
+
 /* Part of the moved quadrilateral j, 2D. */
 static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, const double *xi, int64_t j, double *centroid) {
     static const int ring[4] = { 0, 1, 3, 2 };
@@ -56,13 +68,11 @@ static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, c
         for (int d = 0; d < 2; ++d)
             polygon[k][d] = (piece->origin[d] - m->origin[d]) / m->length
                           + corner[ring[k]][d] * (piece->cell[d] / m->length) - xi[d];
-    peri__overlap o = peri__disk_polygon(m->horizon, polygon, 4);
-    if (centroid && o.area > 0.0)
-        for (int d = 0; d < 2; ++d) centroid[d] = o.moment[d] / o.area;
-    return o.area / m->volume[j];
+    return peri__part_of(peri__disk_polygon(m->horizon, polygon, 4), m->volume[j], centroid);
 }
 
-/* Part of cell j within the horizon of i, in [0, 1], and (2D, where asked) the centroid of that part less x_i. */
+/* Part of cell j within the horizon of i, in [0, 1], and (2D, where asked) the centroid of that part less x_i; of the whole cell where
+   there is no part. */
 static double peri__part(const peri__cloud *c, int64_t i, int64_t j, double *centroid) {
     const peri__model *m = c->model;
     const peri__piece *piece = peri__piece_of(c, j);
@@ -83,10 +93,7 @@ static double peri__part(const peri__cloud *c, int64_t i, int64_t j, double *cen
         if (m->dim == 3) {
             part = peri__ball_box(m->horizon, xi, half, c->gauss_x, c->gauss_w) / (8.0 * half[0] * half[1] * half[2]);
         } else {
-            peri__overlap o = peri__disk_rectangle(m->horizon, xi, half[0], half[1]);
-            part = o.area / (4.0 * half[0] * half[1]);
-            if (centroid && o.area > 0.0)
-                for (int d = 0; d < 2; ++d) centroid[d] = o.moment[d] / o.area;
+            part = peri__part_of(peri__disk_rectangle(m->horizon, xi, half[0], half[1]), 4.0 * half[0] * half[1], centroid);
         }
     }
     return part > 1.0 ? 1.0 : part;
@@ -101,8 +108,7 @@ static double peri__ramp(const peri__cloud *c, int64_t i, int64_t j) {
     return part > 1.0 ? 1.0 : part;
 }
 
-/* beta of bond (i,j): the mean of both directions, so that V_i beta V_j is the same from both ends and momentum is conserved.
-   Parts below 1e-12 are a touch, no part: 0. */
+/* beta of bond (i,j): the mean of both directions, so that V_i beta V_j is the same from both ends and momentum is conserved. */
 static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, int64_t j) {
     const peri__model *m = c->model;
     const peri__piece *pi = peri__piece_of(c, i);
@@ -116,7 +122,7 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
     }
     if (!regular) {
         part = 0.5 * (peri__part(c, i, j, NULL) + peri__part(c, j, i, NULL));
-        return part > 1e-12 ? part : 0.0;
+        return part > PERI_NO_PART ? part : 0.0;
     }
     uint64_t hash = 0;
     for (int32_t d = 0; d < m->dim; ++d) { /* the cell is symmetric, so signs do not matter; 2^-44 is below any kink of beta */
@@ -124,10 +130,10 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
         hash = (hash ^ (uint64_t)xi[d]) * UINT64_C(0x9E3779B97F4A7C15);
     }
     slot = (size_t)(hash >> 56) % PERI_PART_SLOTS;
-    if (!parts->used[slot] || memcmp(parts->key[slot], xi, sizeof xi) != 0) {
+    if (parts->piece[slot] != pi || memcmp(parts->key[slot], xi, sizeof xi) != 0) {
         part = peri__part(c, i, j, NULL);
-        parts->part[slot] = part > 1e-12 ? part : 0.0;
-        parts->used[slot] = 1;
+        parts->part[slot] = part > PERI_NO_PART ? part : 0.0;
+        parts->piece[slot] = pi;
         memcpy(parts->key[slot], xi, sizeof xi);
     }
     return parts->part[slot];

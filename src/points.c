@@ -94,45 +94,60 @@ static int32_t peri__is_within(void *user, int64_t index, const double *x) {
     return square <= peri__square(ball->radius * (1.0 + PERI_HORIZON_TOLERANCE));
 }
 
+/* Indices of site k, x fastest. */
+static void peri__site(const peri__piece *piece, int64_t k, int64_t *index) {
+    index[0] = k % piece->cells[0];
+    index[1] = k / piece->cells[0] % piece->cells[1];
+    index[2] = k / piece->cells[0] / piece->cells[1];
+}
+
+/* Marks the sites that `inside` takes, one bit each, and counts them. It sees every site once, in order. */
+static int64_t peri__mark_sites(const peri_body *b, const peri__piece *piece, int64_t sites, peri_point_fn inside, void *user,
+                                uint8_t *taken) {
+    int64_t count = 0;
+    for (int64_t k = 0; k < sites; ++k) {
+        int64_t index[3];
+        double x[3];
+        peri__site(piece, k, index);
+        for (int32_t d = 0; d < b->dim; ++d) x[d] = piece->origin[d] + ((double)index[d] + 0.5) * piece->cell[d];
+        if (!inside(user, k, x)) continue;
+        taken[k / 8] = (uint8_t)(taken[k / 8] | 1 << k % 8);
+        count++;
+    }
+    return count;
+}
+
 /* Adds the sites of a lattice that `inside` takes (all where it is NULL). */
 static int64_t peri__add_lattice(peri_body *b, int32_t material, peri__piece *piece, peri_point_fn inside, void *user) {
     peri__setup *s = &b->setup;
-    int64_t sites = piece->cells[0] * piece->cells[1] * (b->dim == 3 ? piece->cells[2] : 1), added = 0;
+    int64_t sites = piece->cells[0] * piece->cells[1] * (b->dim == 3 ? piece->cells[2] : 1), added = sites;
     double cell_volume = piece->cell[0] * piece->cell[1] * (b->dim == 3 ? piece->cell[2] : 1.0);
-    int32_t status;
+    uint8_t *taken = NULL;
+    int32_t status = PERI_OK;
     if (!(cell_volume > 0.0 && peri__finite(cell_volume)))
         return peri__fail(b, PERI_ERROR_RANGE, "spacing", -1, cell_volume);
-    if (inside) { /* count first, so that a sparse shape takes no more memory than its points */
-        for (int64_t k = 0; k < sites; ++k) {
-            int64_t index[3] = { k % piece->cells[0], k / piece->cells[0] % piece->cells[1],
-                                 k / piece->cells[0] / piece->cells[1] };
-            double x[3];
-            for (int32_t d = 0; d < b->dim; ++d) x[d] = piece->origin[d] + ((double)index[d] + 0.5) * piece->cell[d];
-            added += inside(user, k, x) != 0;
-        }
-    } else {
-        added = sites;
+    if (inside) {
+        taken = (uint8_t *)peri__new(&b->memory, sites / 8 + 1, 1);
+        if (!taken) return peri__fail(b, PERI_ERROR_MEMORY, "shape", -1, 0.0);
+        added = peri__mark_sites(b, piece, sites, inside, user, taken);
+        if (added == 0) status = peri__fail(b, PERI_ERROR_NO_POINTS, "shape", -1, 0.0);
     }
-    if (added == 0) return peri__fail(b, PERI_ERROR_NO_POINTS, "shape", -1, 0.0);
-    status = peri__reserve_points(b, added);
-    if (status < 0) return status;
-
-    int64_t point = s->point_count, end = point + added;
-    for (int64_t k = 0; k < sites && point < end; ++k) {
-        int64_t index[3] = { k % piece->cells[0], k / piece->cells[0] % piece->cells[1],
-                             k / piece->cells[0] / piece->cells[1] };
-        double x[3];
-        for (int32_t d = 0; d < b->dim; ++d) x[d] = piece->origin[d] + ((double)index[d] + 0.5) * piece->cell[d];
-        if (inside && !inside(user, k, x)) continue;
+    if (status == PERI_OK) status = peri__reserve_points(b, added);
+    for (int64_t k = 0, point = s->point_count; status == PERI_OK && k < sites; ++k) {
+        int64_t index[3];
+        if (taken && !(taken[k / 8] >> k % 8 & 1)) continue;
+        peri__site(piece, k, index);
         for (int32_t d = 0; d < b->dim; ++d) s->local[point * b->dim + d] = (double)index[d] + 0.5;
         s->volume[point] = cell_volume;
         s->material[point] = (uint8_t)material;
         point++;
     }
-    piece->count = point - s->point_count;
+    peri__delete(&b->memory, taken, sites / 8 + 1, 1);
+    if (status < 0) return status;
+    piece->count = added;
     s->pieces[s->piece_count++] = *piece;
-    s->point_count = point;
-    return piece->count;
+    s->point_count += added;
+    return added;
 }
 
 PERI_API int64_t peri_add_box(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing) {
@@ -175,7 +190,8 @@ static int64_t peri__vertex_count(const peri__piece *piece, int32_t dim) {
 
 /* The 2^dim vertices of cell k in cell units; bit d of the corner number is its side on axis d. */
 static void peri__cell_vertices(const peri__piece *piece, int32_t dim, int64_t k, double corner[8][3]) {
-    int64_t index[3] = { k % piece->cells[0], k / piece->cells[0] % piece->cells[1], k / piece->cells[0] / piece->cells[1] };
+    int64_t index[3];
+    peri__site(piece, k, index);
     for (int32_t c = 0; c < 1 << dim; ++c) {
         int64_t at = 0;
         for (int32_t d = dim - 1; d >= 0; --d) at = at * (piece->cells[d] + 1) + index[d] + (c >> d & 1);
@@ -322,6 +338,7 @@ static void peri__scale_points(const peri_body *b, peri__model *m, double *x) {
                 x[i * dim + d] = piece->lattice ? (piece->origin[d] - m->origin[d]) / m->length
                                                       + local * (piece->cell[d] / m->length)
                                                 : (local - m->origin[d]) / m->length;
+                if (fabs(x[i * dim + d]) > m->extent) m->extent = fabs(x[i * dim + d]);
             }
     }
     double unit = m->length * m->length * (dim == 3 ? m->length : 1.0);

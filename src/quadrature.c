@@ -12,13 +12,18 @@ static double peri__get_real(const void *array, int32_t f32, int64_t at) {
     return f32 ? (double)((const float *)array)[at] : ((const double *)array)[at];
 }
 
+/* The centroid rule made objective: beta_ij w |centroid bond|/|bond|, w at the centroid of the part of j within the horizon of i. */
+static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, double bond, double edge) {
+    double centre[3], beta = peri__part(c, i, j, centre), length = sqrt(peri__dot(centre, centre, c->model->dim));
+    return beta * peri__influence(&c->body->desc, length / c->model->horizon, edge) * length / bond;
+}
+
 /* Weights of a block of rows. sums->a: largest 2 sum(c w beta V/|xi|)/rho of a point; sums->bad with sums->n = status. */
 static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     const peri_body *b = c->body;
     peri__model *m = c->model;
     int32_t dim = m->dim, quadrature = b->desc.quadrature;
-    int by_centroid = quadrature == PERI_PARTIAL_CENTROID || quadrature == PERI_PARTIAL_MOMENT;
     double edge = 0.5 * m->spacing / m->horizon;
     peri__parts parts;
     peri__clear_parts(&parts);
@@ -37,21 +42,20 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             }
             bond = length = sqrt(square);
             beta = peri__beta(c, &parts, i, j);
-            if (by_centroid) {
+            if (quadrature == PERI_PARTIAL_CENTROID) {
                 (void)peri__part(c, i, j, centre);
                 length = sqrt(peri__dot(centre, centre, dim));
             }
-            w = peri__influence(&b->desc, length / m->horizon, edge);
+            if (quadrature == PERI_PARTIAL_MOMENT)
+                w = 0.5 * (peri__moment_weight(c, i, j, bond, edge) + peri__moment_weight(c, j, i, bond, edge));
+            else
+                w = beta * peri__influence(&b->desc, length / m->horizon, edge);
             if (!peri__finite(w)) {
                 sums->bad = i;
                 sums->n = PERI_ERROR_INFLUENCE;
                 return;
             }
-            w *= beta * m->volume[j];
-            if (quadrature == PERI_PARTIAL_MOMENT) {
-                w *= length / bond;
-                length = bond;
-            }
+            w *= m->volume[j];
             if (m->part) m->part[at] = (float)(beta * m->volume[j]);
             if (m->centroid)
                 for (int32_t d = 0; d < dim; ++d) peri__put_real(m->centroid, b->f32, at * dim + d, centre[d]);

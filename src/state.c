@@ -47,7 +47,6 @@ static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t set,
     PERI_NEED_VECTOR(b, value);
     int32_t status = peri__check_set(b, set);
     if (status < 0) return status;
-    if (b->running) return peri__fail(b, PERI_ERROR_ORDER, "on_frame", -1, 0.0);
     peri__touch(b, 1);
     for (int64_t k = 0; k < peri__set_count(b, set); ++k)
         for (int32_t d = 0; d < b->dim; ++d) {
@@ -58,11 +57,11 @@ static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t set,
 }
 
 PERI_API int32_t peri_add_displacement(peri_body *b, int32_t set, const double *value) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_IDLE(b);
     return peri__add_to(b, b->u, b->model->length, set, value);
 }
 
 PERI_API int32_t peri_add_velocity(peri_body *b, int32_t set, const double *value) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_IDLE(b);
     return peri__add_to(b, b->v, peri__velocity_unit(b->model), set, value);
 }

@@ -39,15 +39,18 @@ PERI_API int32_t peri_last_error(const peri_body *b, peri_error *error) {
 }
 
 PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_t capacity) {
-    char numbers[96], *end = numbers;
+    char numbers[96] = "", *end = numbers;
     if (!error || !error->field || !error->text || capacity < 0 || (!buffer && capacity > 0)) return PERI_ERROR_ARGUMENT;
-    if (error->index >= 0) end = peri__put_integer(peri__put_text(end, ", index "), error->index);
-    if (error->value != 0.0) end = peri__put_double(peri__put_text(end, ", value "), error->value);
+    if (error->index >= 0) end = peri__put_integer(peri__put_text(end, " index "), error->index);
+    if (error->value != 0.0 || error->code == PERI_ERROR_RANGE)
+        end = peri__put_double(peri__put_text(end, end > numbers ? ", value " : " value "), error->value);
     *end = '\0';
 
-    const char *part[5] = { error->text, " (", error->field[0] ? error->field : "-", numbers, ")" };
+    /* "text: field index i, value v", as much of it as there is */
+    const char *part[4] = { error->text, error->field[0] || numbers[0] ? ": " : "", error->field,
+                            error->field[0] || !numbers[0] ? numbers : numbers + 1 };
     int64_t length = 0;
-    for (int k = 0; k < 5; ++k)
+    for (int k = 0; k < 4; ++k)
         for (const char *c = part[k]; *c; ++c, ++length)
             if (length + 1 < capacity) buffer[length] = *c;
     if (capacity > 0) buffer[peri__min(length, capacity - 1)] = '\0';
@@ -81,3 +84,10 @@ static const char *peri__field_name(const char *expression) {
 #define PERI_NEED_NUMBER(b, condition, number)                                                                         \
     if (!(peri__finite(number) && (condition)))                                                                        \
         return peri__fail((b), PERI_ERROR_RANGE, peri__field_name(#number), -1, number)
+/* Of a built body: what a callback within a step may not change; and the state, which no callback may. */
+#define PERI_NEED_CHANGEABLE(b)                                                                                        \
+    PERI_NEED_BUILT(b);                                                                                                \
+    if ((b)->running > 1) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)
+#define PERI_NEED_IDLE(b)                                                                                              \
+    PERI_NEED_BUILT(b);                                                                                                \
+    if ((b)->running) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)

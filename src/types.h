@@ -73,6 +73,7 @@ typedef struct peri__model {
     double  length, stress, density, time, origin[3]; /* the units                                                       */
     double  horizon;           /* inner units                                                                            */
     double  spacing;           /* mean, inner units                                                                      */
+    double  extent;            /* largest coordinate, inner units: times the rounding unit, the error of a position      */
     double  energy;            /* unit of energy, thickness included                                                     */
     double  rate;              /* largest 2 sum(c w V/|xi|)/rho of a point: bounds the square of the highest frequency    */
 
@@ -101,6 +102,15 @@ typedef struct peri__set {
 
 typedef enum peri__load_kind { PERI__FREE, PERI__DISPLACEMENT, PERI__VELOCITY, PERI__FORCE } peri__load_kind;
 
+/* What a support keeps per dof, in planes of load->force; inner units. */
+typedef enum peri__held_plane {
+    PERI__HELD_FORCE,    /* force density of bonds, loads and obstacles, before it was replaced                          */
+    PERI__HELD_VELOCITY, /* what carries the dof through the present step                                                */
+    PERI__HELD_ENERGY,   /* velocity at the last whole step: what the ledger has counted                                 */
+    PERI__HELD_VALUE,    /* prescribed value at the last whole step                                                      */
+    PERI__HELD_PLANES
+} peri__held_plane;
+
 typedef struct peri__load {
     int32_t      kind, set, axes;
     double       constant[3]; /* user's units; for a traction already a force density                                    */
@@ -108,7 +118,7 @@ typedef struct peri__load {
     peri_load_fn fn;
     void        *user;
     double      *value;       /* [count*dim] buffer for fn, user's units; NULL where fn is NULL                          */
-    double      *force;       /* supports: [2][count*dim] force density before it was replaced, velocity held; else NULL */
+    double      *force;       /* supports: [PERI__HELD_PLANES][count*dim]; else NULL                                   */
     int32_t     *all;         /* [count] 0, 1, ... for fn on PERI_ALL, which is stored nowhere else; else NULL           */
     uint8_t     *owned;       /* supports: [count] axes that no later support has taken; else NULL                       */
     int64_t      count;
@@ -187,7 +197,7 @@ struct peri_body {
     int64_t cut, broken, steps; /* cut, broken: directed                                                                 */
     double  time;               /* inner units                                                                           */
     int32_t force_current;      /* 1: f belongs to u, loads and cracks as they are                                       */
-    int32_t running;            /* 1 inside peri_advance                                                                 */
+    int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback: nothing may change   */
     peri__ledger ledger;
 };
 
