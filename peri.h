@@ -38,7 +38,8 @@
               edge is its length [L]; energies and forces include the thickness of the descriptor.
      Points   are numbered from 0 in the order in which you added them. Boxes number x fastest, then y, then z.
      Results  Functions return an int32_t (or int64_t) that is >= 0 on success: PERI_OK, or an id or count where it says so.
-              Negative values are PERI_ERROR_*; peri_last_error tells the field, the first offending point and a limit.
+              Negative values are PERI_ERROR_*; peri_last_error tells the field, the first offending point and a limit
+              (functions on a const body only return the code).
               A call that fails has changed nothing, unless its text says otherwise. An id that came from a failed call is
               negative and is refused by the next call, so a chain of set-up calls cannot go silently wrong.
      Owner    You own what you pass in: descriptors and arrays are copied. The body owns what views point to.
@@ -99,7 +100,7 @@ extern "C" {
     X(ERROR_COINCIDENT, -10, "two points are at the same place")                                                       \
     X(ERROR_NO_POINTS, -11, "the body, or the shape just added, has no point")                                         \
     X(ERROR_HORIZON, -12, "the horizon is smaller than the spacing of the points")                                     \
-    X(ERROR_FAMILY, -13, "a point has no neighbour within its horizon, or none with a weight")                                                \
+    X(ERROR_FAMILY, -13, "a point has no neighbour within its horizon, or none with a weight")                         \
     X(ERROR_IBOND, -14, "the given families are not valid: id out of range, given twice, or not mutual")               \
     X(ERROR_TOO_LARGE, -15, "more points or bonds than 32-bit ids can number, or more than the memory can address")    \
     X(ERROR_SET, -16, "no such set, a name that is taken, or a selection that holds no point")                         \
@@ -120,7 +121,7 @@ typedef enum peri_status { PERI_STATUS_LIST(PERI_STATUS_ENUM_) PERI_STATUS_END_ 
 typedef struct peri_error {
     int32_t     code;     /* a peri_status                                                                              */
     int32_t     reserved; /* 0                                                                                          */
-    int64_t     index;    /* the first offending point, entry or id; -1 where there is none                             */
+    int64_t     index;    /* the first offending point, entry of an array argument, or id; -1 where there is none       */
     double      value;    /* the offending value, or the limit that was passed (see the text); 0 where there is none    */
     const char *field;    /* constant text: the descriptor field or argument at fault, "" where there is none           */
     const char *text;     /* constant text: what is wrong                                                               */
@@ -375,8 +376,9 @@ PERI_API int32_t peri_read_set(peri_body *body, int32_t set, int32_t *points, in
 /* ---- cracks and failure ------------------------------------------------------------------------------------------- */
 
 /* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (tolerance
-   1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). Return the number of bonds (pairs) newly cut. Made before the first step they are the initial crack
-   and survive peri_reset; later they count as broken. */
+   1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). Return the number
+   of bonds (pairs) newly cut. Made before the first step they are the initial crack and survive peri_reset; later they
+   count as broken. */
 PERI_API int64_t peri_cut_segment(peri_body *body, const double *from, const double *to);                    /* 2D        */
 PERI_API int64_t peri_cut_polyline(peri_body *body, int64_t count, const double *vertices);                 /* 2D        */
 PERI_API int64_t peri_cut_disc(peri_body *body, const double *centre, const double *normal, double radius); /* 3D        */
@@ -423,7 +425,8 @@ PERI_API int32_t peri_apply_traction(peri_body *body, int32_t set, double area, 
 /* Takes a load or support away again. Ids of the others stay. */
 PERI_API int32_t peri_remove_load(peri_body *body, int32_t load);
 
-/* Force [M L T^-2] that a support exerts on the body (its prescribed components), or the total of a load, to force[dim]. */
+/* Force [M L T^-2] to force[dim]: of a support on the body (its prescribed components), mean of the last step, so that reactions
+   times steps add up to the momentum given; of a load, its present total. */
 PERI_API int32_t peri_read_reaction(peri_body *body, int32_t load, double *force);
 
 /* Rigid obstacles, by penalty: a point that is `depth` inside is pushed out along the normal with a force density of
@@ -446,7 +449,7 @@ typedef enum peri_integrator {
                                     so that no digits cancel: one kick per step, same motion                             */
 } peri_integrator;
 
-/* Called at every frame and at the end. Nonzero stops: peri_advance returns PERI_STOPPED. It may read the body, write files,
+/* Called every frame_steps steps and at the end of the run. Nonzero stops: peri_advance returns PERI_STOPPED. It may read the body, write files,
    cut, and add or remove loads, but not advance, reset or destroy it. */
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
 
@@ -482,7 +485,7 @@ typedef enum peri_field {
     PERI_VOLUME         = 5,  /* [L^3], 2D: area [L^2]                                                           stored  */
     PERI_MATERIAL       = 6,  /* material id                                                                    derived  */
     PERI_FAMILY_SIZE    = 7,  /* bonds of the point, broken ones included                                       derived  */
-    PERI_DAMAGE         = 8,  /* 1 - intact/all weight volume of the family; initial cuts count        [L]      derived  */
+    PERI_DAMAGE         = 8,  /* 1 - intact/all volume of the family (beta V_j, kept to 6e-8); initial cuts count [L] derived */
     PERI_DAMAGE_GROWN   = 9,  /* the same among bonds that were not cut before the first step                   derived  */
     PERI_ENERGY_DENSITY = 10, /* macroelastic energy density W [M L^-1 T^-2]                      ([P] eq. 7)   derived  */
     PERI_CURRENT        = 11  /* [dim] current position [L]                                                     derived  */
@@ -499,7 +502,8 @@ PERI_API int32_t peri_write(peri_body *body, int32_t field, const double *in, in
 
 /* Where a field lies in memory, without a copy. Component k of point i, in your units, is
        offset[k] + scale * data[i*point_stride + k*component_stride]           (data of the given type)
-   A stored field's view stays valid, and current, until the body is destroyed. A derived one is computed at the call into
+   A stored field's view stays valid until the body is destroyed and shows the present state (forces, once a peri_write or a
+   cut has made them old, from the next peri_advance, peri_read or peri_view_field on). A derived one is computed at the call into
    memory of the body (taken on first use) and is valid until the field is viewed again or the body is destroyed. */
 typedef struct peri_view {
     const void *data;

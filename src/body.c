@@ -431,7 +431,7 @@ PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->broken / 
 
 PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->steps : PERI_ERROR_ARGUMENT; }
 
-PERI_API double peri_time(const peri_body *b) { return b && b->model ? b->time * b->model->time : 0.0; }
+PERI_API double peri_time(const peri_body *b) { return b ? b->time : 0.0; }
 
 PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows, int64_t capacity) {
     PERI_NEED_BUILT(b);

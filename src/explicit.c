@@ -83,7 +83,7 @@ static void peri__unstagger(peri_body *b, double dt, double damping) {
     peri__kick(b, &step, NULL);
 }
 
-/* One step of dt to the time `next`, all in inner units. */
+/* One step of dt (inner units) to the time `next`. */
 static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double next, double damping) {
     const peri__model *m = b->model;
     int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
@@ -129,7 +129,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
         step.drift = 0.0;
         peri__kick(b, &step, &bad);
     }
-    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "velocity", bad, b->time * m->time);
+    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "velocity", bad, b->time);
     return PERI_OK;
 }
 
@@ -151,6 +151,17 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     return PERI_OK;
 }
 
+/* on_frame, and what it may have changed. */
+static int32_t peri__show_frame(peri_body *b, const peri_run *r) {
+    b->running = 1;
+    int32_t stop = r->on_frame(r->user, b);
+    b->running = 2;
+    if (stop) return PERI_STOPPED;
+    int32_t status = peri__update_force(b);
+    if (b->desc.ledger) peri__settle(b);
+    return status;
+}
+
 static int32_t peri__march(peri_body *b, const peri_run *r) {
     const peri__model *m = b->model;
     int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
@@ -166,6 +177,7 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
     int32_t status = peri__update_force(b);
     if (status < 0) return status;
     if (b->desc.ledger) peri__settle(b);
+    if (steps == 0 && r->on_frame) return peri__show_frame(b, r);
     while (done < steps && status == PERI_OK) {
         /* a stretch of steps of one size, up to the next frame */
         int64_t stretch = steps - done;
@@ -175,7 +187,8 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
         if (last < dt && done + 1 == steps) size = last;
         if (central) peri__stagger(b, size, damping);
         for (int64_t k = 0; k < stretch && status == PERI_OK; ++k, ++done) {
-            double next = done + 1 == steps && r->steps == 0 ? start + duration : start + (double)done * dt + size;
+            double next = start + ((double)done * dt + size) * m->time;
+            if (done + 1 == steps && r->steps == 0) next = start + r->duration;
             status = peri__one_step(b, r, size, next, damping);
         }
         if (central && status == PERI_OK) peri__unstagger(b, size, damping);
@@ -183,12 +196,7 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
         if (status != PERI_OK) break;
         if (r->on_frame && (done == steps || (r->frame_steps > 0 && left_to_frame == 0))) {
             left_to_frame = r->frame_steps;
-            b->running = 1;
-            int32_t stop = r->on_frame(r->user, b);
-            b->running = 2;
-            if (stop) return PERI_STOPPED;
-            status = peri__update_force(b);
-            if (b->desc.ledger) peri__settle(b);
+            status = peri__show_frame(b, r);
         }
     }
     return status;
@@ -217,7 +225,8 @@ PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
     for (int64_t k = 0; k < load->count; ++k)
         for (int32_t d = 0; d < m->dim; ++d) {
             double volume = m->volume[peri__set_point(b, load->set, k)];
-            if (load->owned) total[d] -= load->owned[k] >> d & 1 ? load->force[k * m->dim + d] * volume : 0.0;
+            if (load->owned && !(load->owned[k] >> d & 1)) continue;
+            if (load->owned) total[d] += *peri__held(b, load, PERI__HELD_REACTION, k, d) * volume;
             else total[d] += peri__load_value(b, load, k, d) * load->per_value / peri__force_unit(m) * volume;
         }
     for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;

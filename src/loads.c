@@ -130,12 +130,12 @@ static double peri__load_value(const peri_body *b, const peri__load *load, int64
     return load->fn ? load->value[k * b->dim + d] : load->constant[d];
 }
 
-/* Asks the callback for its values at a time (inner units). */
+/* Asks the callback for its values at a time. */
 static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
     if (!load->fn) return PERI_OK;
     for (int64_t k = 0; k < load->count; ++k)
         for (int32_t d = 0; d < b->dim; ++d) load->value[k * b->dim + d] = load->constant[d];
-    load->fn(load->user, time * b->model->time, load->count, load->all ? load->all : b->sets[load->set - 1].points,
+    load->fn(load->user, time, load->count, load->all ? load->all : b->sets[load->set - 1].points,
              load->value);
     for (int64_t k = 0; k < load->count * b->dim; ++k)
         if (!peri__finite(load->value[k]))
@@ -186,13 +186,13 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
     for (int64_t s = 0; s < b->load_count; ++s) {
         peri__load *load = &b->loads[s];
         if (!load->owned) continue;
-        int32_t status = peri__refresh_load(b, load, b->time + dt);
+        int32_t status = peri__refresh_load(b, load, b->time + dt * m->time);
         if (status < 0) return status;
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
                 double rho = m->rho[m->material[i]], value = peri__load_value(b, load, k, d), v, work;
-                double *old = peri__held(b, load, PERI__HELD_VALUE, k, d);
+                double *old = peri__held(b, load, PERI__HELD_VALUE, k, d), force, before;
                 if (!(load->owned[k] >> d & 1)) continue;
                 if (load->kind == PERI__DISPLACEMENT) {
                     value /= m->length;
@@ -205,8 +205,11 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
                 peri__put_real(b->v, b->f32, at, v);
                 v = *peri__held(b, load, PERI__HELD_VELOCITY, k, d) = peri__get_real(b->v, b->f32, at);
                 peri__put_real(b->f, b->f32, at, damping * rho * v);
-                work = 0.5 * rho * (v * v - peri__square(*peri__held(b, load, PERI__HELD_ENERGY, k, d)))
-                     - 0.5 * dt * *peri__held(b, load, PERI__HELD_FORCE, k, d) * v;
+                force = *peri__held(b, load, PERI__HELD_FORCE, k, d);
+                before = *peri__held(b, load, PERI__HELD_ENERGY, k, d);
+                work = 0.5 * rho * (v * v - before * before) - 0.5 * dt * force * v;
+                *peri__held(b, load, PERI__HELD_REACTION, k, d) =
+                    rho * (v - (1.0 - 0.5 * damping * dt) * before) / dt - 0.5 * force;
                 if (b->desc.ledger) b->ledger.external += work * m->volume[i];
             }
     }
@@ -224,7 +227,7 @@ static void peri__hold_supports(peri_body *b, double dt, double damping) {
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
                 double rho = m->rho[m->material[i]], force = peri__get_real(b->f, b->f32, at);
-                double v = *peri__held(b, load, PERI__HELD_VELOCITY, k, d), end = v, kicked;
+                double v = *peri__held(b, load, PERI__HELD_VELOCITY, k, d), end = v, kicked, need;
                 if (!(load->owned[k] >> d & 1)) continue;
                 *peri__held(b, load, PERI__HELD_FORCE, k, d) = force;
                 if (load->kind == PERI__VELOCITY) end = *peri__held(b, load, PERI__HELD_VALUE, k, d);
@@ -233,8 +236,10 @@ static void peri__hold_supports(peri_body *b, double dt, double damping) {
                 if (b->desc.ledger)
                     b->ledger.external += (0.5 * rho * (end * end - v * v) - (0.5 * dt * force + kicked) * v) * m->volume[i];
                 *peri__held(b, load, PERI__HELD_ENERGY, k, d) = end;
+                need = 2.0 * rho * ((1.0 + 0.5 * damping * dt) * end - v) / dt;
                 peri__put_real(b->v, b->f32, at, v);
-                peri__put_real(b->f, b->f32, at, 2.0 * rho * ((1.0 + 0.5 * damping * dt) * end - v) / dt);
+                peri__put_real(b->f, b->f32, at, need);
+                *peri__held(b, load, PERI__HELD_REACTION, k, d) += 0.5 * (need - force) - kicked / dt;
             }
     }
 }
@@ -253,6 +258,7 @@ static int32_t peri__meet_supports(peri_body *b) {
                 if (!(load->owned[k] >> d & 1)) continue;
                 *peri__held(b, load, PERI__HELD_FORCE, k, d) = peri__get_real(b->f, b->f32, at);
                 *peri__held(b, load, PERI__HELD_ENERGY, k, d) = peri__get_real(b->v, b->f32, at);
+                *peri__held(b, load, PERI__HELD_REACTION, k, d) = -peri__get_real(b->f, b->f32, at);
                 *peri__held(b, load, PERI__HELD_VALUE, k, d) = peri__load_value(b, load, k, d) / peri__velocity_unit(m);
                 peri__put_real(b->f, b->f32, at, 0.0);
             }
@@ -332,7 +338,7 @@ static int32_t peri__move_obstacles(peri_body *b, double time) {
         double place[3] = { 0.0, 0.0, 0.0 };
         if (!o->motion) continue;
         for (int32_t d = 0; d < b->dim; ++d) place[d] = b->model->origin[d] + o->place0[d] * b->model->length;
-        o->motion(o->user, time * b->model->time, place);
+        o->motion(o->user, time, place);
         if (!peri__finite_vector(place, b->dim)) return peri__fail(b, PERI_ERROR_CALLBACK, "motion", k, 0.0);
         peri__inner(b, place, o->place);
     }

@@ -58,9 +58,9 @@ static int32_t peri__sort_cells(peri__cloud *c, const peri__memory *memory) {
 }
 
 /* Visits the family of i: writes ids (unless row is NULL) and returns their number, or -1 - j where point j is at the same place. */
-static int64_t peri__visit_family(const peri__cloud *c, peri__parts *cache, int64_t i, int32_t *row) {
+static int64_t peri__visit_family(const peri__cloud *c, int64_t i, int32_t *row) {
     const peri__model *m = c->model;
-    int32_t dim = m->dim, quadrature = c->body->desc.quadrature;
+    int32_t dim = m->dim;
     int64_t at[3] = { 0, 0, 0 }, count = 0, lo[3] = { 0, 0, 0 }, hi[3] = { 0, 0, 0 };
     const double *xi = &c->x[i * dim];
     (void)peri__cell_of(c, xi, at);
@@ -78,7 +78,7 @@ static int64_t peri__visit_family(const peri__cloud *c, peri__parts *cache, int6
                 for (int32_t d = 0; d < dim; ++d) square += peri__square(c->x[j * dim + d] - xi[d]);
                 if (!(square <= c->reach2)) continue;
                 if (square < 1e-24) return -1 - j;
-                if (quadrature != PERI_FULL_VOLUME && !(peri__beta(c, cache, i, j) > 0.0)) continue;
+                if (!peri__is_family(c, i, j)) continue;
                 if (row) row[count] = (int32_t)j;
                 count++;
             }
@@ -100,10 +100,8 @@ static void peri__sort_row(int32_t *row, int64_t count) {
 
 static void peri__count_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
-    peri__parts cache;
-    peri__clear_parts(&cache);
     for (int64_t i = begin; i < end; ++i) {
-        int64_t count = peri__visit_family(c, &cache, i, NULL);
+        int64_t count = peri__visit_family(c, i, NULL);
         if (count < 0) {
             if (sums->bad < 0) {
                 sums->bad = i > -1 - count ? i : -1 - count;
@@ -119,12 +117,10 @@ static void peri__count_block(void *context, int64_t begin, int64_t end, peri__s
 static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     peri__model *m = c->model;
-    peri__parts cache;
-    peri__clear_parts(&cache);
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         int32_t *row = &m->ids[i * m->width];
-        int64_t count = peri__visit_family(c, &cache, i, row);
+        int64_t count = peri__visit_family(c, i, row);
         peri__sort_row(row, count);
         for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
     }

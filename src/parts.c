@@ -71,23 +71,29 @@ static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, c
     return peri__part_of(peri__disk_polygon(m->horizon, polygon, 4), m->volume[j], centroid);
 }
 
+/* Squares of the distances from a point to the nearest and the farthest place of a box at xi with the given half edges. */
+static void peri__box_distances(const double *xi, const double *half, int32_t dim, double *near2, double *far2) {
+    *near2 = *far2 = 0.0;
+    for (int32_t d = 0; d < dim; ++d) {
+        double a = fabs(xi[d]);
+        if (a > half[d]) *near2 += peri__square(a - half[d]);
+        *far2 += peri__square(a + half[d]);
+    }
+}
+
 /* Part of cell j within the horizon of i, in [0, 1], and (2D, where asked) the centroid of that part less x_i; of the whole cell where
    there is no part. */
 static double peri__part(const peri__cloud *c, int64_t i, int64_t j, double *centroid) {
     const peri__model *m = c->model;
     const peri__piece *piece = peri__piece_of(c, j);
-    double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2 = 0.0, far2 = 0.0, part;
+    double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2, part;
     for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
     if (centroid) memcpy(centroid, xi, (size_t)m->dim * sizeof(double));
     if (piece->vertices && m->dim == 2) {
         part = peri__moved_part(c, piece, &c->x[i * 2], j, centroid);
     } else {
         peri__half_cell(c, piece, j, half);
-        for (int32_t d = 0; d < m->dim; ++d) {
-            double a = fabs(xi[d]);
-            if (a > half[d]) near2 += peri__square(a - half[d]);
-            far2 += peri__square(a + half[d]);
-        }
+        peri__box_distances(xi, half, m->dim, &near2, &far2);
         if (far2 <= m->horizon * m->horizon) return 1.0;
         if (near2 >= m->horizon * m->horizon) return 0.0;
         if (m->dim == 3) {
@@ -116,10 +122,7 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
     int regular = pi->lattice && !pi->vertices && j >= pi->first && j < pi->first + pi->count;
     size_t slot = 0;
     if (c->body->desc.quadrature == PERI_FULL_VOLUME) return 1.0;
-    if (c->body->desc.quadrature == PERI_VOLUME_RAMP) {
-        part = peri__ramp(c, i, j);
-        return part > 1e-9 ? part : 0.0;
-    }
+    if (c->body->desc.quadrature == PERI_VOLUME_RAMP) return peri__ramp(c, i, j);
     if (!regular) {
         part = 0.5 * (peri__part(c, i, j, NULL) + peri__part(c, j, i, NULL));
         return part > PERI_NO_PART ? part : 0.0;
@@ -137,4 +140,25 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
         memcpy(parts->key[slot], xi, sizeof xi);
     }
     return parts->part[slot];
+}
+
+/* Is any part of cell j within the horizon of i? Cheap for boxes: in 3D the part itself is an integral. */
+static int peri__has_part(const peri__cloud *c, int64_t i, int64_t j) {
+    const peri__model *m = c->model;
+    const peri__piece *piece = peri__piece_of(c, j);
+    double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2;
+    if (piece->vertices && m->dim == 2) return peri__part(c, i, j, NULL) > 0.0;
+    for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
+    peri__half_cell(c, piece, j, half);
+    peri__box_distances(xi, half, m->dim, &near2, &far2);
+    return near2 < m->horizon * m->horizon * (1.0 - PERI_HORIZON_TOLERANCE);
+}
+
+/* Is j in the family of i, given that it is within reach? Mutual. */
+static int peri__is_family(const peri__cloud *c, int64_t i, int64_t j) {
+    switch (c->body->desc.quadrature) {
+    case PERI_FULL_VOLUME: return 1;
+    case PERI_VOLUME_RAMP: return peri__ramp(c, i, j) > PERI_HORIZON_TOLERANCE;
+    default: return peri__has_part(c, i, j) || peri__has_part(c, j, i);
+    }
 }

@@ -108,6 +108,7 @@ typedef enum peri__held_plane {
     PERI__HELD_VELOCITY, /* what carries the dof through the present step                                                */
     PERI__HELD_ENERGY,   /* velocity at the last whole step: what the ledger has counted                                 */
     PERI__HELD_VALUE,    /* prescribed value at the last whole step                                                      */
+    PERI__HELD_REACTION, /* force density that the support gave, mean of the last step                                   */
     PERI__HELD_PLANES
 } peri__held_plane;
 
@@ -195,7 +196,7 @@ struct peri_body {
     void           *break_user;
 
     int64_t cut, broken, steps; /* cut, broken: directed                                                                 */
-    double  time;               /* inner units                                                                           */
+    double  time;               /* [T], the caller's unit: a run ends at its duration to the last bit                    */
     int32_t force_current;      /* 1: f belongs to u, loads and cracks as they are                                       */
     int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback: nothing may change   */
     peri__ledger ledger;

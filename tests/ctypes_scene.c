@@ -1,0 +1,114 @@
+/* ctypes_scene.c - the scene of test_ctypes.py in C: a notched bar, pulled by a load that a callback sets, watched by a frame
+   callback, until it tears. Prints every number with 17 digits, one a line; test_ctypes.py must get the same from the library
+   through ctypes, in the same order. First the layout of the structures. */
+#include "../peri.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+static void show(double v) { printf("%.17g\n", v); }
+
+static void pull(void *user, double time, int64_t count, const int32_t *points, double *value) {
+    int64_t i;
+    ++*(int *)user;
+    for (i = 0; i < count; ++i) value[2 * i] = value[2 * i] * (1.0 + 0.25 * time) + points[i] * 0.0001;
+}
+static int32_t on_frame(void *user, peri_body *body) {
+    double u[2 * 96];
+    ++*(int *)user;
+    if (peri_read(body, PERI_DISPLACEMENT, u, 2 * 96) < 0) return 1;
+    show(peri_time(body));
+    show(u[2 * 95]);
+    return 0;
+}
+static void on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+    ++*(int *)user;
+    show(i);
+    show(j);
+    show(time);
+    show(stretch);
+}
+
+int main(void) {
+    const double lo[2] = {0, 0}, hi[2] = {1.6, 0.6}, left[2] = {0.2, 0.6}, right[2] = {1.4, 0}, t[2] = {0.09, 0};
+    const double a[2] = {0.8, 0}, b[2] = {0.8, 0.2};
+    const int32_t fields[4] = {PERI_DISPLACEMENT, PERI_VELOCITY, PERI_DAMAGE, PERI_FAMILY_SIZE};
+    double v[2 * 96], force[2];
+    int loads = 0, frames = 0, breaks = 0, k;
+    int64_t i, status = 0;
+    peri_body_desc d;
+    peri_material m;
+    peri_body *body = NULL;
+    peri_error error;
+    peri_run run;
+    peri_energy e;
+    peri_view view;
+
+    show((double)sizeof(peri_error));
+    show((double)sizeof(peri_body_desc));
+    show((double)sizeof(peri_material));
+    show((double)sizeof(peri_run));
+    show((double)sizeof(peri_view));
+    show((double)sizeof(peri_energy));
+    show((double)offsetof(peri_body_desc, horizon));
+    show((double)offsetof(peri_body_desc, log_user));
+    show((double)offsetof(peri_run, on_frame));
+
+    peri_body_desc_init(&d);
+    show(d.precision);
+    show(d.thickness);
+    d.space = PERI_PLANE_STRESS;
+    d.horizon = 0.3;
+    d.thickness = 0.5;
+    if (peri_body_create(&d, &body, &error) < 0) return 1;
+    peri_material_init(&m, PERI_BOND_BASED);
+    m.young = 3;
+    m.density = 2;
+    m.critical_stretch = 0.02;
+    status |= peri_add_material(body, &m);
+    show((double)peri_add_box(body, 0, lo, hi, 0.1));
+    status |= peri_build(body);
+    show((double)peri_bond_count(body));
+    show((double)peri_cut_segment(body, a, b));
+    status |= peri_select_box(body, "left", lo, left);
+    status |= peri_select_box(body, "right", right, hi);
+    status |= peri_prescribe_displacement(body, peri_find_set(body, "left"), PERI_X | PERI_Y, NULL, NULL, NULL);
+    status |= peri_apply_traction(body, peri_find_set(body, "right"), 0.6, t, pull, &loads);
+    status |= peri_set_no_fail(body, 1, 1);
+    status |= peri_set_no_fail(body, 2, 1);
+    status |= peri_on_break(body, on_break, &breaks);
+    show(peri_stable_step(body));
+    peri_run_init(&run);
+    show(run.safety);
+    run.duration = 8;
+    run.frame_steps = 20;
+    run.on_frame = on_frame;
+    run.user = &frames;
+    status |= peri_advance(body, &run);
+    if (status < 0) return 2;
+    for (k = 0; k < 4; ++k) {
+        int64_t n = peri_field_size(body, fields[k]);
+        if (peri_read(body, fields[k], v, n) < 0) return 3;
+        for (i = 0; i < n; ++i) show(v[i]);
+    }
+    if (peri_read_energy(body, &e) < 0 || peri_read_reaction(body, 0, force) < 0) return 4;
+    show(e.kinetic);
+    show(e.elastic);
+    show(e.external);
+    show(e.fracture);
+    show(e.initial);
+    show(e.error);
+    show(force[0]);
+    show(force[1]);
+    if (peri_view_field(body, PERI_VELOCITY, &view) < 0) return 5;
+    show(view.scale * ((const double *)view.data)[95 * view.point_stride + view.component_stride] + view.offset[1]);
+    show(loads);
+    show(frames);
+    show(breaks);
+    run.time_step = 1;
+    show(peri_advance(body, &run));
+    if (peri_last_error(body, &error) < 0) return 6;
+    show(error.code);
+    show(error.value);
+    peri_body_destroy(body);
+    return 0;
+}

@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""The library through a foreign function interface: python3 tests/test_ctypes.py path/to/libperi.so path/to/ctypes_scene
+
+Runs the scene of ctypes_scene.c through ctypes, callbacks in Python included, and compares every number with what the C
+program prints. SOURCE OF TRUTH: the C program, linked against the same library: exact equality. No packages beyond Python.
+"""
+import ctypes as C
+import subprocess
+import sys
+
+ALLOC = C.CFUNCTYPE(C.c_void_p, C.c_void_p, C.c_uint64)
+RELEASE = C.CFUNCTYPE(None, C.c_void_p, C.c_void_p, C.c_uint64)
+LOAD = C.CFUNCTYPE(None, C.c_void_p, C.c_double, C.c_int64, C.POINTER(C.c_int32), C.POINTER(C.c_double))
+FRAME = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_void_p)
+BREAK = C.CFUNCTYPE(None, C.c_void_p, C.c_int32, C.c_int32, C.c_double, C.c_double)
+PLANE_STRESS, BOND_BASED = 1, 1
+DISPLACEMENT, VELOCITY, FAMILY_SIZE, DAMAGE = 2, 3, 7, 8
+ERROR_STEP = -20
+
+
+class Error(C.Structure):
+    _fields_ = [("code", C.c_int32), ("reserved", C.c_int32), ("index", C.c_int64), ("value", C.c_double),
+                ("field", C.c_char_p), ("text", C.c_char_p)]
+
+
+class BodyDesc(C.Structure):
+    _fields_ = ([("cookie", C.c_uint64)]
+                + [(n, C.c_int32) for n in ("space", "precision", "geometry", "influence", "quadrature", "break_timing",
+                                            "threads", "reference", "ledger", "reserved")]
+                + [("horizon", C.c_double), ("thickness", C.c_double)]
+                + [(n, C.c_void_p) for n in ("influence_fn", "influence_user")]
+                + [("allocate", ALLOC), ("release", RELEASE)]
+                + [(n, C.c_void_p) for n in ("memory_user", "parallel_for", "parallel_user", "log", "log_user")])
+
+
+class Material(C.Structure):
+    _fields_ = ([("cookie", C.c_uint64), ("model", C.c_int32), ("reserved", C.c_int32)]
+                + [(n, C.c_double) for n in ("young", "bulk", "poisson", "density", "fracture_energy", "critical_stretch")])
+
+
+class Run(C.Structure):
+    _fields_ = ([("cookie", C.c_uint64), ("integrator", C.c_int32), ("force_step", C.c_int32), ("steps", C.c_int64)]
+                + [(n, C.c_double) for n in ("duration", "time_step", "safety", "damping")]
+                + [("frame_steps", C.c_int64), ("on_frame", FRAME), ("user", C.c_void_p)])
+
+
+class View(C.Structure):
+    _fields_ = [("data", C.c_void_p), ("count", C.c_int64), ("point_stride", C.c_int64), ("component_stride", C.c_int64),
+                ("components", C.c_int32), ("type", C.c_int32), ("scale", C.c_double), ("offset", C.c_double * 3)]
+
+
+class Energy(C.Structure):
+    _fields_ = [(n, C.c_double) for n in ("kinetic", "elastic", "external", "obstacle", "damping", "fracture", "initial",
+                                          "error")]
+
+
+def doubles(*values):
+    return (C.c_double * len(values))(*values)
+
+
+def declare(lib):
+    p, i32, i64, f64 = C.c_void_p, C.c_int32, C.c_int64, C.c_double
+    signatures = {
+        "peri_status_text": (C.c_char_p, [i32]), "peri_body_desc_init": (None, [p]), "peri_body_destroy": (None, [p]),
+        "peri_body_create": (i32, [p, p, p]), "peri_last_error": (i32, [p, p]), "peri_material_init": (None, [p, i32]),
+        "peri_add_material": (i32, [p, p]), "peri_add_box": (i64, [p, i32, p, p, f64]), "peri_build": (i32, [p]),
+        "peri_bond_count": (i64, [p]), "peri_cut_segment": (i64, [p, p, p]),
+        "peri_select_box": (i32, [p, C.c_char_p, p, p]), "peri_find_set": (i32, [p, C.c_char_p]),
+        "peri_prescribe_displacement": (i32, [p, i32, i32, p, p, p]),
+        "peri_apply_traction": (i32, [p, i32, f64, p, LOAD, p]), "peri_set_no_fail": (i32, [p, i32, i32]),
+        "peri_on_break": (i32, [p, BREAK, p]), "peri_stable_step": (f64, [p]), "peri_run_init": (None, [p]),
+        "peri_advance": (i32, [p, p]), "peri_time": (f64, [p]), "peri_field_size": (i64, [p, i32]),
+        "peri_read": (i32, [p, i32, p, i64]), "peri_read_energy": (i32, [p, p]), "peri_read_reaction": (i32, [p, i32, p]),
+        "peri_view_field": (i32, [p, i32, p])}
+    for name, (result, arguments) in signatures.items():
+        function = getattr(lib, name)
+        function.restype, function.argtypes = result, arguments
+
+
+def scene(lib):
+    """The numbers of ctypes_scene.c, in its order; and what failed on the way."""
+    out, counts = [], {"load": 0, "frame": 0, "break": 0}
+    failures = []
+
+    def must(result):
+        if result < 0:
+            failures.append(lib.peri_status_text(result).decode())
+        return result
+
+    @LOAD
+    def pull(_user, time, count, points, value):
+        counts["load"] += 1
+        for i in range(count):
+            value[2 * i] = value[2 * i] * (1.0 + 0.25 * time) + points[i] * 0.0001
+
+    @FRAME
+    def on_frame(_user, handle):
+        counts["frame"] += 1
+        u = (C.c_double * (2 * 96))()
+        must(lib.peri_read(handle, DISPLACEMENT, u, 2 * 96))
+        out.extend([lib.peri_time(handle), u[2 * 95]])
+        return 0
+
+    @BREAK
+    def on_break(_user, i, j, time, stretch):
+        counts["break"] += 1
+        out.extend([i, j, time, stretch])
+
+    out += [C.sizeof(s) for s in (Error, BodyDesc, Material, Run, View, Energy)]
+    out += [BodyDesc.horizon.offset, BodyDesc.log_user.offset, Run.on_frame.offset]
+    d, m, run, e, view, error, body = BodyDesc(), Material(), Run(), Energy(), View(), Error(), C.c_void_p()
+    lib.peri_body_desc_init(C.byref(d))
+    out += [d.precision, d.thickness]
+    d.space, d.horizon, d.thickness = PLANE_STRESS, 0.3, 0.5
+    must(lib.peri_body_create(C.byref(d), C.byref(body), C.byref(error)))
+    lib.peri_material_init(C.byref(m), BOND_BASED)
+    m.young, m.density, m.critical_stretch = 3, 2, 0.02
+    must(lib.peri_add_material(body, C.byref(m)))
+    out.append(must(lib.peri_add_box(body, 0, doubles(0, 0), doubles(1.6, 0.6), 0.1)))
+    must(lib.peri_build(body))
+    out.append(lib.peri_bond_count(body))
+    out.append(must(lib.peri_cut_segment(body, doubles(0.8, 0), doubles(0.8, 0.2))))
+    must(lib.peri_select_box(body, b"left", doubles(0, 0), doubles(0.2, 0.6)))
+    must(lib.peri_select_box(body, b"right", doubles(1.4, 0), doubles(1.6, 0.6)))
+    must(lib.peri_prescribe_displacement(body, lib.peri_find_set(body, b"left"), 3, None, None, None))
+    must(lib.peri_apply_traction(body, lib.peri_find_set(body, b"right"), 0.6, doubles(0.09, 0), pull, None))
+    must(lib.peri_set_no_fail(body, 1, 1))
+    must(lib.peri_set_no_fail(body, 2, 1))
+    must(lib.peri_on_break(body, on_break, None))
+    out.append(lib.peri_stable_step(body))
+    lib.peri_run_init(C.byref(run))
+    out.append(run.safety)
+    run.duration, run.frame_steps, run.on_frame = 8, 20, on_frame
+    must(lib.peri_advance(body, C.byref(run)))
+    for field in (DISPLACEMENT, VELOCITY, DAMAGE, FAMILY_SIZE):
+        n = lib.peri_field_size(body, field)
+        v = (C.c_double * n)()
+        must(lib.peri_read(body, field, v, n))
+        out += list(v)
+    must(lib.peri_read_energy(body, C.byref(e)))
+    force = doubles(0, 0)
+    must(lib.peri_read_reaction(body, 0, force))
+    out += [e.kinetic, e.elastic, e.external, e.fracture, e.initial, e.error, force[0], force[1]]
+    must(lib.peri_view_field(body, VELOCITY, C.byref(view)))
+    data = C.cast(view.data, C.POINTER(C.c_double))
+    out.append(view.scale * data[95 * view.point_stride + view.component_stride] + view.offset[1])
+    out += [counts["load"], counts["frame"], counts["break"]]
+    run.time_step = 1
+    out.append(lib.peri_advance(body, C.byref(run)))
+    must(lib.peri_last_error(body, C.byref(error)))
+    out += [error.code, error.value]
+    if b"step" not in error.text or b"time_step" not in error.field:
+        failures.append("error record: %r, %r" % (error.text, error.field))
+    lib.peri_body_destroy(body)
+    return out, counts, failures
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    passed, failed = 0, 0
+
+    def check(condition, text):
+        nonlocal passed, failed
+        passed, failed = passed + bool(condition), failed + (not condition)
+        if not condition and failed <= 10:
+            print("    " + text)
+
+    lib = C.CDLL(sys.argv[1])
+    declare(lib)
+    mine, counts, failures = scene(lib)
+    run = subprocess.run([sys.argv[2]], stdout=subprocess.PIPE, universal_newlines=True)
+    theirs = [float(line) for line in run.stdout.split()]
+    check(run.returncode == 0, "%s returned %d" % (sys.argv[2], run.returncode))
+    check(not failures, "through ctypes: %s" % failures)
+    check(len(mine) == len(theirs), "%d numbers through ctypes, %d from C" % (len(mine), len(theirs)))
+    for k, (a, b) in enumerate(zip(mine, theirs)):
+        check(float(a) == b, "number %d: %.17g through ctypes, %.17g from C" % (k, a, b))
+    check(counts["load"] > 20 and counts["frame"] > 2 and counts["break"] > 5, "callbacks: %s" % counts)
+    print("test_ctypes: %d passed, %d failed" % (passed, failed))
+    sys.exit(1 if failed else 0)
+
+
+main()

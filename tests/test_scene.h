@@ -1,0 +1,92 @@
+/* test_scene.h - small bodies for the tests of motion, and the few lines around the calls that they all need. */
+#ifndef TEST_SCENE_H
+#define TEST_SCENE_H
+
+#include "peri_test.h"
+
+#define PI      3.14159265358979323846
+#define ULP64   1.1102230246251565e-16 /* unit roundoff: half the distance from 1 to the next double, float               */
+#define ULP32   5.9604644775390625e-08
+#define H       0.1 /* spacing of most bodies here                                                                        */
+#define YOUNG   3.0
+#define DENSITY 2.0
+#define THICK   0.5 /* of the 2D bodies                                                                                   */
+
+static inline double thickness(int32_t space) { return space == PERI_SOLID ? 1.0 : THICK; }
+
+/* Micromodulus for a constant influence function: plane stress and strain [P] C.15, C.18 (per thickness), 3D [T] 1.24. */
+static inline double micromodulus(int32_t space, double young, double horizon) {
+    if (space == PERI_PLANE_STRESS) return 9.0 * young / (PI * pow(horizon, 3.0));
+    if (space == PERI_PLANE_STRAIN) return 48.0 * young / (5.0 * PI * pow(horizon, 3.0));
+    return 12.0 * young / (PI * pow(horizon, 4.0)); /* 18 K/(pi h^4), K = 2E/3 */
+}
+
+static inline peri_body *empty(int32_t space, int32_t precision, int32_t geometry, double horizon) {
+    peri_body_desc d;
+    peri_body *b = NULL;
+    peri_body_desc_init(&d);
+    d.space = space;
+    d.precision = precision;
+    d.geometry = geometry;
+    d.horizon = horizon;
+    d.threads = 1; /* these bodies are too small to share */
+    if (space != PERI_SOLID) d.thickness = THICK;
+    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
+    return b;
+}
+
+static inline int32_t unbreakable(peri_body *b, double young, double density) {
+    peri_material m;
+    peri_material_init(&m, PERI_BOND_BASED);
+    m.young = young;
+    m.density = density;
+    return (int32_t)MUST(b, peri_add_material(b, &m));
+}
+
+/* A block of nx x ny (x nz) cells of size H with one corner at the origin, horizon 3 H. */
+static inline peri_body *block(int32_t space, int32_t precision, int32_t geometry, int nx, int ny, int nz) {
+    const double lo[3] = {0, 0, 0};
+    const double hi[3] = {nx * H, ny * H, nz * H};
+    peri_body *b = empty(space, precision, geometry, 3 * H);
+    CHECK(MUST(b, peri_add_box(b, unbreakable(b, YOUNG, DENSITY), lo, hi, H)) == nx * ny * (space == PERI_SOLID ? nz : 1));
+    (void)MUST(b, peri_build(b));
+    return b;
+}
+
+static inline double *get(peri_body *b, int32_t field) {
+    int64_t n = MUST(b, peri_field_size(b, field));
+    double *x = (double *)calloc((size_t)(n < 0 ? 0 : n) + 1, sizeof *x);
+    (void)MUST(b, peri_read(b, field, x, n));
+    return x;
+}
+
+static inline void put(peri_body *b, int32_t field, const double *x) {
+    (void)MUST(b, peri_write(b, field, x, peri_field_size(b, field)));
+}
+
+/* `steps` steps of dt; dt = 0 takes the default. */
+static inline int32_t go(peri_body *b, int32_t integrator, int64_t steps, double dt, double damping) {
+    peri_run r;
+    peri_run_init(&r);
+    r.integrator = integrator;
+    r.steps = steps;
+    r.time_step = dt;
+    r.damping = damping;
+    return (int32_t)MUST(b, peri_advance(b, &r));
+}
+
+static inline double *random_field(int64_t n, double amplitude, uint64_t seed) {
+    double *v = (double *)calloc((size_t)n + 1, sizeof *v);
+    int64_t k;
+    for (k = 0; k < n; ++k) v[k] = amplitude * (2 * test_random(&seed) - 1);
+    return v;
+}
+
+static inline double largest(const double *v, int64_t n) {
+    double most = 0;
+    int64_t k;
+    for (k = 0; k < n; ++k) most = fmax(most, fabs(v[k]));
+    return most;
+}
+
+#endif
