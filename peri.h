@@ -449,8 +449,8 @@ typedef enum peri_integrator {
                                     so that no digits cancel: one kick per step, same motion                             */
 } peri_integrator;
 
-/* Called every frame_steps steps and at the end of the run. Nonzero stops: peri_advance returns PERI_STOPPED. It may read the body, write files,
-   cut, and add or remove loads, but not advance, reset or destroy it. */
+/* Called every frame_steps steps and at the end of the run. Nonzero stops: peri_advance returns PERI_STOPPED. It may read the
+   body, write files, cut, and add or remove loads, but not advance, reset or destroy it. */
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
 
 typedef struct peri_run {
