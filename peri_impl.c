@@ -31,6 +31,8 @@
 #include "src/neighbors.c"  /* points                          -> families (Ibond)                         */
 #include "src/quadrature.c" /* families                        -> lengths and weights of bonds             */
 
+#include "src/lanes.c"      /* families of lattices            -> columns, the compressed Ibond             */
+
 #define PERI_T_REAL 64
 #define PERI_T_DIM 2
 #include "src/kernels.inl"  /* the numerical kernels: one text, four instantiations -> peri__ops_d2 ...     */

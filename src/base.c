@@ -11,6 +11,39 @@
 #define PERI_INLINE static
 #endif
 
+/* Kernels on lanes are loops that a compiler turns into vector instructions. Products and sums stay apart (no contraction), so that
+   every instruction set gives the same bits. gcc gets its options here, whatever the user's flags; clang vectorises from -O2 on. On
+   x86-64 the best instruction set is chosen at run time. */
+#if defined(__clang__)
+#define PERI_VECTOR_CODE
+#define PERI_NO_CONTRACTION _Pragma("clang fp contract(off)")
+#define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw"
+#elif defined(__GNUC__)
+#define PERI_VECTOR_CODE __attribute__((optimize("O3", "no-trapping-math", "fp-contract=off")))
+#define PERI_NO_CONTRACTION
+#define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw,prefer-vector-width=512"
+#else
+#define PERI_VECTOR_CODE
+#define PERI_NO_CONTRACTION
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(__TINYC__)
+#define PERI_ISA
+#include <immintrin.h>
+#define PERI_AVX2 __attribute__((target("avx2")))
+#define PERI_AVX512 __attribute__((target(PERI_WIDE)))
+#endif
+
+/* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted. */
+static int32_t peri__isa(void) {
+#ifdef PERI_ISA
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")
+        && __builtin_cpu_supports("avx512bw"))
+        return 2;
+    if (__builtin_cpu_supports("avx2")) return 1;
+#endif
+    return 0;
+}
+
 #define PERI_PI 3.14159265358979323846264338327950288
 
 /* Horizon comparisons: |xi| <= horizon*(1 + PERI_HORIZON_TOLERANCE). Far above the rounding of coordinates a million spacings

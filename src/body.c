@@ -62,6 +62,8 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
     return PERI_OK;
 }
 
+static size_t peri__real(const peri_body *b) { return b->f32 ? sizeof(float) : sizeof(double); }
+
 /* ---- the shared model --------------------------------------------------------------------------------------------- */
 
 static void peri__release_model(peri__model *m, size_t real) {
@@ -77,6 +79,7 @@ static void peri__release_model(peri__model *m, size_t real) {
     peri__delete(&memory, m->bond, entries, real);
     peri__delete(&memory, m->centroid, entries * m->dim, real);
     peri__delete(&memory, m->part, entries, sizeof *m->part);
+    peri__free_lanes(m);
     peri__delete(&memory, m->pairs, (int64_t)m->materials * m->materials, sizeof *m->pairs);
     peri__delete(&memory, m, 1, sizeof *m);
 }
@@ -142,9 +145,20 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     return status;
 }
 
-/* ---- state -------------------------------------------------------------------------------------------------------- */
+/* A state vector, [dim][stride] with a margin before and after. */
+static int64_t peri__vector_reals(const peri__model *m) { return m->stride * m->dim + 2 * m->margin; }
 
-static size_t peri__real(const peri_body *b) { return b->f32 ? sizeof(float) : sizeof(double); }
+static void *peri__new_vector(const peri_body *b) {
+    char *vector = (char *)peri__new(&b->memory, peri__vector_reals(b->model), peri__real(b));
+    return vector ? vector + (size_t)b->model->margin * peri__real(b) : NULL;
+}
+
+static void peri__delete_vector(const peri_body *b, void *vector) {
+    if (!vector) return;
+    peri__delete(&b->memory, (char *)vector - (size_t)b->model->margin * peri__real(b), peri__vector_reals(b->model), peri__real(b));
+}
+
+/* ---- state -------------------------------------------------------------------------------------------------------- */
 
 static void peri__free_state(peri_body *b) {
     const peri__memory *memory = &b->memory;
@@ -152,10 +166,11 @@ static void peri__free_state(peri_body *b) {
     int64_t vector = m->stride * m->dim, flags = m->points * m->words;
     void **vectors[3] = { &b->u, &b->v, &b->f };
     for (int k = 0; k < 3; ++k) {
-        peri__delete(memory, *vectors[k], vector, peri__real(b));
+        peri__delete_vector(b, *vectors[k]);
         *vectors[k] = NULL;
     }
     peri__delete(memory, b->alive, flags, sizeof *b->alive);
+    peri__delete(memory, b->lanes_alive, m->lanes.columns, sizeof *b->lanes_alive);
     peri__delete(memory, b->uncut, flags, sizeof *b->uncut);
     peri__delete(memory, b->before, flags, sizeof *b->before);
     peri__delete(memory, b->no_fail, m->points, 1);
@@ -181,6 +196,7 @@ static void peri__free_state(peri_body *b) {
     peri__delete(memory, b->loads, b->load_capacity, sizeof *b->loads);
     peri__delete(memory, b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
     b->alive = b->uncut = b->before = NULL;
+    b->lanes_alive = NULL;
     b->no_fail = b->cls = NULL;
     b->pairs = NULL;
     b->sums = NULL;
@@ -199,6 +215,24 @@ static uint32_t *peri__new_flags(const peri_body *b) {
     for (int64_t i = 0; flags && i < m->points; ++i)
         for (int32_t k = 0; k < m->count[i]; ++k) flags[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
     return flags;
+}
+
+/* Flags of live bonds, by rows and by columns, taken when something can break or is cut. 0 where memory is short. */
+static int peri__need_alive(peri_body *b) {
+    uint32_t *alive;
+    uint16_t *columns = NULL;
+    if (b->alive) return 1;
+    alive = peri__new_flags(b);
+    if (b->model->lanes.columns)
+        columns = (uint16_t *)peri__copy(&b->memory, b->model->lanes.member, b->model->lanes.columns, sizeof *columns);
+    if (!alive || (b->model->lanes.columns && !columns)) {
+        peri__delete(&b->memory, alive, b->model->points * b->model->words, sizeof *alive);
+        peri__delete(&b->memory, columns, b->model->lanes.columns, sizeof *columns);
+        return 0;
+    }
+    b->alive = alive;
+    b->lanes_alive = columns;
+    return 1;
 }
 
 /* Classes of points: material, and material + materials where the point cannot fail. A bond with a no-fail end never breaks. */
@@ -223,15 +257,13 @@ static int32_t peri__update_classes(peri_body *b) {
 
 static int32_t peri__new_state(peri_body *b) {
     const peri__model *m = b->model;
-    int64_t vector = m->stride * m->dim;
     b->ops = b->f32 ? (b->dim == 3 ? &peri__ops_f3 : &peri__ops_f2) : b->dim == 3 ? &peri__ops_d3 : &peri__ops_d2;
-    b->u = peri__new(&b->memory, vector, peri__real(b));
-    b->v = peri__new(&b->memory, vector, peri__real(b));
-    b->f = peri__new(&b->memory, vector, peri__real(b));
+    b->u = peri__new_vector(b);
+    b->v = peri__new_vector(b);
+    b->f = peri__new_vector(b);
     b->sums = (peri__sums *)peri__new(&b->memory, m->blocks, sizeof *b->sums);
     b->pairs = (peri__pair *)peri__new(&b->memory, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs);
-    if (m->breakable) b->alive = peri__new_flags(b);
-    if (!b->u || !b->v || !b->f || !b->sums || !b->pairs || (m->breakable && !b->alive))
+    if (!b->u || !b->v || !b->f || !b->sums || !b->pairs || (m->breakable && !peri__need_alive(b)))
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
     return peri__update_classes(b);
 }
@@ -258,7 +290,10 @@ PERI_API int32_t peri_build(peri_body *b) {
     status = cloud.x && sums ? peri__fill_model(b, m, &cloud, sums) : peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
     if (status == PERI_OK) {
         b->model = m;
-        status = peri__new_state(b);
+        status = peri__build_lanes(b, cloud.x);
+        m->lanes.isa = peri__isa();
+        m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
+        if (status == PERI_OK) status = peri__new_state(b);
         if (status < 0) {
             peri__free_state(b);
             b->model = NULL;
@@ -301,10 +336,17 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         ok = ok && copy_;                                                                                              \
         memcpy(&b->member, &copy_, sizeof copy_);                                                                      \
     }
-    PERI_COPY_(u, vector, peri__real(b))
-    PERI_COPY_(v, vector, peri__real(b))
-    PERI_COPY_(f, vector, peri__real(b))
+    b->u = peri__new_vector(b);
+    b->v = peri__new_vector(b);
+    b->f = peri__new_vector(b);
+    ok = b->u && b->v && b->f;
+    if (ok) {
+        memcpy(b->u, from->u, (size_t)vector * peri__real(b));
+        memcpy(b->v, from->v, (size_t)vector * peri__real(b));
+        memcpy(b->f, from->f, (size_t)vector * peri__real(b));
+    }
     PERI_COPY_(alive, flags, sizeof *b->alive)
+    PERI_COPY_(lanes_alive, m->lanes.columns, sizeof *b->lanes_alive)
     PERI_COPY_(uncut, flags, sizeof *b->uncut)
     PERI_COPY_(before, flags, sizeof *b->before)
     PERI_COPY_(no_fail, m->points, 1)
@@ -361,6 +403,7 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
     b->model = from->model;
     b->ops = from->ops;
     b->classes = from->classes;
+    b->lanes_stale = from->lanes_stale;
     b->on_break = from->on_break;
     b->break_user = from->break_user;
     b->cut = from->cut;
@@ -401,6 +444,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
         for (int64_t i = 0; i < m->points; ++i)
             for (int32_t k = 0; k < m->count[i]; ++k) b->alive[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
+        b->lanes_stale = 1;
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);

@@ -79,14 +79,9 @@ static void peri__inner(const peri_body *b, const double *place, double *out) {
 
 /* Flags for cuts, taken on the first: alive for every bond, and which of them is not part of the initial crack. */
 static int32_t peri__need_flags(peri_body *b) {
-    uint32_t *alive = b->alive ? b->alive : peri__new_flags(b);
-    uint32_t *uncut = b->uncut || b->steps > 0 ? b->uncut : peri__new_flags(b);
-    if (!alive || (!uncut && b->steps == 0)) {
-        if (!b->alive && alive) peri__delete(&b->memory, alive, b->model->points * b->model->words, sizeof *alive);
-        return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
-    }
-    b->alive = alive;
-    b->uncut = uncut;
+    if (b->steps == 0 && !b->uncut) b->uncut = peri__new_flags(b);
+    if ((b->steps == 0 && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
+    b->lanes_stale = 1;
     return PERI_OK;
 }
 

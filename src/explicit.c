@@ -46,6 +46,7 @@ static int32_t peri__update_force(peri_body *b) {
     int32_t running = b->running;
     if (b->force_current) return PERI_OK;
     b->running = 2;
+    peri__update_lanes(b);
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
     int32_t status = peri__apply_loads(b, b->time, 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, b->time, 0.0);

@@ -150,36 +150,6 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, peri_r 
     return broke;
 }
 
-/* Adds the internal force density to f and breaks bonds. sums: a energy of broken bonds, n their (directed) number. */
-static void PERI_FN(force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *step = (const peri__step *)context;
-    peri_body *b = step->body;
-    const peri__model *m = b->model;
-    peri_r *force = (peri_r *)b->f, *v = (peri_r *)b->v;
-    int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->centroid != NULL;
-    for (int64_t i = begin; i < end; ++i) {
-        peri_r f[PERI_D], impulse[PERI_D];
-        int32_t broke;
-        for (int d = 0; d < PERI_D; ++d) {
-            f[d] = force[d * m->stride + i];
-            impulse[d] = 0;
-        }
-        if (plain) broke = PERI_FN(bond_row_reference)(step, i, f, impulse, &sums->a);
-        else if (!b->alive)
-            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 1)
-                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 0);
-        else
-            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 1)
-                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 0);
-        for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
-        if (broke) {
-            peri_r kick = (peri_r)(step->impulse / m->rho[m->material[i]]);
-            for (int d = 0; d < PERI_D; ++d) v[d * m->stride + i] += kick * impulse[d];
-            sums->n += broke;
-        }
-    }
-}
-
 /* Elastic energy of intact bonds: sums->a, and per point to step->out where it is not NULL. */
 static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;

@@ -3,7 +3,9 @@
 
 #if PERI_T_REAL == 64
 #define peri_r double
+#define peri_i int64_t
 #define PERI_SQRT sqrt
+#define PERI_NEAR 1e-12 /* relative; kernels on lanes leave bonds this near their critical stretch to the list            */
 #define PERI_TINY 1e-290 /* keeps 0/0 out of a bond whose ends meet; far below any length                                */
 #if PERI_T_DIM == 2
 #define PERI_FN(name) peri__##name##_d2
@@ -12,7 +14,9 @@
 #endif
 #else
 #define peri_r float
+#define peri_i int32_t
 #define PERI_SQRT sqrtf
+#define PERI_NEAR 1e-5
 #define PERI_TINY 1e-30f
 #if PERI_T_DIM == 2
 #define PERI_FN(name) peri__##name##_f2
@@ -23,6 +27,45 @@
 #define PERI_D PERI_T_DIM
 
 #include "k_bond.inl"
+
+/* Square roots of PERI_LANES lanes in place. As intrinsics, because a call of sqrt may set errno and so is never vectorised. */
+#ifdef PERI_ISA
+#define PERI_LANES_ROOTS(name, target, width, load, store, root)                                                       \
+    target PERI_INLINE void PERI_FN(name)(peri_r *a) {                                                                 \
+        for (int l = 0; l < PERI_LANES; l += width) store(a + l, root(load(a + l)));                                   \
+    }
+#if PERI_T_REAL == 64
+PERI_LANES_ROOTS(sqrt_plain, PERI_VECTOR_CODE, 2, _mm_loadu_pd, _mm_storeu_pd, _mm_sqrt_pd)
+PERI_LANES_ROOTS(sqrt_avx2, PERI_VECTOR_CODE PERI_AVX2, 4, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd)
+PERI_LANES_ROOTS(sqrt_avx512, PERI_VECTOR_CODE PERI_AVX512, 8, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd)
+#else
+PERI_LANES_ROOTS(sqrt_plain, PERI_VECTOR_CODE, 4, _mm_loadu_ps, _mm_storeu_ps, _mm_sqrt_ps)
+PERI_LANES_ROOTS(sqrt_avx2, PERI_VECTOR_CODE PERI_AVX2, 8, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_sqrt_ps)
+PERI_LANES_ROOTS(sqrt_avx512, PERI_VECTOR_CODE PERI_AVX512, 16, _mm512_loadu_ps, _mm512_storeu_ps, _mm512_sqrt_ps)
+#endif
+#undef PERI_LANES_ROOTS
+#else
+PERI_INLINE void PERI_FN(sqrt_plain)(peri_r *a) {
+    for (int l = 0; l < PERI_LANES; ++l) a[l] = PERI_SQRT(a[l]);
+}
+#endif
+
+#define PERI_LANES_TARGET PERI_VECTOR_CODE
+#define PERI_LANES_FN(name) PERI_FN(name##_plain)
+#define PERI_LANES_SQRT PERI_FN(sqrt_plain)
+#include "k_lanes.inl"
+#ifdef PERI_ISA
+#define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_AVX2
+#define PERI_LANES_FN(name) PERI_FN(name##_avx2)
+#define PERI_LANES_SQRT PERI_FN(sqrt_avx2)
+#include "k_lanes.inl"
+#define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_AVX512
+#define PERI_LANES_FN(name) PERI_FN(name##_avx512)
+#define PERI_LANES_SQRT PERI_FN(sqrt_avx512)
+#include "k_lanes.inl"
+#endif
+
+#include "k_force.inl"
 #include "k_march.inl"
 
 static const peri__ops PERI_FN(ops) = {
@@ -30,6 +73,8 @@ static const peri__ops PERI_FN(ops) = {
 };
 
 #undef peri_r
+#undef peri_i
+#undef PERI_NEAR
 #undef PERI_SQRT
 #undef PERI_TINY
 #undef PERI_FN

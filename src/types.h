@@ -62,6 +62,18 @@ typedef struct peri__interface {
 
 typedef struct peri__ops peri__ops;
 
+#define PERI_TABLE_ROW 5 /* xi (3), |xi|, weight                                                                          */
+
+typedef struct peri__lanes { /* see lanes.c                                                                               */
+    int64_t   groups, columns, reach; /* reach: largest offset                                                           */
+    int64_t  *begin;                  /* [groups+1] first column of a group                                              */
+    int32_t  *offset;                 /* [columns] neighbour's id less own, ascending in a group                         */
+    uint16_t *vector;                 /* [columns] row of the table                                                      */
+    uint16_t *member;                 /* [columns] which points of the group have the bond                               */
+    double   *table;                  /* [vectors][PERI_TABLE_ROW]                                                       */
+    int32_t   vectors, isa;           /* isa: which instruction set the kernels use                                      */
+} peri__lanes;
+
 /* What peri_build makes. */
 typedef struct peri__model {
     peri__memory     memory;
@@ -86,6 +98,8 @@ typedef struct peri__model {
     void      *bond;     /* real [points][width] |xi|, 1 in the padding                                                  */
     void      *centroid; /* real [points][width][dim] bond to the centroid of the part; NULL but for that rule           */
     float     *part;     /* [points][width] beta V_j; NULL for whole cells                                               */
+    peri__lanes lanes;   /* the same rows compressed, where they come from a lattice                                     */
+    int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
     double     rho[PERI_MATERIAL_LIMIT];
@@ -178,6 +192,8 @@ struct peri_body {
     uint32_t *alive;         /* [points][words] bond carries force; NULL where nothing can break and nothing is cut      */
     uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
     uint32_t *before;        /* [points][words] alive before the step, for break events; NULL without a callback         */
+    uint16_t *lanes_alive;   /* [columns] as alive, by columns; NULL where alive or the columns are                      */
+    int32_t   lanes_stale;   /* 1: alive has changed since                                                               */
     uint8_t  *no_fail;       /* [points]; NULL where none                                                                */
     uint8_t  *cls;           /* [points] class: row of `pairs`; NULL where there is one class                            */
     peri__pair *pairs;       /* [classes][classes]                                                                       */

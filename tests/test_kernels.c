@@ -1,0 +1,164 @@
+/* test_kernels.c - the three force kernels against each other: the textbook one (desc.reference), the one on the list of families,
+   and the one on the columns of lattices. Columns are not used where materials differ, so a second material with the same constants
+   makes a body use the list. Source of truth: the textbook kernel, which is the equation of [P] 1 and [T] 1.23 written out. */
+#include "peri_test.h"
+
+enum { TEXTBOOK, LIST, COLUMNS, KERNELS };
+
+typedef struct scene {
+    int32_t space, precision, geometry, quadrature, shape; /* shape 0 box, 1 ball, 2 box with holes, 3 two boxes            */
+} scene;
+
+static int32_t holes(void *user, int64_t index, const double *x) {
+    (void)user;
+    (void)index;
+    return fmod(x[0], 5.0) > 1.5 || fmod(x[1], 4.0) > 1.5;
+}
+
+static peri_body *make(const scene *s, int kernel) {
+    const double lo[3] = {0, 0, 0}, hi[3] = {19, 9, 4}, next[3] = {19, 0, 0}, end[3] = {22, 9, 4}, middle[3] = {9, 9, 9};
+    const double from[3] = {0, 4.5, 0}, to[3] = {7.3, 4.5, 0}, e1[3] = {7.3, 0, 0}, e2[3] = {0, 0.4, 4};
+    const double near_[3] = {0, 0, 0}, far_[3] = {3, 3, 6};
+    peri_body_desc desc;
+    peri_material m;
+    peri_body *b = NULL;
+    peri_body_desc_init(&desc);
+    desc.space = s->space;
+    desc.precision = s->precision;
+    desc.geometry = s->geometry;
+    desc.quadrature = s->quadrature;
+    desc.horizon = 2.6;
+    desc.reference = kernel == TEXTBOOK;
+    desc.threads = 1;
+    CHECK(peri_body_create(&desc, &b, NULL) == PERI_OK);
+    peri_material_init(&m, PERI_BOND_BASED);
+    m.young = 1.0;
+    m.density = 1.0;
+    m.critical_stretch = 0.05;
+    MUST(b, peri_add_material(b, &m));
+    if (kernel == LIST) MUST(b, peri_add_material(b, &m));
+    if (s->shape == 0) MUST(b, peri_add_box(b, 0, lo, hi, 1.0));
+    if (s->shape == 1) MUST(b, peri_add_ball(b, 0, middle, s->space == PERI_SOLID ? 4.3 : 8.2, 1.0));
+    if (s->shape == 2) MUST(b, peri_add_shape(b, 0, lo, hi, 1.0, holes, NULL));
+    if (s->shape == 3) {
+        MUST(b, peri_add_box(b, 0, lo, hi, 1.0));
+        MUST(b, peri_add_box(b, 0, next, end, 1.0));
+    }
+    MUST(b, peri_build(b));
+    if (s->space == PERI_SOLID) MUST(b, peri_cut_rectangle(b, from, e1, e2));
+    else MUST(b, peri_cut_segment(b, from, to));
+    if (s->shape != 1) MUST(b, peri_set_no_fail(b, (int32_t)MUST(b, peri_select_box(b, NULL, near_, far_)), 1));
+    return b;
+}
+
+/* Smooth strain of about 4 % and some noise, so that bonds lie on both sides of the critical stretch. */
+static void deform(peri_body *b, double amount) {
+    int64_t n = peri_field_size(b, PERI_POSITION), dim = peri_dimension(b), i;
+    double *x = (double *)malloc((size_t)n * sizeof(double));
+    uint64_t seed = 5;
+    MUST(b, peri_read(b, PERI_POSITION, x, n));
+    for (i = 0; i < n; ++i) x[i] = amount * (0.035 * x[i] + 0.02 * (test_random(&seed) - 0.5) + 0.1 * sin(x[i - i % dim]));
+    MUST(b, peri_write(b, PERI_DISPLACEMENT, x, n));
+    free(x);
+}
+
+/* Forces of an intact body under small strain, then a run of 30 steps through fracture: the same bonds break at the same steps.
+   Forces agree to the rounding of sums of some 60 terms; displacements after the run to what rounding grows to in 30 steps. */
+static void compare(const scene *s) {
+    const double unit = s->precision == PERI_F64 ? 2.3e-16 : 1.2e-7;
+    peri_body *b[KERNELS];
+    double *f[KERNELS], *u[KERNELS], largest = 0, moved = 0;
+    int64_t n = 0, i, step;
+    int k;
+    for (k = 0; k < KERNELS; ++k) {
+        b[k] = make(s, k);
+        n = peri_field_size(b[k], PERI_FORCE_DENSITY);
+        f[k] = (double *)malloc((size_t)n * sizeof(double));
+        u[k] = (double *)malloc((size_t)n * sizeof(double));
+        deform(b[k], 1.0);
+        MUST(b[k], peri_read(b[k], PERI_FORCE_DENSITY, f[k], n));
+    }
+    for (i = 0; i < n; ++i) largest = fmax(largest, fabs(f[TEXTBOOK][i]));
+    CHECK(largest > 0.01);
+    for (k = LIST; k < KERNELS; ++k)
+        for (i = 0; i < n; ++i) CHECK_NEAR(f[k][i], f[TEXTBOOK][i], 0, 60 * unit * largest);
+    if (s->precision == PERI_F64) /* the same operations in the same order */
+        for (i = 0; i < n; ++i) CHECK_NEAR(f[COLUMNS][i], f[LIST][i], 0, 4 * unit * largest);
+    for (step = 0; step < 30; ++step)
+        for (k = 0; k < KERNELS; ++k) {
+            peri_run run;
+            peri_run_init(&run);
+            run.steps = 1;
+            MUST(b[k], peri_advance(b[k], &run));
+            CHECK(s->precision == PERI_F32 || peri_broken_count(b[k]) == peri_broken_count(b[TEXTBOOK]));
+        }
+    CHECK(peri_broken_count(b[TEXTBOOK]) > 20);
+    for (k = 0; k < KERNELS; ++k) MUST(b[k], peri_read(b[k], PERI_DISPLACEMENT, u[k], n));
+    for (i = 0; i < n; ++i) moved = fmax(moved, fabs(u[TEXTBOOK][i]));
+    for (k = LIST; k < KERNELS && s->precision == PERI_F64; ++k)
+        for (i = 0; i < n; ++i) CHECK_NEAR(u[k][i], u[TEXTBOOK][i], 0, 1e-12 * moved);
+    for (k = 0; k < KERNELS; ++k) {
+        peri_body_destroy(b[k]);
+        free(f[k]);
+        free(u[k]);
+    }
+}
+
+static void all_scenes(int32_t space, int32_t geometry) {
+    scene s;
+    s.space = space;
+    s.geometry = geometry;
+    for (s.precision = PERI_F64; s.precision <= PERI_F32; ++s.precision)
+        for (s.quadrature = PERI_FULL_VOLUME; s.quadrature <= PERI_PARTIAL_VOLUME; s.quadrature += 2)
+            for (s.shape = 0; s.shape < 4; ++s.shape) compare(&s);
+}
+
+static void plane_nonlinear(void) { all_scenes(PERI_PLANE_STRESS, PERI_NONLINEAR); }
+static void plane_linear(void) { all_scenes(PERI_PLANE_STRAIN, PERI_LINEAR); }
+static void solid_nonlinear(void) { all_scenes(PERI_SOLID, PERI_NONLINEAR); }
+static void solid_linear(void) { all_scenes(PERI_SOLID, PERI_LINEAR); }
+
+/* After a cut in the middle of a run, a reset and on a clone, columns and textbook still agree: the masks follow the flags. */
+static void masks_follow(void) {
+    static const scene s = {PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, PERI_FULL_VOLUME, 0};
+    const double from[2] = {12, 0}, to[2] = {12, 9};
+    peri_body *b[2], *copy[2];
+    double *f[2];
+    int64_t n = 0, i;
+    int k, stage;
+    for (k = 0; k < 2; ++k) b[k] = make(&s, k == 0 ? TEXTBOOK : COLUMNS);
+    n = peri_field_size(b[0], PERI_FORCE_DENSITY);
+    for (k = 0; k < 2; ++k) f[k] = (double *)malloc((size_t)n * sizeof(double));
+    for (stage = 0; stage < 4; ++stage) {
+        for (k = 0; k < 2; ++k) {
+            peri_run run;
+            peri_run_init(&run);
+            run.steps = 4;
+            if (stage == 2) MUST(b[k], peri_reset(b[k]));
+            deform(b[k], 0.9 + 0.1 * stage);
+            MUST(b[k], peri_advance(b[k], &run));
+            if (stage == 1) CHECK(MUST(b[k], peri_cut_segment(b[k], from, to)) > 10);
+            MUST(b[k], peri_clone(b[k], &copy[k], NULL));
+            peri_body_destroy(b[k]);
+            b[k] = copy[k];
+            deform(b[k], 0.5);
+            MUST(b[k], peri_read(b[k], PERI_FORCE_DENSITY, f[k], n));
+        }
+        CHECK(peri_broken_count(b[0]) == peri_broken_count(b[1]));
+        for (i = 0; i < n; ++i) CHECK_NEAR(f[1][i], f[0][i], 0, 1e-14);
+    }
+    for (k = 0; k < 2; ++k) {
+        peri_body_destroy(b[k]);
+        free(f[k]);
+    }
+}
+
+int main(int argc, char **argv) {
+    test_begin(argc, argv);
+    RUN(plane_nonlinear);
+    RUN(plane_linear);
+    RUN(solid_nonlinear);
+    RUN(solid_linear);
+    RUN(masks_follow);
+    return test_end("test_kernels");
+}
