@@ -43,8 +43,9 @@
               A call that fails has changed nothing, unless its text says otherwise. An id that came from a failed call is
               negative and is refused by the next call, so a chain of set-up calls cannot go silently wrong.
      Owner    You own what you pass in: descriptors and arrays are copied. The body owns what views point to.
-     Callbacks may read the body. on_frame may also cut, select, and add or remove loads and obstacles. Any other change to the
-              body that made the call is refused with PERI_ERROR_ORDER.
+     Callbacks may read the body (within a step, forces and velocities are those under way). on_frame may also cut, select, and
+              add or remove loads and obstacles. Any other change to the body that made the call is refused with
+              PERI_ERROR_ORDER; destroying it is ignored.
      Threads  One body: one thread at a time. Different bodies, clones included: any threads at once. Callbacks run on the
               thread that made the call, one at a time (exception: the tasks that you are given in parallel_for).
      Same bits for any number of threads: each point sums its own bonds in a fixed order, and totals are summed over
@@ -52,7 +53,8 @@
 
    WHAT IT DOES NOT DO
      It does not print, exit, assert on your data, keep global state, read files, or touch the locale or the clock.
-     No contact between parts of a body (rigid obstacles only), no heat, no plasticity, no adaptive horizon.
+     No contact between parts of a body (rigid obstacles only), no heat, no plasticity, no adaptive horizon. No correction for
+     points near a free surface: keep parts many horizons thick where stiffness matters.
 
    The trades between speed and accuracy are fields of peri_body_desc: precision, geometry, horizon over spacing, quadrature
    and influence function. Each says there what it costs. */
@@ -94,7 +96,7 @@ extern "C" {
     X(ERROR_RANGE, -4, "a number is not finite or lies outside the range of its field")                                \
     X(ERROR_ORDER, -5, "this call comes too early or too late: points before peri_build, all else after it")           \
     X(ERROR_MATERIAL, -6, "no such material, or a material that contradicts itself")                                   \
-    X(ERROR_POISSON, -7, "a bond-based material has a fixed Poisson ratio: 1/4 in 3D and plane strain, 1/3 in plane stress") \
+    X(ERROR_POISSON, -7, "a bond-based material has a fixed Poisson ratio (1/4 in 3D and plane strain, 1/3 in plane stress); it must be") \
     X(ERROR_INFLUENCE, -8, "the influence function is not finite here, or has no finite moments to calibrate with")    \
     X(ERROR_POINT, -9, "a point has a position that is not finite, or a volume that is not positive and finite")       \
     X(ERROR_COINCIDENT, -10, "two points are at the same place")                                                       \
@@ -107,11 +109,11 @@ extern "C" {
     X(ERROR_ID, -17, "no such point, load or obstacle")                                                                \
     X(ERROR_CRACK, -18, "the crack has no extent, or is of a kind that this space does not have")                      \
     X(ERROR_PAIR, -19, "the two points share no bond")                                                                 \
-    X(ERROR_STEP, -20, "the time step is larger than the stable step (its value is in the error record)")              \
-    X(ERROR_UNSTABLE, -21, "a point's motion is no longer finite: unstable step, load or initial state")               \
+    X(ERROR_STEP, -20, "the time step is larger than the stable step, which is the value")                               \
+    X(ERROR_UNSTABLE, -21, "a point is faster than 1e9 speeds of sound or not finite: unstable step, load or start")    \
     X(ERROR_CALLBACK, -22, "a callback wrote a number that is not finite")                                             \
     X(ERROR_FIELD, -23, "the field cannot be used in this way: not stored, or not writable")                           \
-    X(ERROR_CAPACITY, -24, "the buffer is too small (the size that it needs is in the error record)")                  \
+    X(ERROR_CAPACITY, -24, "the buffer has the wrong size; it needs the value")                                          \
     X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")
 
 #define PERI_STATUS_ENUM_(name, value, text) PERI_##name = value,
@@ -149,7 +151,8 @@ typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn tas
 /* Remarks that are no errors (level 0 information, 1 warning), such as a time step that was forced. */
 typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
 
-/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite. Called by peri_build and
+/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite; with partial volumes also a little beyond q = 1, for
+   cells whose centre lies outside. Called by peri_build and
    peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. */
 typedef double (*peri_influence_fn)(void *user, double q);
 
@@ -227,18 +230,22 @@ typedef enum peri_break_timing {
 typedef struct peri_body_desc {
     uint64_t          cookie;           /* set by peri_body_desc_init                                                    */
     int32_t           space;            /* peri_space. Required                                                          */
-    int32_t           precision;        /* PERI_F64 (default) or PERI_F32: half the memory, strains below 1e-6 lose digits*/
+    int32_t           precision;        /* PERI_F64 (default) or PERI_F32: 0.65 of the memory, faster; strains < 1e-6 lose digits*/
     int32_t           geometry;         /* peri_geometry. Default PERI_NONLINEAR                                         */
     int32_t           influence;        /* peri_influence. Default PERI_INFLUENCE_CONSTANT                               */
     int32_t           quadrature;       /* peri_quadrature. Default PERI_FULL_VOLUME                                     */
     int32_t           break_timing;     /* peri_break_timing. Default PERI_BREAK_AT_STEP_END                             */
-    int32_t           threads;          /* 0 = as OpenMP says (default), 1 = serial, n = n OpenMP threads                */
+    int32_t           threads;          /* 0 = as OpenMP says (default), 1 = serial, n = n OpenMP threads. Small bodies run
+                                           serially. Where other work shares the machine, waiting OpenMP threads can cost
+                                           more than they give: set OMP_WAIT_POLICY=passive, or threads = 1              */
     int32_t           reference;        /* 1 = plain textbook kernels (slow, for checking). Default 0                    */
     int32_t           ledger;           /* 1 (default) = account for external work, damping and obstacles while running;
                                            0 = do not: peri_read_energy then gives kinetic, elastic and fracture only    */
     int32_t           reserved;         /* 0                                                                             */
     double            horizon;          /* [L] > 0. Required. 3 to 4 spacings is usual; cost grows as (horizon/spacing)^dim.
-                                           Comparisons have a relative tolerance of 1e-8 built in: 3*spacing means 3     */
+                                           Points nearer than this to a free face have part of a family and are too soft: a
+                                           beam one horizon thick bends about twice too far. Comparisons have a relative
+                                           tolerance of 1e-8 built in: 3*spacing means 3                                 */
     double            thickness;        /* [L] > 0, 2D only. Default 1                                                   */
     peri_influence_fn influence_fn;     /* for PERI_INFLUENCE_USER                                                       */
     void             *influence_user;   /* handed to influence_fn                                                        */
@@ -377,8 +384,8 @@ PERI_API int32_t peri_read_set(peri_body *body, int32_t set, int32_t *points, in
 
 /* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (tolerance
    1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). Return the number
-   of bonds (pairs) newly cut. Made before the first step they are the initial crack and survive peri_reset; later they
-   count as broken. */
+   of bonds (pairs) newly cut: 0 where the crack misses (and a remark in the log). Made before the first step they are the
+   initial crack and survive peri_reset; later they count as broken. */
 PERI_API int64_t peri_cut_segment(peri_body *body, const double *from, const double *to);                    /* 2D        */
 PERI_API int64_t peri_cut_polyline(peri_body *body, int64_t count, const double *vertices);                 /* 2D        */
 PERI_API int64_t peri_cut_disc(peri_body *body, const double *centre, const double *normal, double radius); /* 3D        */
@@ -402,7 +409,7 @@ PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 #define PERI_Y 2
 #define PERI_Z 4
 
-/* Add the constant vector value[dim] to the initial displacement [L] / velocity [L T^-1] of a set. */
+/* Add the constant vector value[dim] to the displacement [L] / velocity [L T^-1] of a set, now; peri_reset clears both. */
 PERI_API int32_t peri_add_displacement(peri_body *body, int32_t set, const double *value);
 PERI_API int32_t peri_add_velocity(peri_body *body, int32_t set, const double *value);
 
@@ -418,7 +425,8 @@ PERI_API int32_t peri_prescribe_velocity(peri_body *body, int32_t set, int32_t a
 PERI_API int32_t peri_apply_body_force(peri_body *body, int32_t set, const double *value, peri_load_fn fn, void *user);
 
 /* Traction value[dim] [M L^-1 T^-2] on a face of `area` [L^2] (2D: edge length [L]), spread over the set's points by volume: the
-   total force is value*area exactly. The usual choice is the outermost layer; near the face it is wrong by O(1) ([C] 2.5). */
+   total force is value*area (in 2D times the thickness) exactly. The usual choice is the outermost layer; near the face it is
+   wrong by O(1) ([C] 2.5). */
 PERI_API int32_t peri_apply_traction(peri_body *body, int32_t set, double area, const double *value, peri_load_fn fn,
                                      void *user);
 
@@ -437,6 +445,8 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *body, const double *place, c
                                          peri_motion_fn motion, void *user);
 PERI_API int32_t peri_add_ball_obstacle(peri_body *body, const double *centre, double radius, double stiffness,
                                         peri_motion_fn motion, void *user);
+
+PERI_API int32_t peri_remove_obstacle(peri_body *body, int32_t obstacle); /* ids of the others stay                       */
 
 /* Force [M L T^-2] of the obstacle on the body at the present time, to force[dim]. */
 PERI_API int32_t peri_read_obstacle_force(peri_body *body, int32_t obstacle, double *force);
@@ -457,11 +467,12 @@ typedef struct peri_run {
     uint64_t      cookie;       /* set by peri_run_init                                                                  */
     int32_t       integrator;   /* peri_integrator. Default PERI_VELOCITY_VERLET                                         */
     int32_t       force_step;   /* 1 = take time_step even if it is larger than peri_stable_step. Default 0: refused     */
-    int64_t       steps;        /* run this many steps; 0 (default) = as `duration` says. Give one of the two            */
-    double        duration;     /* [T] >= 0. The last step is shortened to end exactly there                             */
+    int64_t       steps;        /* run this many steps; or                                                               */
+    double        duration;     /* [T] run this long; the last step is shortened to end exactly there. One of the two is
+                                   required: both default to 0                                                           */
     double        time_step;    /* [T] > 0; 0 (default) = safety * peri_stable_step                                      */
     double        safety;       /* (0, 1]. Default 0.9                                                                   */
-    double        damping;      /* a [T^-1] >= 0: force -a*density*velocity on every point. Default 0                    */
+    double        damping;      /* a [T^-1] >= 0: force -a*density*velocity on every point; a*time_step <= 2. Default 0  */
     int64_t       frame_steps;  /* steps between calls of on_frame; 0 (default) = only at the end                        */
     peri_frame_fn on_frame;     /* default NULL                                                                          */
     void         *user;         /* handed to on_frame                                                                    */
@@ -471,7 +482,8 @@ typedef struct peri_run {
 PERI_API void peri_run_init(peri_run *run);
 
 /* Advances the body in time. On PERI_ERROR_STEP nothing has moved and error.value is the largest step. On
-   PERI_ERROR_UNSTABLE and PERI_ERROR_CALLBACK the body is at the step where it was found (error.index: the point). */
+   PERI_ERROR_UNSTABLE and PERI_ERROR_CALLBACK (error.index: the point) it stopped within a step: read it, then reset or destroy it.
+   An obstacle that on_frame added and that makes the step too large ends the run with PERI_ERROR_STEP, at a whole step. */
 PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
 
 /* ---- results ------------------------------------------------------------------------------------------------------ */
@@ -502,6 +514,7 @@ PERI_API int32_t peri_write(peri_body *body, int32_t field, const double *in, in
 
 /* Where a field lies in memory, without a copy. Component k of point i, in your units, is
        offset[k] + scale * data[i*point_stride + k*component_stride]           (data of the given type)
+   Stored vectors are of the body's precision and lie in planes: all x, then all y. Volume and derived fields are PERI_F64.
    A stored field's view stays valid until the body is destroyed and shows the present state (forces, once a peri_write or a
    cut has made them old, from the next peri_advance, peri_read or peri_view_field on). A derived one is computed at the call into
    memory of the body (taken on first use) and is valid until the field is viewed again or the body is destroyed. */

@@ -141,6 +141,8 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     if (status == PERI_OK) status = b->setup.ibond ? peri__take_families(b, cloud) : peri__find_families(b, cloud, sums);
     if (status == PERI_OK) status = peri__check_families(b, m);
     if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
+    if (status == PERI_OK && !(m->rate > 1e-30 && m->rate < 1e30))
+        status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
     m->words = (m->width + 31) / 32;
     return status;
 }
@@ -279,8 +281,12 @@ PERI_API int32_t peri_build(peri_body *b) {
     if (points == 0) return peri__fail(b, PERI_ERROR_NO_POINTS, "points", -1, 0.0);
 
     memset(&cloud, 0, sizeof cloud);
+    b->running = 2;
     m = (peri__model *)peri__new(&b->memory, 1, sizeof *m);
-    if (!m) return peri__fail(b, PERI_ERROR_MEMORY, "model", -1, 0.0);
+    if (!m) {
+        b->running = 0;
+        return peri__fail(b, PERI_ERROR_MEMORY, "model", -1, 0.0);
+    }
     m->memory = b->memory;
     m->users = 1;
     cloud.body = b;
@@ -303,6 +309,7 @@ PERI_API int32_t peri_build(peri_body *b) {
     peri__delete(&b->memory, cloud.start, cloud.cell_count + 1, sizeof(int32_t));
     peri__delete(&b->memory, cloud.order, points, sizeof(int32_t));
     peri__delete(&b->memory, sums, blocks, sizeof *sums);
+    b->running = 0;
     if (status < 0) {
         peri__release_model(m, peri__real(b));
         return status;
@@ -314,6 +321,10 @@ PERI_API int32_t peri_build(peri_body *b) {
 PERI_API void peri_body_destroy(peri_body *b) {
     peri__memory memory;
     if (!b) return;
+    if (b->running) {
+        peri__log(b, 1, "peri_body_destroy from a callback of the body: ignored");
+        return;
+    }
     memory = b->memory;
     if (b->model) {
         peri__free_state(b);
@@ -448,6 +459,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);
+    for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
     b->broken = b->steps = 0;
     b->time = 0.0;
     b->force_current = 0;

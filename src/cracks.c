@@ -66,12 +66,6 @@ static void peri__cross(const double *a, const double *b, double *out) {
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Nearer than this touches; inner units. Single precision moves points by the rounding of their coordinates. */
-static double peri__touching(const peri_body *b) {
-    const peri__model *m = b->model;
-    return PERI_TOUCH * m->spacing + (b->f32 ? 0.5 * (double)FLT_EPSILON * m->extent : 0.0);
-}
-
 /* A place in inner units. */
 static void peri__inner(const peri_body *b, const double *place, double *out) {
     for (int32_t d = 0; d < b->dim; ++d) out[d] = (place[d] - b->model->origin[d]) / b->model->length;
@@ -139,13 +133,14 @@ static int64_t peri__apply_crack(peri_body *b, const peri__crack *crack) {
     peri__cutter cutter;
     int32_t status = peri__need_flags(b);
     if (status < 0) return status;
-    peri__touch(b, b->steps > 0 || b->ledger.pending || b->ledger.initial != 0.0);
+    peri__touch(b);
     cutter.body = b;
     cutter.crack = crack;
-    peri__for_points(b, b->model->points, peri__cut_block, &cutter, b->sums);
+    peri__for_points(b, b->model->points, 2 * b->model->width, peri__cut_block, &cutter, b->sums);
     int64_t cut = peri__total(b->sums, b->model->points).n;
     if (b->steps == 0) b->cut += cut;
     else b->broken += cut;
+    if (cut == 0) peri__log(b, 1, "the crack meets no bond that was whole");
     return cut / 2;
 }
 
@@ -215,8 +210,10 @@ PERI_API int64_t peri_cut_polyline(peri_body *b, int64_t count, const double *ve
     PERI_NEED(b, vertices, "vertices");
     for (int64_t k = 0; k < count; ++k) { /* all is checked before anything is cut */
         if (!peri__finite_vector(&vertices[2 * k], 2)) return peri__fail(b, PERI_ERROR_RANGE, "vertices", k, 0.0);
-        if (k > 0 && vertices[2 * k] == vertices[2 * k - 2] && vertices[2 * k + 1] == vertices[2 * k - 1])
-            return peri__fail(b, PERI_ERROR_CRACK, "vertices", k, 0.0);
+        double here[2], last[2];
+        peri__inner(b, &vertices[2 * k], here);
+        peri__inner(b, &vertices[k > 0 ? 2 * k - 2 : 0], last);
+        if (k > 0 && here[0] == last[0] && here[1] == last[1]) return peri__fail(b, PERI_ERROR_CRACK, "vertices", k, 0.0);
     }
     for (int64_t k = 0; k + 1 < count; ++k) {
         int64_t more = peri_cut_segment(b, &vertices[2 * k], &vertices[2 * k + 2]);
@@ -293,7 +290,7 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int64_t count, const int32_t *pair
     }
     int32_t status = peri__need_flags(b);
     if (status < 0) return status;
-    peri__touch(b, b->steps > 0 || b->ledger.pending || b->ledger.initial != 0.0);
+    peri__touch(b);
     for (int64_t k = 0; k < count; ++k) {
         int32_t i = pairs[2 * k], j = pairs[2 * k + 1];
         cut += peri__cut_one(b, i, peri__find_bond(b->model, i, j));
@@ -309,7 +306,7 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
     const peri__model *m = b->model;
     int32_t status = peri__need_flags(b);
     if (status < 0) return status;
-    peri__touch(b, b->steps > 0 || b->ledger.pending || b->ledger.initial != 0.0);
+    peri__touch(b);
     int32_t running = b->running;
     b->running = 2;
     for (int64_t i = 0; i < m->points; ++i)
@@ -388,19 +385,18 @@ static double peri__stretch(const peri_body *b, int64_t i, int64_t k) {
     return along / (bond * (linear ? bond : sqrt(square) + bond));
 }
 
-/* Reports the bonds that broke in the blocks whose sums say so. */
+/* Reports the bonds that broke in this step. */
 static void peri__report_breaks(peri_body *b) {
     const peri__model *m = b->model;
     int32_t running = b->running;
     b->running = 2;
-    for (int64_t block = 0; block < m->blocks; ++block) {
-        if (b->sums[block].n == 0) continue;
-        for (int64_t i = block * PERI_BLOCK; i < peri__min((block + 1) * PERI_BLOCK, m->points); ++i)
-            for (int64_t k = 0; k < m->count[i]; ++k) {
-                int64_t at = i * m->words + k / 32, j = m->ids[i * m->width + k];
-                if (j < i || !((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
-                b->on_break(b->break_user, (int32_t)i, (int32_t)j, b->time, peri__stretch(b, i, k));
-            }
+    for (int64_t i = 0; i < m->points; ++i) {
+        if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            int64_t at = i * m->words + k / 32, j = m->ids[i * m->width + k];
+            if (j < i || !((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
+            b->on_break(b->break_user, (int32_t)i, (int32_t)j, b->time, peri__stretch(b, i, k));
+        }
     }
     b->running = running;
 }

@@ -33,7 +33,8 @@ static double peri__stable(const peri_body *b) {
     double lambda = m->rate, lightest = m->rho[0];
     for (int32_t k = 1; k < m->materials; ++k)
         if (m->rho[k] < lightest) lightest = m->rho[k];
-    for (int64_t k = 0; k < b->obstacle_count; ++k) lambda += b->obstacles[k].stiffness / lightest;
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        if (b->obstacles[k].kind) lambda += b->obstacles[k].stiffness / lightest;
     return 2.0 / sqrt(lambda);
 }
 
@@ -51,7 +52,7 @@ static int32_t peri__update_force(peri_body *b) {
     int32_t status = peri__apply_loads(b, b->time, 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, b->time, 0.0);
     if (status == PERI_OK) {
-        peri__for_points(b, m->points, b->ops->force, &step, b->sums);
+        peri__for_points(b, m->points, m->width, b->ops->force, &step, b->sums);
         status = peri__meet_supports(b);
     }
     b->running = running;
@@ -61,7 +62,7 @@ static int32_t peri__update_force(peri_body *b) {
 
 static void peri__kick(peri_body *b, const peri__step *step, int64_t *bad) {
     peri__supply_supports(b, step);
-    peri__for_points(b, b->model->points, b->ops->kick, (void *)(uintptr_t)step, b->sums);
+    peri__for_points(b, b->model->points, 1, b->ops->kick, (void *)(uintptr_t)step, b->sums);
     peri__sums total = peri__total(b->sums, b->model->points);
     b->ledger.damping += total.b;
     if (bad && *bad < 0) *bad = total.bad;
@@ -70,17 +71,19 @@ static void peri__kick(peri_body *b, const peri__step *step, int64_t *bad) {
 /* Central difference keeps v half a step behind. These move it there and back, with their half of what damping takes. */
 static void peri__stagger(peri_body *b, double dt, double damping) {
     peri__step step = peri__no_step(b);
-    step.keep = 1.0 + 0.5 * damping * dt;
+    double h = 0.5 * damping * dt;
+    step.keep = 1.0 + h;
     step.kick = -0.5 * dt;
-    step.loss = b->desc.ledger ? -0.5 * damping * dt : 0.0;
+    step.loss_old = b->desc.ledger ? -h : 0.0;
     peri__kick(b, &step, NULL);
 }
 
 static void peri__unstagger(peri_body *b, double dt, double damping) {
     peri__step step = peri__no_step(b);
-    step.keep = 1.0 / (1.0 + 0.5 * damping * dt);
+    double h = 0.5 * damping * dt;
+    step.keep = 1.0 / (1.0 + h);
     step.kick = 0.5 * dt * step.keep;
-    step.loss = b->desc.ledger ? 0.5 * damping * dt : 0.0;
+    step.loss_new = b->desc.ledger ? h : 0.0;
     peri__kick(b, &step, NULL);
 }
 
@@ -97,11 +100,11 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
         return status;
     }
 
-    step.central = central;
     step.keep = central ? (1.0 - h) / (1.0 + h) : 1.0 - h;
     step.kick = central ? dt / (1.0 + h) : 0.5 * dt;
     step.drift = dt;
-    if (damping > 0.0 && b->desc.ledger) step.loss = central ? damping * dt : 0.5 * damping * dt;
+    step.loss_old = b->desc.ledger ? h : 0.0;
+    step.loss_new = central ? step.loss_old : 0.0;
     peri__kick(b, &step, &bad);
     b->time = next;
     b->steps++;
@@ -115,7 +118,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
     step.breaking = b->alive != NULL && m->breakable;
     step.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
-    peri__for_points(b, m->points, b->ops->force, &step, b->sums);
+    peri__for_points(b, m->points, m->width, b->ops->force, &step, b->sums);
     if (step.breaking) {
         peri__sums total = peri__total(b->sums, m->points);
         b->ledger.fracture += total.a;
@@ -128,9 +131,11 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
         step.keep = 1.0 / (1.0 + h);
         step.kick = 0.5 * dt / (1.0 + h);
         step.drift = 0.0;
+        step.loss_new = step.loss_old;
+        step.loss_old = 0.0;
         peri__kick(b, &step, &bad);
     }
-    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "velocity", bad, b->time);
+    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->time);
     return PERI_OK;
 }
 
@@ -144,8 +149,9 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     PERI_NEED_NUMBER(b, r->damping >= 0.0, r->damping);
     PERI_NEED(b, r->frame_steps >= 0, "frame_steps");
     PERI_NEED(b, r->steps >= 0, "steps");
-    if (r->steps > 0 && r->duration > 0.0) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
-    double stable = peri__stable(b) * b->model->time;
+    if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
+    double stable = peri__stable(b) * b->model->time, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
+    if (r->damping * step > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
     if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
         return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
     if (r->time_step > stable) peri__log(b, 1, "time_step is larger than the stable step, as forced");
@@ -169,7 +175,7 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
     double damping = r->damping * m->time, start = b->time, duration = r->duration / m->time;
     double dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b), last = dt;
     int64_t steps = r->steps, done = 0, left_to_frame = r->frame_steps;
-    if (steps == 0 && duration > 0.0) {
+    if (duration > 0.0) {
         double count = ceil(duration / dt * (1.0 - 1e-12));
         if (count >= 9e18) return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
         steps = (int64_t)count;
@@ -178,7 +184,6 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
     int32_t status = peri__update_force(b);
     if (status < 0) return status;
     if (b->desc.ledger) peri__settle(b);
-    if (steps == 0 && r->on_frame) return peri__show_frame(b, r);
     while (done < steps && status == PERI_OK) {
         /* a stretch of steps of one size, up to the next frame */
         int64_t stretch = steps - done;
@@ -198,6 +203,8 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
         if (r->on_frame && (done == steps || (r->frame_steps > 0 && left_to_frame == 0))) {
             left_to_frame = r->frame_steps;
             status = peri__show_frame(b, r);
+            if (status == PERI_OK && dt > peri__stable(b) * (1.0 + 1e-12) && !r->force_step && done < steps)
+                status = peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
         }
     }
     return status;
@@ -211,6 +218,24 @@ PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
     status = peri__march(b, r);
     b->running = 0;
     return status;
+}
+
+PERI_API int32_t peri_read_obstacle_force(peri_body *b, int32_t obstacle, double *force) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_obstacle(b, obstacle);
+    if (status < 0) return status;
+    PERI_NEED(b, force, "force");
+    if (b->running < 2) status = peri__update_force(b); /* moves the obstacle to where it is now */
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    double total[3] = { 0.0, 0.0, 0.0 };
+    for (int64_t i = 0; i < m->points; ++i) {
+        double push[3] = { 0.0, 0.0, 0.0 };
+        peri__push(b, &b->obstacles[obstacle], i, push);
+        for (int32_t d = 0; d < m->dim; ++d) total[d] += push[d] * m->volume[i];
+    }
+    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+    return PERI_OK;
 }
 
 PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {

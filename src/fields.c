@@ -141,12 +141,12 @@ PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64
     PERI_NEED(b, in, "in");
     const peri__model *m = b->model;
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
-    for (int64_t k = 0; k < count; ++k)
-        if (!peri__finite(in[k])) return peri__fail(b, PERI_ERROR_RANGE, "in", k / m->dim, in[k]);
-    peri__touch(b, 1);
     peri_view view;
     (void)peri__stored_view(b, field, &view);
     void *data = field == PERI_VELOCITY ? b->v : b->u;
+    int32_t status = peri__check_state(b, data, in, count, view.scale);
+    if (status < 0) return status;
+    peri__touch(b);
     for (int64_t i = 0; i < m->points; ++i)
         for (int32_t d = 0; d < m->dim; ++d)
             peri__put_real(data, b->f32, d * m->stride + i, in[i * m->dim + d] / view.scale);
@@ -163,14 +163,11 @@ PERI_API int32_t peri_read_energy(peri_body *b, peri_energy *e) {
     e->elastic = peri__elastic_energy(b, NULL) * unit;
     e->fracture = l->fracture * unit;
     if (!b->desc.ledger) return PERI_OK;
-    if (l->pending) {
-        b->ledger.initial += (e->kinetic + e->elastic) / unit - l->before;
-        b->ledger.pending = 0;
-    }
     e->external = l->external * unit;
     e->obstacle = l->obstacle * unit;
     e->damping = l->damping * unit;
     e->initial = l->initial * unit;
+    if (l->pending) e->initial += e->kinetic + e->elastic - l->before * unit;
     e->error = e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->damping - e->fracture;
     return PERI_OK;
 }

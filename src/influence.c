@@ -42,7 +42,7 @@ static double peri__influence(const peri_body_desc *desc, double q, double edge)
     case PERI_INFLUENCE_PROPORTIONAL: return q;
     case PERI_INFLUENCE_INVERSE: return 1.0 / q;
     case PERI_INFLUENCE_INVERSE_4: return 1.0 / (q * q * q * q);
-    case PERI_INFLUENCE_POLE_EDGE: return 1.0 / (1.0 + edge - q);
+    case PERI_INFLUENCE_POLE_EDGE: return q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0;
     case PERI_INFLUENCE_POLE_HALF: return 1.0 / (2.0 * q - 1.0);
     case PERI_INFLUENCE_POLE_QUARTER: return exp(1.0 / (q - 0.25));
     default: return desc->influence_fn(desc->influence_user, q);

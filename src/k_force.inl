@@ -46,7 +46,7 @@ static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *
         near_breaking = PERI_FN(lanes_plain)(step, g, f);
     if (near_breaking) {
         PERI_FN(force_rows)(step, g * PERI_LANES, peri__min((g + 1) * PERI_LANES, m->points), sums);
-        if (sums->n > broken) peri__group_masks(b, g, b->alive, b->lanes_alive);
+        if (sums->n > broken) peri__group_masks(m, g, b->alive, b->lanes_alive);
         return;
     }
     for (int d = 0; d < PERI_D; ++d)

@@ -34,16 +34,18 @@ static int32_t *peri__vector_slot(peri__vectors *v, const int64_t *key) {
         if (v->slot[slot] == 0 || memcmp(v->row[v->slot[slot] - 1].key, key, sizeof v->row[0].key) == 0) return &v->slot[slot];
 }
 
-/* Table row of bond k of point i, made where it is new; -1 where the table is full. */
+/* Table row of bond k of point i, made where it is new; -1 where the table is full, or the bond is no lattice's. */
 static int32_t peri__vector_of(peri__vectors *v, const peri_body *b, const double *x, int64_t i, int64_t k) {
     const peri__model *m = b->model;
     int64_t at = i * m->width + k, j = m->ids[at], key[4] = { 0, 0, 0, 0 };
     double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(m->weight, b->f32, at);
+    if (!(fabs(weight) < 1e6)) return -1;
     for (int32_t d = 0; d < m->dim; ++d) {
         xi[d] = x[j * m->dim + d] - x[i * m->dim + d];
+        if (!(fabs(xi[d]) < 1e6)) return -1;
         key[d] = (int64_t)floor(xi[d] / PERI_VECTOR_GRAIN + 0.5);
     }
-    key[3] = (int64_t)floor(weight / (1e3 * PERI_VECTOR_GRAIN) + 0.5);
+    key[3] = (int64_t)floor(weight / PERI_VECTOR_GRAIN + 0.5);
     int32_t *slot = peri__vector_slot(v, key);
     if (*slot == 0) {
         if (v->count == PERI_VECTOR_LIMIT) return -1;
@@ -88,6 +90,7 @@ static int64_t peri__group_entries(peri__vectors *v, const peri_body *b, const d
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int32_t vector = peri__vector_of(v, b, x, i, k);
             if (vector < 0) return -1;
+            m->lanes.row[i * m->width + k] = (uint16_t)vector;
             entry[count++] = (m->ids[i * m->width + k] - i) * 65536 + vector;
         }
     peri__sort_entries(entry, count);
@@ -96,22 +99,8 @@ static int64_t peri__group_entries(peri__vectors *v, const peri_body *b, const d
     return kept;
 }
 
-/* Is bond k of point i along row `vector` of the table? Columns of one offset may differ by vector where lines of a shape end. */
-static int peri__is_along(const peri_body *b, int64_t i, int64_t k, int32_t vector) {
-    const peri__model *m = b->model;
-    const double *row = m->lanes.table + vector * PERI_TABLE_ROW;
-    double weight = peri__get_real(m->weight, b->f32, i * m->width + k);
-    for (int32_t d = 0; d < m->dim; ++d) {
-        int64_t plane = d * m->stride;
-        double xi = peri__get_real(m->x, b->f32, plane + m->ids[i * m->width + k]) - peri__get_real(m->x, b->f32, plane + i);
-        if (fabs(xi - row[d]) > 1e-3) return 0;
-    }
-    return fabs(weight - row[4]) <= 1e-5 * fabs(row[4]);
-}
-
 /* Masks of a group from flags[points][words] of the list; all members where flags is NULL. */
-static void peri__group_masks(const peri_body *b, int64_t group, const uint32_t *flags, uint16_t *mask) {
-    const peri__model *m = b->model;
+static void peri__group_masks(const peri__model *m, int64_t group, const uint32_t *flags, uint16_t *mask) {
     const peri__lanes *lanes = &m->lanes;
     for (int64_t c = lanes->begin[group]; c < lanes->begin[group + 1]; ++c) mask[c] = 0;
     for (int64_t i = group * PERI_LANES; i < peri__min((group + 1) * PERI_LANES, m->points); ++i) {
@@ -119,7 +108,8 @@ static void peri__group_masks(const peri_body *b, int64_t group, const uint32_t 
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t offset = m->ids[i * m->width + k] - i, at;
             while (lanes->offset[c] < offset) ++c;
-            for (at = c; !peri__is_along(b, i, k, lanes->vector[at]);) ++at;
+            /* columns of one offset differ by vector where lines of a shape end */
+            for (at = c; lanes->vector[at] != lanes->row[i * m->width + k];) ++at;
             if (!flags || (flags[i * m->words + k / 32] >> (k % 32) & 1)) mask[at] = (uint16_t)(mask[at] | 1 << (i % PERI_LANES));
         }
     }
@@ -131,6 +121,7 @@ static void peri__free_lanes(peri__model *m) {
     peri__delete(&m->memory, l->offset, l->columns, sizeof *l->offset);
     peri__delete(&m->memory, l->vector, l->columns, sizeof *l->vector);
     peri__delete(&m->memory, l->member, l->columns, sizeof *l->member);
+    peri__delete(&m->memory, l->row, m->points * m->width, sizeof *l->row);
     peri__delete(&m->memory, l->table, (int64_t)l->vectors * PERI_TABLE_ROW, sizeof *l->table);
     memset(l, 0, sizeof *l);
 }
@@ -183,7 +174,7 @@ static int32_t peri__keep_lanes(peri_body *b, peri__lane_draft *draft) {
         l->offset[c] = (int32_t)((draft->column[c] - vector) / 65536);
         if (l->offset[c] > l->reach) l->reach = l->offset[c];
     }
-    for (int64_t g = 0; g < l->groups; ++g) peri__group_masks(b, g, NULL, l->member);
+    for (int64_t g = 0; g < l->groups; ++g) peri__group_masks(m, g, NULL, l->member);
     return PERI_OK;
 }
 
@@ -198,7 +189,8 @@ static int32_t peri__build_lanes(peri_body *b, const double *x) {
     if (draft) draft->entry = (int64_t *)peri__new(&b->memory, room, sizeof *draft->entry);
     l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;
     l->begin = (int64_t *)peri__new(&m->memory, l->groups + 1, sizeof *l->begin);
-    if (draft && draft->entry && l->begin) {
+    l->row = (uint16_t *)peri__new(&m->memory, m->points * m->width, sizeof *l->row);
+    if (draft && draft->entry && l->begin && l->row) {
         status = peri__draft_lanes(b, draft, x);
         if (status == PERI_OK) status = peri__keep_lanes(b, draft);
     }
@@ -214,6 +206,6 @@ static int32_t peri__build_lanes(peri_body *b, const double *x) {
 /* Masks of what is alive, brought up to date with the flags of the list. */
 static void peri__update_lanes(peri_body *b) {
     if (!b->lanes_stale || !b->lanes_alive) return;
-    for (int64_t g = 0; g < b->model->lanes.groups; ++g) peri__group_masks(b, g, b->alive, b->lanes_alive);
+    for (int64_t g = 0; g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, b->alive, b->lanes_alive);
     b->lanes_stale = 0;
 }

@@ -139,7 +139,7 @@ static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
              load->value);
     for (int64_t k = 0; k < load->count * b->dim; ++k)
         if (!peri__finite(load->value[k]))
-            return peri__fail(b, PERI_ERROR_CALLBACK, "load", peri__set_point(b, load->set, k / b->dim), load->value[k]);
+            return peri__fail(b, PERI_ERROR_CALLBACK, "load at the point", peri__set_point(b, load->set, k / b->dim), load->value[k]);
     return PERI_OK;
 }
 
@@ -188,6 +188,7 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
         if (!load->owned) continue;
         int32_t status = peri__refresh_load(b, load, b->time + dt * m->time);
         if (status < 0) return status;
+        load->stepped = 1;
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
@@ -258,7 +259,7 @@ static int32_t peri__meet_supports(peri_body *b) {
                 if (!(load->owned[k] >> d & 1)) continue;
                 *peri__held(b, load, PERI__HELD_FORCE, k, d) = peri__get_real(b->f, b->f32, at);
                 *peri__held(b, load, PERI__HELD_ENERGY, k, d) = peri__get_real(b->v, b->f32, at);
-                *peri__held(b, load, PERI__HELD_REACTION, k, d) = -peri__get_real(b->f, b->f32, at);
+                if (!load->stepped) *peri__held(b, load, PERI__HELD_REACTION, k, d) = -peri__get_real(b->f, b->f32, at);
                 *peri__held(b, load, PERI__HELD_VALUE, k, d) = peri__load_value(b, load, k, d) / peri__velocity_unit(m);
                 peri__put_real(b->f, b->f32, at, 0.0);
             }
@@ -269,7 +270,8 @@ static int32_t peri__meet_supports(peri_body *b) {
 /* The supports make good what the coming kick will take from their dofs by damping: the same formula as in the kick itself. */
 static void peri__supply_supports(peri_body *b, const peri__step *step) {
     const peri__model *m = b->model;
-    for (int64_t s = 0; s < b->load_count && step->loss != 0.0; ++s) {
+    if (step->loss_old == 0.0 && step->loss_new == 0.0) return;
+    for (int64_t s = 0; s < b->load_count; ++s) {
         const peri__load *load = &b->loads[s];
         for (int64_t k = 0; load->owned && k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
@@ -277,7 +279,7 @@ static void peri__supply_supports(peri_body *b, const peri__step *step) {
                 double rho = m->rho[m->material[i]], old = peri__get_real(b->v, b->f32, at);
                 double now = step->keep * old + step->kick / rho * peri__get_real(b->f, b->f32, at);
                 if (!(load->owned[k] >> d & 1)) continue;
-                b->ledger.external += step->loss * rho * m->volume[i] * (step->central ? peri__square(0.5 * (old + now)) : old * now);
+                b->ledger.external += (step->loss_old * old + step->loss_new * now) * 0.5 * (old + now) * rho * m->volume[i];
             }
     }
 }
@@ -311,6 +313,7 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, cons
     double length = sqrt(peri__dot(normal, normal, b->dim));
     if (!(length > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, length);
     memset(&obstacle, 0, sizeof obstacle);
+    obstacle.kind = 1;
     for (int32_t d = 0; d < b->dim; ++d) obstacle.normal[d] = normal[d] / length;
     obstacle.motion = motion;
     obstacle.user = user;
@@ -324,7 +327,7 @@ PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, doub
     PERI_NEED_VECTOR(b, centre);
     PERI_NEED_NUMBER(b, radius > 0.0, radius);
     memset(&obstacle, 0, sizeof obstacle);
-    obstacle.ball = 1;
+    obstacle.kind = 2;
     obstacle.radius = radius / b->model->length;
     obstacle.motion = motion;
     obstacle.user = user;
@@ -336,10 +339,10 @@ static int32_t peri__move_obstacles(peri_body *b, double time) {
     for (int64_t k = 0; k < b->obstacle_count; ++k) {
         peri__obstacle *o = &b->obstacles[k];
         double place[3] = { 0.0, 0.0, 0.0 };
-        if (!o->motion) continue;
+        if (!o->kind || !o->motion) continue;
         for (int32_t d = 0; d < b->dim; ++d) place[d] = b->model->origin[d] + o->place0[d] * b->model->length;
         o->motion(o->user, time, place);
-        if (!peri__finite_vector(place, b->dim)) return peri__fail(b, PERI_ERROR_CALLBACK, "motion", k, 0.0);
+        if (!peri__finite_vector(place, b->dim)) return peri__fail(b, PERI_ERROR_CALLBACK, "motion of the obstacle", k, 0.0);
         peri__inner(b, place, o->place);
     }
     return PERI_OK;
@@ -349,12 +352,13 @@ static int32_t peri__move_obstacles(peri_body *b, double time) {
 static void peri__push(const peri_body *b, const peri__obstacle *o, int64_t i, double *push) {
     const peri__model *m = b->model;
     double r[3], depth, square = 0.0;
+    if (!o->kind) return;
     for (int32_t d = 0; d < m->dim; ++d) {
         int64_t at = d * m->stride + i;
         r[d] = peri__get_real(m->x, b->f32, at) + peri__get_real(b->u, b->f32, at) - o->place[d];
         square += r[d] * r[d];
     }
-    if (o->ball) {
+    if (o->kind == 2) {
         double distance = sqrt(square);
         depth = o->radius - distance;
         for (int32_t d = 0; depth > 0.0 && d < m->dim; ++d) push[d] += o->stiffness * depth * r[d] / (distance + 1e-290);
@@ -389,22 +393,22 @@ static int32_t peri__apply_obstacles(peri_body *b, double time, double dt) {
     int32_t status = peri__move_obstacles(b, time);
     if (status < 0) return status;
     step.kick = 0.5 * dt;
-    peri__for_points(b, b->model->points, peri__push_block, &step, b->sums);
+    peri__for_points(b, b->model->points, 4 * b->obstacle_count, peri__push_block, &step, b->sums);
     if (b->desc.ledger && dt > 0.0) b->ledger.obstacle += peri__total(b->sums, b->model->points).a;
     return PERI_OK;
 }
 
-PERI_API int32_t peri_read_obstacle_force(peri_body *b, int32_t obstacle, double *force) {
-    PERI_NEED_BUILT(b);
-    if (obstacle < 0 || obstacle >= b->obstacle_count) return peri__fail(b, PERI_ERROR_ID, "obstacle", obstacle, 0.0);
-    PERI_NEED(b, force, "force");
-    const peri__model *m = b->model;
-    double total[3] = { 0.0, 0.0, 0.0 };
-    for (int64_t i = 0; i < m->points; ++i) {
-        double push[3] = { 0.0, 0.0, 0.0 };
-        peri__push(b, &b->obstacles[obstacle], i, push);
-        for (int32_t d = 0; d < m->dim; ++d) total[d] += push[d] * m->volume[i];
-    }
-    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+static int32_t peri__check_obstacle(peri_body *b, int32_t obstacle) {
+    if (obstacle < 0 || obstacle >= b->obstacle_count || b->obstacles[obstacle].kind == 0)
+        return peri__fail(b, PERI_ERROR_ID, "obstacle", obstacle, 0.0);
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t obstacle) {
+    PERI_NEED_CHANGEABLE(b);
+    int32_t status = peri__check_obstacle(b, obstacle);
+    if (status < 0) return status;
+    b->obstacles[obstacle].kind = 0;
+    b->force_current = 0;
     return PERI_OK;
 }

@@ -133,7 +133,10 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
         PERI_NEED_BUILT(b);
         edge = 0.5 * b->model->spacing / b->model->horizon;
     }
+    int32_t running = b->running;
+    b->running = 2; /* influence_fn may be called */
     status = peri__pair_constants(b, i, j, stress, length, edge, &pair);
+    b->running = running;
     if (status < 0) return status;
     if (c) *c = pair.c * stress / (length * length * length * (solid ? length : b->desc.thickness));
     if (s0) *s0 = pair.s0 < PERI_NEVER ? pair.s0 : HUGE_VAL;

@@ -191,7 +191,7 @@ static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sum
     if (b->desc.quadrature >= PERI_PARTIAL_VOLUME) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
     c->reach2 = reach * reach;
     if (peri__sort_cells(c, &m->memory) < 0) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
-    peri__for_points(b, m->points, peri__count_block, c, sums);
+    peri__for_points(b, m->points, 256, peri__count_block, c, sums);
     peri__sums total = peri__total(sums, m->points);
     m->bonds = total.n;
     for (int64_t k = 0; k < m->blocks; ++k)
@@ -201,7 +201,7 @@ static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sum
     if (m->width == 0) m->width = 1;
     m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
     if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
-    peri__for_points(b, m->points, peri__fill_block, c, NULL);
+    peri__for_points(b, m->points, 4 * m->width, peri__fill_block, c, NULL);
     return PERI_OK;
 }
 

@@ -4,6 +4,7 @@
 #endif
 
 typedef struct peri__writer {
+    peri_body    *body;
     peri_write_fn write;
     void         *user;
     int32_t       failed;
@@ -12,7 +13,10 @@ typedef struct peri__writer {
 } peri__writer;
 
 static void peri__flush(peri__writer *w) {
+    int32_t running = w->body->running;
+    w->body->running = 2;
     if (w->used > 0 && !w->failed && w->write(w->user, w->buffer, w->used) != 0) w->failed = 1;
+    w->body->running = running;
     w->used = 0;
 }
 
@@ -93,6 +97,7 @@ PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
     n = b->model->points;
     double *values = (double *)peri__new(&b->memory, n * b->dim, sizeof(double));
     if (!values) return peri__fail(b, PERI_ERROR_MEMORY, "vtu", -1, 0.0);
+    w.body = b;
     w.write = write;
     w.user = user;
     w.failed = 0;
@@ -145,6 +150,7 @@ PERI_API int32_t peri_write_history(peri_body *b, int32_t header, peri_write_fn 
     PERI_NEED(b, write, "write");
     int32_t status = peri_read_energy(b, &e);
     if (status < 0) return status;
+    w.body = b;
     w.write = write;
     w.user = user;
     w.failed = 0;

@@ -5,9 +5,10 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* Fewer blocks than this (2,048 points) are not worth waking threads for. Blocks are handed out four at a time, so that a thread which
-   the machine takes away holds up the others by four blocks and not by its half. */
-#define PERI_THREAD_BLOCKS 32
+/* A loop of less work than this, in bonds (about 100 us), is done by the calling thread: on a busy machine every loop that wakes threads
+   waits until each of them has been let in. Blocks are handed out four at a time, so that a thread which the machine takes away holds
+   up the others by four blocks and not by its share. */
+#define PERI_THREAD_WORK 100000
 
 typedef void (*peri__block_fn)(void *context, int64_t begin, int64_t end, peri__sums *sums);
 
@@ -25,20 +26,22 @@ static void peri__block_task(void *context, int64_t k) {
     if (loop->sums) loop->sums[k] = sums;
 }
 
-/* Runs fn over all blocks of [0, points). sums is [blocks], or NULL where the totals are not needed. */
-static void peri__for_points(const peri_body *b, int64_t points, peri__block_fn fn, void *context, peri__sums *sums) {
+/* Runs fn over all blocks of [0, points). cost: work per point, in bonds. sums is [blocks], or NULL where totals are not needed. */
+static void peri__for_points(const peri_body *b, int64_t points, int64_t cost, peri__block_fn fn, void *context,
+                             peri__sums *sums) {
     peri__loop loop;
     int64_t blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
     loop.fn = fn;
     loop.context = context;
     loop.points = points;
     loop.sums = sums;
-    if (b->desc.parallel_for) {
+    int threaded = points * cost >= PERI_THREAD_WORK;
+    if (threaded && b->desc.parallel_for) {
         b->desc.parallel_for(b->desc.parallel_user, blocks, peri__block_task, &loop);
         return;
     }
 #if defined(_OPENMP) && !defined(PERI_NO_OPENMP)
-    if (b->desc.threads != 1 && blocks >= PERI_THREAD_BLOCKS) {
+    if (threaded && b->desc.threads != 1) {
         int threads = b->desc.threads > 0 ? (int)b->desc.threads : omp_get_max_threads();
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
         for (int64_t k = 0; k < blocks; ++k) peri__block_task(&loop, k);

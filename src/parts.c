@@ -111,7 +111,7 @@ static double peri__ramp(const peri__cloud *c, int64_t i, int64_t j) {
     double square = 0.0, spacing = 0.5 * (pow(m->volume[i], 1.0 / m->dim) + pow(m->volume[j], 1.0 / m->dim));
     for (int32_t d = 0; d < m->dim; ++d) square += peri__square(c->x[j * m->dim + d] - c->x[i * m->dim + d]);
     double part = (m->horizon + 0.5 * spacing - sqrt(square)) / spacing;
-    return part > 1.0 ? 1.0 : part;
+    return part > 1.0 ? 1.0 : part > 0.0 ? part : 0.0;
 }
 
 /* beta of bond (i,j): the mean of both directions, so that V_i beta V_j is the same from both ends and momentum is conserved. */
@@ -123,6 +123,7 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
     size_t slot = 0;
     if (c->body->desc.quadrature == PERI_FULL_VOLUME) return 1.0;
     if (c->body->desc.quadrature == PERI_VOLUME_RAMP) return peri__ramp(c, i, j);
+    for (int32_t d = 0; d < m->dim; ++d) regular = regular && fabs(c->x[j * m->dim + d] - c->x[i * m->dim + d]) < 1e5;
     if (!regular) {
         part = 0.5 * (peri__part(c, i, j, NULL) + peri__part(c, j, i, NULL));
         return part > PERI_NO_PART ? part : 0.0;

@@ -69,7 +69,7 @@ static int32_t peri__lattice(peri_body *b, int32_t material, const double *lo, c
     for (int32_t d = 0; d < b->dim; ++d) {
         double count = floor((hi[d] - lo[d]) / spacing + 0.5);
         if (!(hi[d] > lo[d]) || !peri__finite(hi[d] - lo[d]))
-            return peri__fail(b, PERI_ERROR_RANGE, "hi", d, hi[d]);
+            return peri__fail(b, PERI_ERROR_RANGE, "hi - lo", d, hi[d] - lo[d]);
         if (count < 1.0) count = 1.0;
         sites *= count;
         if (sites > (double)PERI_POINT_LIMIT) return peri__fail(b, PERI_ERROR_TOO_LARGE, "spacing", -1, sites);
@@ -91,7 +91,7 @@ static int32_t peri__is_within(void *user, int64_t index, const double *x) {
     double square = 0.0;
     (void)index;
     for (int32_t d = 0; d < ball->dim; ++d) square += peri__square(x[d] - ball->centre[d]);
-    return square <= peri__square(ball->radius * (1.0 + PERI_HORIZON_TOLERANCE));
+    return square <= peri__square(ball->radius);
 }
 
 /* Indices of site k, x fastest. */
@@ -102,9 +102,11 @@ static void peri__site(const peri__piece *piece, int64_t k, int64_t *index) {
 }
 
 /* Marks the sites that `inside` takes, one bit each, and counts them. It sees every site once, in order. */
-static int64_t peri__mark_sites(const peri_body *b, const peri__piece *piece, int64_t sites, peri_point_fn inside, void *user,
+static int64_t peri__mark_sites(peri_body *b, const peri__piece *piece, int64_t sites, peri_point_fn inside, void *user,
                                 uint8_t *taken) {
     int64_t count = 0;
+    int32_t running = b->running;
+    b->running = 2;
     for (int64_t k = 0; k < sites; ++k) {
         int64_t index[3];
         double x[3];
@@ -114,6 +116,7 @@ static int64_t peri__mark_sites(const peri_body *b, const peri__piece *piece, in
         taken[k / 8] = (uint8_t)(taken[k / 8] | 1 << k % 8);
         count++;
     }
+    b->running = running;
     return count;
 }
 
@@ -179,7 +182,7 @@ PERI_API int64_t peri_add_ball(peri_body *b, int32_t material, const double *cen
     int32_t status = peri__lattice(b, material, lo, hi, spacing, &piece);
     if (status < 0) return status;
     ball.centre = centre;
-    ball.radius = radius;
+    ball.radius = radius * (1.0 + PERI_HORIZON_TOLERANCE);
     ball.dim = b->dim;
     return peri__add_lattice(b, material, &piece, peri__is_within, &ball);
 }

@@ -61,7 +61,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
                 for (int32_t d = 0; d < dim; ++d) peri__put_real(m->centroid, b->f32, at * dim + d, centre[d]);
             peri__put_real(m->weight, b->f32, at, w);
             peri__put_real(m->bond, b->f32, at, length);
-            rate += m->pairs[m->material[i] * m->materials + m->material[j]].c * w / length;
+            rate += m->pairs[m->material[i] * m->materials + m->material[j]].c * fabs(w) / length;
             total += fabs(w);
         }
         rate *= 2.0 / m->rho[m->material[i]];
@@ -92,7 +92,7 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
             peri__weigh_block(c, k * PERI_BLOCK, peri__min((k + 1) * PERI_BLOCK, m->points), &sums[k]);
         }
     } else {
-        peri__for_points(b, m->points, peri__weigh_block, c, sums);
+        peri__for_points(b, m->points, 8 * m->width, peri__weigh_block, c, sums);
     }
     for (int64_t k = 0; k < m->blocks; ++k) {
         if (sums[k].bad >= 0) return peri__fail(b, (int32_t)sums[k].n, "influence", sums[k].bad, 0.0);

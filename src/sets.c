@@ -9,6 +9,12 @@ static double peri__position(const peri_body *b, int64_t i, int32_t d) {
     return m->origin[d] + m->length * peri__get_real(m->x, b->f32, d * m->stride + i);
 }
 
+/* Nearer than this touches; inner units. Single precision moves points by the rounding of their coordinates. */
+static double peri__touching(const peri_body *b) {
+    const peri__model *m = b->model;
+    return PERI_TOUCH * m->spacing + (b->f32 ? 0.5 * (double)FLT_EPSILON * m->extent : 0.0);
+}
+
 static int64_t peri__set_count(const peri_body *b, int32_t set) {
     return set == PERI_ALL ? b->model->points : b->sets[set - 1].count;
 }
@@ -60,12 +66,15 @@ static int32_t peri__select(peri_body *b, const char *name, peri_point_fn take, 
     const peri__model *m = b->model;
     int32_t *points = (int32_t *)peri__new(&b->memory, m->points, sizeof *points);
     int64_t count = 0;
+    int32_t running = b->running;
     if (!points) return peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
+    b->running = 2;
     for (int64_t i = 0; i < m->points; ++i) {
         double x[3];
         for (int32_t d = 0; d < m->dim; ++d) x[d] = peri__position(b, i, d);
         if (take(user, i, x)) points[count++] = (int32_t)i;
     }
+    b->running = running;
     return peri__new_set(b, name, points, m->points, count);
 }
 
@@ -84,10 +93,10 @@ static int32_t peri__is_inside_box(void *user, int64_t index, const double *x) {
 
 PERI_API int32_t peri_select_box(peri_body *b, const char *name, const double *lo, const double *hi) {
     peri__inside_box box;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, lo);
     PERI_NEED_VECTOR(b, hi);
-    double touch = PERI_TOUCH * b->model->spacing * b->model->length;
+    double touch = peri__touching(b) * b->model->length;
     box.dim = b->dim;
     for (int32_t d = 0; d < b->dim; ++d) {
         box.lo[d] = lo[d] - touch;
@@ -98,23 +107,23 @@ PERI_API int32_t peri_select_box(peri_body *b, const char *name, const double *l
 
 PERI_API int32_t peri_select_ball(peri_body *b, const char *name, const double *centre, double radius) {
     peri__within ball;
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, centre);
     PERI_NEED_NUMBER(b, radius > 0.0, radius);
     ball.centre = centre;
-    ball.radius = radius + PERI_TOUCH * b->model->spacing * b->model->length;
+    ball.radius = radius + peri__touching(b) * b->model->length;
     ball.dim = b->dim;
     return peri__select(b, name, peri__is_within, &ball);
 }
 
 PERI_API int32_t peri_select_if(peri_body *b, const char *name, peri_point_fn take, void *user) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED(b, take, "take");
     return peri__select(b, name, take, user);
 }
 
 PERI_API int32_t peri_select_points(peri_body *b, const char *name, int64_t count, const int32_t *points) {
-    PERI_NEED_BUILT(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED(b, points && count >= 0, "points");
     const peri__model *m = b->model;
     for (int64_t k = 0; k < count; ++k)

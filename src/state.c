@@ -12,7 +12,7 @@ static peri__step peri__no_step(const peri_body *b) {
 
 static double peri__kinetic_energy(peri_body *b) {
     peri__step step = peri__no_step(b);
-    peri__for_points(b, b->model->points, b->ops->kinetic, &step, b->sums);
+    peri__for_points(b, b->model->points, 1, b->ops->kinetic, &step, b->sums);
     return peri__total(b->sums, b->model->points).a;
 }
 
@@ -20,15 +20,15 @@ static double peri__kinetic_energy(peri_body *b) {
 static double peri__elastic_energy(peri_body *b, double *density) {
     peri__step step = peri__no_step(b);
     step.out = density;
-    peri__for_points(b, b->model->points, b->ops->energy, &step, b->sums);
+    peri__for_points(b, b->model->points, 4 * b->model->width, b->ops->energy, &step, b->sums);
     return peri__total(b->sums, b->model->points).a;
 }
 
 /* Displacement, velocity or bonds are about to be changed by the caller, not by the equations of motion: the force is stale, and the
    change of energy counts as `initial`. It is measured when next needed, so that a hundred cuts cost two energy passes. */
-static void peri__touch(peri_body *b, int changes_energy) {
+static void peri__touch(peri_body *b) {
     b->force_current = 0;
-    if (!b->desc.ledger || !changes_energy || b->ledger.pending) return;
+    if (!b->desc.ledger || b->ledger.pending) return;
     b->ledger.before = b->steps == 0 && b->ledger.initial == 0.0 ? 0.0 : peri__kinetic_energy(b) + peri__elastic_energy(b, NULL);
     b->ledger.pending = 1;
 }
@@ -43,11 +43,21 @@ static double peri__velocity_unit(const peri__model *m) { return m->length / m->
 
 static double peri__force_unit(const peri__model *m) { return m->stress / m->length; }
 
+/* Displacements and velocities that the arithmetic can square: within 1e15 spacings, below 1e9 speeds of sound. */
+static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit) {
+    double limit = array == b->v ? 1e9 : 1e15;
+    for (int64_t k = 0; k < count; ++k)
+        if (!(fabs(in[k] / unit) < limit)) return peri__fail(b, PERI_ERROR_RANGE, "in", k / b->dim, in[k]);
+    return PERI_OK;
+}
+
 static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t set, const double *value) {
     PERI_NEED_VECTOR(b, value);
     int32_t status = peri__check_set(b, set);
     if (status < 0) return status;
-    peri__touch(b, 1);
+    status = peri__check_state(b, array, value, b->dim, unit);
+    if (status < 0) return status;
+    peri__touch(b);
     for (int64_t k = 0; k < peri__set_count(b, set); ++k)
         for (int32_t d = 0; d < b->dim; ++d) {
             int64_t at = d * b->model->stride + peri__set_point(b, set, k);

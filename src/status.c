@@ -57,8 +57,11 @@ PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_
     return length;
 }
 
-static void peri__log(const peri_body *b, int32_t level, const char *text) {
+static void peri__log(peri_body *b, int32_t level, const char *text) {
+    int32_t running = b->running;
+    b->running = 2;
     if (b->desc.log) b->desc.log(b->desc.log_user, level, text);
+    b->running = running;
 }
 
 /* "m->young" names the field young. The text is constant, so its tail is too. */
@@ -77,7 +80,7 @@ static const char *peri__field_name(const char *expression) {
     if (!(b)->model) return peri__fail((b), PERI_ERROR_ORDER, "peri_build", -1, 0.0)
 #define PERI_NEED_UNBUILT(b)                                                                                           \
     PERI_NEED_BODY(b);                                                                                                 \
-    if ((b)->model) return peri__fail((b), PERI_ERROR_ORDER, "peri_build", -1, 0.0)
+    if ((b)->model || (b)->running) return peri__fail((b), PERI_ERROR_ORDER, (b)->running ? "callback" : "peri_build", -1, 0.0)
 #define PERI_NEED_VECTOR(b, vector)                                                                                    \
     PERI_NEED(b, vector, #vector);                                                                                     \
     if (!peri__finite_vector(vector, (b)->dim)) return peri__fail((b), PERI_ERROR_RANGE, #vector, -1, 0.0)

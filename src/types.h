@@ -71,6 +71,7 @@ typedef struct peri__lanes { /* see lanes.c                                     
     uint16_t *vector;                 /* [columns] row of the table                                                      */
     uint16_t *member;                 /* [columns] which points of the group have the bond                               */
     double   *table;                  /* [vectors][PERI_TABLE_ROW]                                                       */
+    uint16_t *row;                    /* [points][width] row of the table, by the list                                   */
     int32_t   vectors, isa;           /* isa: which instruction set the kernels use                                      */
 } peri__lanes;
 
@@ -137,10 +138,11 @@ typedef struct peri__load {
     int32_t     *all;         /* [count] 0, 1, ... for fn on PERI_ALL, which is stored nowhere else; else NULL           */
     uint8_t     *owned;       /* supports: [count] axes that no later support has taken; else NULL                       */
     int64_t      count;
+    int32_t      stepped; /* supports: a step has left its mean reaction                                                 */
 } peri__load;
 
 typedef struct peri__obstacle {
-    int32_t        ball;
+    int32_t        kind; /* 0 removed, 1 plane, 2 ball                                                                   */
     double         place[3], place0[3], normal[3], radius, stiffness; /* inner units                                     */
     peri_motion_fn motion;
     void          *user;
@@ -154,9 +156,8 @@ typedef struct peri__sums { /* what a block of points adds up; summed over block
 typedef struct peri__step { /* what a pass over the points needs to know                                                  */
     peri_body *body;
     double     keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                                */
-    double     loss;              /* factor of the damping work; 0: none                                                 */
+    double     loss_old, loss_new; /* damping work: (loss_old v_old + loss_new v_new).(v_old + v_new)/2 rho V            */
     double     impulse;           /* time that a bond still acts after it broke: half a step, or 0                       */
-    int32_t    central;           /* the kick spans a whole step                                                         */
     int32_t    breaking;          /* bonds may break                                                                     */
     double    *out;               /* energy density per point, or NULL                                                   */
 } peri__step;

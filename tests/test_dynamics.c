@@ -402,8 +402,8 @@ static void durations_and_steps(void) {
     r.steps = 17;
     CHECK(peri_advance(b, &r) == PERI_OK && peri_step_count(b) == 27);
     CHECK_NEAR(peri_time(b), 27e-3, 1e-14, 0);
-    r.steps = 0; /* a duration of zero is zero steps */
-    CHECK(peri_advance(b, &r) == PERI_OK && peri_step_count(b) == 27);
+    r.steps = 0; /* neither steps nor duration: nothing was asked for */
+    CHECK(peri_advance(b, &r) == PERI_ERROR_ARGUMENT && peri_step_count(b) == 27);
     r.steps = 1;
     r.time_step = 0;
     r.safety = 0.5;
