@@ -46,8 +46,9 @@
      Callbacks may read the body (within a step, forces and velocities are those under way). on_frame may also cut, select, and
               add or remove loads and obstacles. Any other change to the body that made the call is refused with
               PERI_ERROR_ORDER; destroying it is ignored.
-     Threads  One body: one thread at a time. Different bodies, clones included: any threads at once. Callbacks run on the
-              thread that made the call, one at a time (exception: the tasks that you are given in parallel_for).
+     Threads  One body: one thread at a time. Different bodies, clones included: any threads at once (your hooks, which clones
+              share, must then bear it). Callbacks run on the thread that made the call, one at a time (exception: the tasks
+              that you are given in parallel_for).
      Same bits for any number of threads: each point sums its own bonds in a fixed order, and totals are summed over
               fixed blocks in a fixed order. (Compile without -ffast-math.)
 
@@ -430,7 +431,7 @@ PERI_API int32_t peri_apply_body_force(peri_body *body, int32_t set, const doubl
 PERI_API int32_t peri_apply_traction(peri_body *body, int32_t set, double area, const double *value, peri_load_fn fn,
                                      void *user);
 
-/* Takes a load or support away again. Ids of the others stay. */
+/* Takes a load or support away again. Ids of the others stay, and ids are not used twice. */
 PERI_API int32_t peri_remove_load(peri_body *body, int32_t load);
 
 /* Force [M L T^-2] to force[dim]: of a support on the body (its prescribed components), mean of the last step, so that reactions

@@ -30,8 +30,7 @@
 #include "src/parts.c"      /* a cell and a horizon            -> the part within                          */
 #include "src/neighbors.c"  /* points                          -> families (Ibond)                         */
 #include "src/quadrature.c" /* families                        -> lengths and weights of bonds             */
-
-#include "src/lanes.c"      /* families of lattices            -> columns, the compressed Ibond             */
+#include "src/lanes.c"      /* families of lattices            -> columns, the compressed Ibond            */
 
 #define PERI_T_REAL 64
 #define PERI_T_DIM 2

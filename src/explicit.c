@@ -60,9 +60,9 @@ static int32_t peri__update_force(peri_body *b) {
     return status;
 }
 
-static void peri__kick(peri_body *b, const peri__step *step, int64_t *bad) {
+static void peri__kick(peri_body *b, peri__step *step, int64_t *bad) {
     peri__supply_supports(b, step);
-    peri__for_points(b, b->model->points, 1, b->ops->kick, (void *)(uintptr_t)step, b->sums);
+    peri__for_points(b, b->model->points, 1, b->ops->kick, step, b->sums);
     peri__sums total = peri__total(b->sums, b->model->points);
     b->ledger.damping += total.b;
     if (bad && *bad < 0) *bad = total.bad;

@@ -174,8 +174,9 @@ def main():
     check(run.returncode == 0, "%s returned %d" % (sys.argv[2], run.returncode))
     check(not failures, "through ctypes: %s" % failures)
     check(len(mine) == len(theirs), "%d numbers through ctypes, %d from C" % (len(mine), len(theirs)))
-    for k, (a, b) in enumerate(zip(mine, theirs)):
-        check(float(a) == b, "number %d: %.17g through ctypes, %.17g from C" % (k, a, b))
+    wrong = ["number %d: %.17g through ctypes, %.17g from C" % (k, a, b)
+             for k, (a, b) in enumerate(zip(mine, theirs)) if float(a) != b]
+    check(len(mine) > 1000 and not wrong, "; ".join(wrong[:10]))
     check(counts["load"] > 20 and counts["frame"] > 2 and counts["break"] > 5, "callbacks: %s" % counts)
     print("test_ctypes: %d passed, %d failed" % (passed, failed))
     sys.exit(1 if failed else 0)
