@@ -16,7 +16,7 @@ check example_length sh -c 'for e in examples/*.c; do
 # ---- under sanitizers, what is quick enough
 if echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; then
     check sanitized_library $CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o
-    for name in test_breaking test_cracks test_edges test_errors test_families test_kernels test_loads test_memory test_output test_quadrature; do
+    for name in test_breaking test_cracks test_edges test_errors test_families test_kernels test_loads test_memory test_output test_quadrature test_random; do
         $CC $STRICT $SANITIZE $OPENMP -I. "tests/$name.c" build/san/peri.o -o "build/san/$name" -lm
         program "sanitized_$name" "build/san/$name"
     done
