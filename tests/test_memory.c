@@ -446,10 +446,84 @@ static void null_arguments(void) {
     CHECK(p.blocks == 0 && p.wrong == 0);
 }
 
+/* ---- a plate of one material --------------------------------------------------------------------------------------- */
+
+/* Its families are also packed by columns, with a table, drafts and masks of their own. A cut plate is built, cloned and run; a call
+   that fails for want of memory is made again. Returns the number of calls that failed, and the checksum of the motion. */
+static int columns_life(pool *p, double *sum) {
+    const double lo[2] = {0, 0}, hi[2] = {9, 7}, from[2] = {0, 3.5}, to[2] = {4, 3.5}, v[2] = {0.02, 0};
+    peri_body_desc d;
+    peri_material m;
+    peri_body *b = NULL, *copy = NULL;
+    peri_run run;
+    double *u;
+    int64_t n, i;
+    int failed = 0, step;
+    peri_body_desc_init(&d);
+    d.space = PERI_PLANE_STRESS;
+    d.horizon = 2.5;
+    d.allocate = pool_allocate;
+    d.release = pool_release;
+    d.memory_user = p;
+    peri_material_init(&m, PERI_BOND_BASED);
+    m.young = m.density = 1;
+    peri_run_init(&run);
+    run.steps = 20;
+    *sum = 0;
+    for (step = 0; step < 7; ++step) {
+        int64_t result = 0;
+        int tries;
+        for (tries = 0; tries < 2; ++tries) {
+            switch (step) {
+            case 0: result = peri_body_create(&d, &b, NULL); break;
+            case 1: result = peri_add_material(b, &m); break;
+            case 2: result = peri_add_box(b, 0, lo, hi, 1.0); break;
+            case 3: result = peri_build(b); break;
+            case 4: result = peri_cut_segment(b, from, to); break;
+            case 5: result = peri_clone(b, &copy, NULL); break;
+            default: result = peri_add_velocity(copy, (int32_t)peri_select_box(copy, NULL, lo, to), v); break;
+            }
+            if (result != PERI_ERROR_MEMORY && !(step == 6 && result == PERI_ERROR_SET)) break;
+            failed++;
+        }
+        CHECK(result >= 0);
+        if (result < 0) break;
+    }
+    if (copy) {
+        MUST(copy, peri_advance(copy, &run));
+        n = peri_field_size(copy, PERI_DISPLACEMENT);
+        u = (double *)malloc((size_t)n * sizeof(double));
+        MUST(copy, peri_read(copy, PERI_DISPLACEMENT, u, n));
+        for (i = 0; i < n; ++i) *sum += u[i] * (double)(i + 1);
+        free(u);
+    }
+    peri_body_destroy(b);
+    peri_body_destroy(copy);
+    CHECK(p->blocks == 0 && p->bytes == 0 && p->wrong == 0);
+    return failed;
+}
+
+static void every_allocation_of_columns_fails_once(void) {
+    pool p = {0, 0, 0, -1, 0, 0};
+    double whole, sum;
+    int64_t calls, k;
+    CHECK(columns_life(&p, &whole) == 0 && whole != 0);
+    calls = p.calls;
+    for (k = 0; k < calls; ++k) {
+        p.calls = 0;
+        p.fail_at = k;
+        CHECK(columns_life(&p, &sum) == 1);
+        CHECK(sum == whole);
+    }
+    printf("    plate of one material: %d allocations, each failed once\n", (int)calls);
+    CHECK(calls > 30);
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(every_allocation_fails_once_2d);
     RUN(every_allocation_fails_once_3d);
+    RUN(every_allocation_of_columns_fails_once);
     RUN(unaligned_dirty_memory);
     RUN(null_body_everywhere);
     RUN(null_arguments);
