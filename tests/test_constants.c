@@ -427,8 +427,8 @@ static const char *const rule_name[6] = {"", "full", "ramp", "partial", "centroi
 static void appendix_f(void) {
     static const double level[6][2] = {{0, 0}, {0.005, 0.0096}, {0.011, 0.014}, {0.011, 0.011}, {0.014, 0.022}, {0.011, 0.02}};
     const double thick = 0.37;
-    double ratio[2][PAPER][6];
-    int n, strain, field;
+    double ratio[2][2][PAPER][6]; /* [plane][W, F1][kernel][rule], nonlinear */
+    int n, strain, field, k;
     int32_t rule, geometry;
     make_band(6.0);
     for (n = 0; n < PAPER; ++n)
@@ -451,16 +451,17 @@ static void appendix_f(void) {
                         if (field) CHECK_NEAR(got_f[0], f[0], 1e-9, 0.0);
                         CHECK_NEAR(got_f[1], f[1], 0.0, 1e-9 * 0.02);
                         CHECK_NEAR(field ? got_f[0] : got_w, exact, bound, 0.0);
-                        if (!strain) ratio[field][n][rule] = (field ? got_f[0] : got_w) / exact;
+                        ratio[strain][field][n][rule] = (field ? got_f[0] : got_w) / exact;
                     }
                     peri_body_destroy(body);
                 }
-    for (field = 0; field < 2; ++field) {
-        printf("    %s / continuum, horizon 0.2, spacing horizon/6, plane stress, nonlinear\n", field ? "F1" : "W");
+    for (k = 0; k < 4; ++k) {
+        printf("    %s / continuum, horizon 0.2, spacing horizon/6, plane %s, nonlinear\n", k % 2 ? "F1" : "W",
+               k / 2 ? "strain" : "stress");
         for (n = 0; n < PAPER; ++n) {
             printf("    %-5s", kernels[n].name);
             for (rule = PERI_FULL_VOLUME; rule <= PERI_PARTIAL_MOMENT; ++rule)
-                printf("  %s %.4f", rule_name[rule], ratio[field][n][rule]);
+                printf("  %s %.4f", rule_name[rule], ratio[k / 2][k % 2][n][rule]);
             printf("\n");
         }
     }
