@@ -33,7 +33,7 @@ static void sum_momenta(peri_body *b, int32_t space, double *p, double *l, doubl
 }
 
 /* SOURCE OF TRUTH: Newton's third law. Every force lies along its bond, so a free body keeps both momenta, and so does the
-   discrete flow of velocity-Verlet, exactly. What is left is rounding. In double the issue asks for 1e-12. In float: each of
+   discrete flow of velocity-Verlet, exactly. What is left is rounding. In double 1e-12 is asked for. In float: each of
    the 2*steps kicks rounds every velocity (and sums ~30 forces of the size of velocity/dt) with relative error u; the errors
    are independent, so they add up to u*sqrt(2*steps) times a small factor; 10 is allowed. */
 static void momentum(int32_t space, int32_t precision, int32_t integrator) {
