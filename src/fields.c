@@ -144,7 +144,7 @@ PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64
     peri_view view;
     (void)peri__stored_view(b, field, &view);
     void *data = field == PERI_VELOCITY ? b->v : b->u;
-    int32_t status = peri__check_state(b, data, in, count, view.scale);
+    int32_t status = peri__check_state(b, data, in, count, view.scale, "in");
     if (status < 0) return status;
     peri__touch(b);
     for (int64_t i = 0; i < m->points; ++i)

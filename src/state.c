@@ -44,10 +44,11 @@ static double peri__velocity_unit(const peri__model *m) { return m->length / m->
 static double peri__force_unit(const peri__model *m) { return m->stress / m->length; }
 
 /* Displacements and velocities that the arithmetic can square: within 1e15 spacings, below 1e9 speeds of sound. */
-static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit) {
+static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit,
+                                 const char *field) {
     double limit = array == b->v ? 1e9 : 1e15;
     for (int64_t k = 0; k < count; ++k)
-        if (!(fabs(in[k] / unit) < limit)) return peri__fail(b, PERI_ERROR_RANGE, "in", k / b->dim, in[k]);
+        if (!(fabs(in[k] / unit) < limit)) return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);
     return PERI_OK;
 }
 
@@ -55,7 +56,7 @@ static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t set,
     PERI_NEED_VECTOR(b, value);
     int32_t status = peri__check_set(b, set);
     if (status < 0) return status;
-    status = peri__check_state(b, array, value, b->dim, unit);
+    status = peri__check_state(b, array, value, b->dim, unit, "value");
     if (status < 0) return status;
     peri__touch(b);
     for (int64_t k = 0; k < peri__set_count(b, set); ++k)

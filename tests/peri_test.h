@@ -79,6 +79,19 @@ static inline int test_end(const char *program) {
     return test_failed;
 }
 
+/* A body of the descriptor with one material of unit modulus and density; critical_stretch 0: bonds do not break. */
+static inline peri_body *test_unit_body(const peri_body_desc *desc, double critical_stretch) {
+    peri_body *body = NULL;
+    peri_material m;
+    CHECK(peri_body_create(desc, &body, NULL) == PERI_OK);
+    peri_material_init(&m, PERI_BOND_BASED);
+    m.young = 1.0;
+    m.density = 1.0;
+    m.critical_stretch = critical_stretch;
+    MUST(body, peri_add_material(body, &m));
+    return body;
+}
+
 /* A fixed generator, uniform in [0, 1): the same numbers on every machine. */
 static inline double test_random(uint64_t *state) {
     uint64_t z = (*state += UINT64_C(0x9E3779B97F4A7C15));

@@ -118,20 +118,12 @@ typedef struct {
 
 static peri_body *new_body(int dim, double horizon, int32_t precision) {
     peri_body_desc d;
-    peri_material m;
-    peri_error error;
-    peri_body *body = NULL;
     peri_body_desc_init(&d);
     d.space = dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS;
     d.horizon = horizon;
     d.precision = precision;
     d.threads = 1;
-    CHECK(peri_body_create(&d, &body, &error) == PERI_OK);
-    peri_material_init(&m, PERI_BOND_BASED);
-    m.young = 1.0;
-    m.density = 1.0;
-    MUST(body, peri_add_material(body, &m));
-    return body;
+    return test_unit_body(&d, 0.0);
 }
 
 static void place(const lattice *l, vec v, double *x) {

@@ -4,21 +4,13 @@
 
 static peri_body *empty(int32_t space, int32_t precision, double horizon, int32_t quadrature, int32_t reference, double s0) {
     peri_body_desc desc;
-    peri_material m;
-    peri_body *b = NULL;
     peri_body_desc_init(&desc);
     desc.space = space;
     desc.precision = precision;
     desc.horizon = horizon;
     desc.quadrature = quadrature;
     desc.reference = reference;
-    CHECK(peri_body_create(&desc, &b, NULL) == PERI_OK);
-    peri_material_init(&m, PERI_BOND_BASED);
-    m.young = 1.0;
-    m.density = 1.0;
-    m.critical_stretch = s0;
-    MUST(b, peri_add_material(b, &m));
-    return b;
+    return test_unit_body(&desc, s0);
 }
 
 static peri_body *plate(double s0) {
@@ -284,6 +276,7 @@ static void damping_of_rigid_motion(void) {
 static void too_large_numbers(void) {
     const double lo[2] = {0, 0}, hi[2] = {4, 4}, far_[2] = {1e300, 0}, fast[2] = {1e12, 0}, nan_[2] = {NAN, 0};
     peri_body *b = empty(PERI_PLANE_STRESS, PERI_F32, 1e200, PERI_FULL_VOLUME, 0, 0);
+    peri_error error;
     int64_t n;
     double *x;
     MUST(b, peri_add_box(b, 0, lo, hi, 1.0));
@@ -293,10 +286,12 @@ static void too_large_numbers(void) {
     n = peri_field_size(b, PERI_DISPLACEMENT);
     x = (double *)calloc((size_t)n, sizeof(double));
     CHECK(peri_add_displacement(b, PERI_ALL, far_) == PERI_ERROR_RANGE);
+    CHECK(peri_last_error(b, &error) == PERI_OK && strcmp(error.field, "value") == 0);
     CHECK(peri_add_velocity(b, PERI_ALL, fast) == PERI_ERROR_RANGE);
     CHECK(peri_add_velocity(b, PERI_ALL, nan_) == PERI_ERROR_RANGE);
     x[7] = 1e20;
     CHECK(peri_write(b, PERI_DISPLACEMENT, x, n) == PERI_ERROR_RANGE);
+    CHECK(peri_last_error(b, &error) == PERI_OK && strcmp(error.field, "in") == 0 && error.index == 3);
     MUST(b, peri_read(b, PERI_DISPLACEMENT, x, n));
     CHECK(x[0] == 0 && x[7] == 0);
     free(x);

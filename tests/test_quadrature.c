@@ -62,9 +62,6 @@ static double x_[3 * N_MAX], v_[N_MAX], u_[3 * N_MAX], f_[3 * N_MAX];
 
 static peri_body *new_body(int dim, double horizon, double thickness, int32_t quadrature, int32_t geometry) {
     peri_body_desc d;
-    peri_material m;
-    peri_error error;
-    peri_body *body = NULL;
     peri_body_desc_init(&d);
     d.space = dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS;
     d.horizon = horizon;
@@ -72,12 +69,7 @@ static peri_body *new_body(int dim, double horizon, double thickness, int32_t qu
     d.quadrature = quadrature;
     d.geometry = geometry;
     d.threads = 1;
-    CHECK(peri_body_create(&d, &body, &error) == PERI_OK);
-    peri_material_init(&m, PERI_BOND_BASED);
-    m.young = 1.0;
-    m.density = 1.0;
-    MUST(body, peri_add_material(body, &m));
-    return body;
+    return test_unit_body(&d, 0.0);
 }
 
 /* Builds, and reads positions and volumes. */
