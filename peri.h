@@ -5,10 +5,10 @@
      are joined by bonds, and the bonds carry the force. A bond that is stretched too far breaks for good; cracks are where
      bonds are broken. There is no mesh and no crack-tracking. The equations are those of
 
-       [T]  the thesis on bond- and state-based peridynamics (BBP/SBP): equations 1.20-1.41, 2.10-2.14, section 3.3.1
+       [T]  the thesis on bond- and state-based peridynamics (BBP/SBP): equations 1.20-1.102, 2.10-2.14, 4.9-4.14, section 3.3.1
        [L]  the lecture on the PMB algorithm (force, damage, central difference)
        [P]  Seleson, Pasetto, John, Trageser, Reeve: PDMATLAB2D (2D kernels, exact partial areas, appendices A-G)
-       [C]  Queiruga, Moridis 2017, the convergence study (influence functions of its table 2)
+       [C]  Queiruga, Moridis 2017, the convergence study (its three state-based laws; influence functions of its table 2)
 
    HOW TO BUILD, any one of
        #define PERI_IMPLEMENTATION       in exactly one C file, then  #include "peri.h"
@@ -54,11 +54,10 @@
 
    WHAT IT DOES NOT DO
      It does not print, exit, assert on your data, keep global state, read files, or touch the locale or the clock.
-     No contact between parts of a body (rigid obstacles only), no heat, no plasticity, no adaptive horizon. No correction for
-     points near a free surface: keep parts many horizons thick where stiffness matters.
+     No contact between parts of a body (rigid obstacles only), no heat, no plasticity, no adaptive horizon.
 
-   The trades between speed and accuracy are fields of peri_body_desc: precision, geometry, horizon over spacing, quadrature
-   and influence function. Each says there what it costs. */
+   The trades between speed and accuracy are the model of the material and fields of peri_body_desc: precision, geometry, horizon
+   over spacing, quadrature, influence function and correction. Each says there what it costs. */
 
 #ifndef PERI_H
 #define PERI_H
@@ -115,7 +114,9 @@ extern "C" {
     X(ERROR_CALLBACK, -22, "a callback wrote a number that is not finite")                                             \
     X(ERROR_FIELD, -23, "the field cannot be used in this way: not stored, or not writable")                           \
     X(ERROR_CAPACITY, -24, "the buffer has the wrong size; it needs the value")                                          \
-    X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")
+    X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")                       \
+    X(ERROR_CRITERION, -26, "the failure criterion cannot act on this model, or lacks its fracture energy")            \
+    X(ERROR_MODEL, -27, "this model has no such constant, or cannot take this quadrature or interface")
 
 #define PERI_STATUS_ENUM_(name, value, text) PERI_##name = value,
 typedef enum peri_status { PERI_STATUS_LIST(PERI_STATUS_ENUM_) PERI_STATUS_END_ = 1000 } peri_status;
@@ -228,6 +229,22 @@ typedef enum peri_break_timing {
     PERI_BREAK_AFTER_DRIFT = 2  /* it no longer acts in that step's second half kick, as in [P]; ledger error O(dt)       */
 } peri_break_timing;
 
+/* What makes good for the part of a family that is missing at a surface, and for the coarseness of a sum over few points.
+   Without it a bond-based body is soft near its surfaces: a beam one horizon thick bends about twice too far. The state-based laws
+   divide by moments of the family as it is, so they need less of it, and the correspondence law none. It acts on whole families
+   and costs set-up time only. */
+typedef enum peri_correction {
+    PERI_NO_CORRECTION     = 1, /* bond-based: the constants of an infinite body                                         */
+    PERI_VOLUME_CORRECTION = 2, /* bond-based: each bond times 2 V0/(V_i + V_j), V0 = full, V_i = actual volume within the
+                                   horizon (Le, Bobaru 2018). For comparison; state-based laws: as without               */
+    PERI_ENERGY_CORRECTION = 3, /* moduli of each point calibrated on its own family (Madenci, Oterkus 2014): the energies of
+                                   isotropic strain, and of shear on the mean over its directions, are those of the solid.
+                                   Bonds between points take the mean of both                                            */
+    PERI_MOMENT_CORRECTION = 4  /* the weights of each family changed as little as can be so that every uniform strain has the
+                                   energy of the solid (after Trask et al. 2019), bond-based moduli calibrated as above: exact to
+                                   rounding in the bulk; near surfaces as far as weights that are not negative allow     */
+} peri_correction;
+
 typedef struct peri_body_desc {
     uint64_t          cookie;           /* set by peri_body_desc_init                                                    */
     int32_t           space;            /* peri_space. Required                                                          */
@@ -242,11 +259,10 @@ typedef struct peri_body_desc {
     int32_t           reference;        /* 1 = plain textbook kernels (slow, for checking). Default 0                    */
     int32_t           ledger;           /* 1 (default) = account for external work, damping and obstacles while running;
                                            0 = do not: peri_read_energy then gives kinetic, elastic and fracture only    */
-    int32_t           reserved;         /* 0                                                                             */
+    int32_t           correction;       /* peri_correction. Default PERI_NO_CORRECTION                                   */
     double            horizon;          /* [L] > 0. Required. 3 to 4 spacings is usual; cost grows as (horizon/spacing)^dim.
-                                           Points nearer than this to a free face have part of a family and are too soft: a
-                                           beam one horizon thick bends about twice too far. Comparisons have a relative
-                                           tolerance of 1e-8 built in: 3*spacing means 3                                 */
+                                           Points nearer than this to a free face have part of a family: see correction.
+                                           Comparisons have a relative tolerance of 1e-8 built in: 3*spacing means 3     */
     double            thickness;        /* [L] > 0, 2D only. Default 1                                                   */
     peri_influence_fn influence_fn;     /* for PERI_INFLUENCE_USER                                                       */
     void             *influence_user;   /* handed to influence_fn                                                        */
@@ -273,20 +289,52 @@ PERI_API int32_t peri_last_error(const peri_body *body, peri_error *error);
 
 /* ---- materials ---------------------------------------------------------------------------------------------------- */
 
+/* Laws. With extension e, direction M = (xi+eta)/|xi+eta| and sums over the live bonds of a family, the force density on i is
+   sum_j (t_i + t_j) M V_j, each end of a bond giving its own half by its own material. Every law is the derivative of an energy, so
+   momentum and energy are conserved whatever meets whatever. D = 3 in 3D, else 2.
+
+     bond-based      t = 1/2 c w s,  s = e/|xi|                      micromodulus c of the infinite body; Poisson ratio fixed
+     LPS             t = (w/m) (A theta |xi| + B e)                  m = sum w |xi|^2 V,  theta = (D/m) sum w |xi| e V
+     Oterkus         t = 2 w (a d theta + b e)                       theta = d sum w e V;  a, b, d from sums over the actual family
+     correspondence  T = w P K^-1 xi + k w (Y - F xi)                K = sum w xi xi V,  F = (sum w Y xi V) K^-1,  P from F
+
+   A = 3K - 5 mu, B = 15 mu in 3D; 2 lambda - 2 mu, 8 mu in plane strain; the same with lambda' = E nu/(1-nu^2) in plane stress.
+   LPS at the Poisson ratio of a bond-based material has A = 0 and skips theta. Oterkus's factor Lambda (cosine of the bond's rotation)
+   is taken as 1: with it the law would not be objective. Bonds that are broken or cut are in none of the sums. A correspondence point
+   whose live bonds span too little (K nearly singular) acts by central bonds alone, t = B w e/m0 with m0 of the whole family. */
 typedef enum peri_model {
-    PERI_BOND_BASED = 1 /* generalised prototype microelastic brittle (GPMB): f = c w(|xi|) s M          ([P] A, [T] 1.23) */
+    PERI_BOND_BASED     = 1, /* generalised prototype microelastic brittle (GPMB)                        ([P] A, [T] 1.23) */
+    PERI_LPS            = 2, /* linear peridynamic solid, ordinary state-based      ([T] 1.54, 1.67, 1.72, [C] eqs. 2-7) */
+    PERI_OTERKUS        = 3, /* ordinary state-based, discrete calibration                              ([C] eqs. 8-17) */
+    PERI_CORRESPONDENCE = 4  /* deformation gradient: sigma = lambda tr(eps) + 2 mu eps where the geometry is linear ([C] 18-21), else
+                                Saint Venant-Kirchhoff, S = lambda tr(E) + 2 mu E, objective                             */
 } peri_model;
+
+/* When a bond breaks. Only bonds that are longer than at rest break. A bond between two materials breaks when the criterion of
+   either is met, at the lower limit where both have the same. */
+typedef enum peri_criterion {
+    PERI_CRITERION_STRETCH     = 1, /* s > s0                                                         ([T] 1.40, 1.41)     */
+    PERI_CRITERION_BOND_ENERGY = 2, /* state-based: the work done on the bond, int (t_i + t_j) M.d eta, passes w0 = 4 G0/(pi h^4) in
+                                       3D, 3 G0/(2 h^3 thickness) in 2D ([T] 1.100, 1.101), h the horizon; keeps dim + 1 numbers per
+                                       bond                                                                              */
+    PERI_CRITERION_NODE_ENERGY = 3  /* state-based: the mean over both ends of 2 W/(volume of the family) passes w0 ([T] 1.102, made
+                                       consistent in its units). Spreads damage, as the thesis finds                     */
+} peri_criterion;
 
 typedef struct peri_material {
     uint64_t cookie;           /* set by peri_material_init                                                              */
     int32_t  model;            /* peri_model                                                                             */
-    int32_t  reserved;         /* 0                                                                                      */
+    int32_t  criterion;        /* peri_criterion. Default PERI_CRITERION_STRETCH                                         */
     double   young;            /* E [M L^-1 T^-2] > 0. Give E or K, not both (0 = not given)                             */
     double   bulk;             /* K = E/(3(1-2 nu)) [M L^-1 T^-2] > 0                                                    */
-    double   poisson;          /* [-] fixed by the space when bond-based; NaN (default) = that value, others are refused */
+    double   poisson;          /* [-] in (-1, 1/2), required by state-based models. Bond-based: fixed by the space, NaN (default) =
+                                  that value, others are refused                                                         */
     double   density;          /* [M L^-3] > 0. Required                                                                 */
     double   fracture_energy;  /* G0 [M T^-2] > 0, energy per area of crack. 0 (default) = not given                     */
-    double   critical_stretch; /* s0 [-] > 0. 0 (default) = from G0; with neither, bonds do not break. Not both          */
+    double   critical_stretch; /* s0 [-] > 0. 0 (default) = from G0; with neither, bonds do not break. Not both. From G0 it is the
+                                  bond-based value for E; for state-based models, too ([T] 1.2.3), with w |xi| in place of w */
+    double   stabilization;    /* correspondence: k m/B [-] >= 0, stiffness against zero-energy modes relative to the central bonds of
+                                  LPS. Default 0.5 for PERI_CORRESPONDENCE, must be 0 for others                         */
 } peri_material;
 
 /* Defaults for a model. NULL is ignored. */
@@ -295,15 +343,20 @@ PERI_API void peri_material_init(peri_material *material, int32_t model);
 /* Adds a material, before peri_build. Returns its id (0, 1, ...; at most 120 of them) or an error. */
 PERI_API int32_t peri_add_material(peri_body *body, const peri_material *material);
 
-/* Bonds between materials i and j behave as if of `material` (its density is not used), before peri_build. Without this
-   call their micromodulus is the harmonic mean of both and their critical stretch the smaller one. i = j is refused. */
+/* Bonds between the bond-based materials i and j behave as if of the bond-based `material` (its density is not used), before
+   peri_build. Without this call their micromodulus is the harmonic mean of both and their critical stretch the smaller one. i = j is
+   refused; so are state-based materials (PERI_ERROR_MODEL), whose bonds are no springs of their own: each end gives its half. */
 PERI_API int32_t peri_set_interface(peri_body *body, int32_t i, int32_t j, const peri_material *material);
 
 /* Micromodulus c [M L^-5 T^-2 per volume^2: force per volume squared] and critical stretch s0 [-] (HUGE_VAL = never) of the
    bonds between materials i and j, for an infinite body with this horizon and influence function: closed forms of [P] C.15,
    C.18, C.20 and [T] 1.24, 1.40 where they exist, else radial Gauss-Legendre quadrature. Either pointer may be NULL.
-   Works before and after peri_build, except that PERI_INFLUENCE_POLE_EDGE needs the spacing and so comes after. */
+   Works before and after peri_build, except that PERI_INFLUENCE_POLE_EDGE needs the spacing and so comes after. State-based materials
+   have no c: it must be NULL (else PERI_ERROR_MODEL). */
 PERI_API int32_t peri_read_bond_constants(peri_body *body, int32_t i, int32_t j, double *c, double *s0);
+
+/* Critical bond energy w0 [M L^-5 T^-2: energy per volume squared] of a material whose criterion is an energy; HUGE_VAL = none. */
+PERI_API int32_t peri_read_critical_energy(peri_body *body, int32_t material, double *w0);
 
 /* ---- points, before peri_build ------------------------------------------------------------------------------------ */
 
@@ -348,7 +401,8 @@ PERI_API double  peri_time(const peri_body *body);           /* [T] since build 
 
 /* Largest stable time step [T], 2/sqrt(lambda) with lambda bounded by the stiffness of the actual bonds of each point
    ([T] 2.11: sqrt(2 rho / sum c V / |xi|)) and of the obstacles. Safe, not sharp: the true limit is up to 1.5 times larger.
-   Broken bonds only make it safer. 0 before peri_build. */
+   Broken bonds only make a bond-based body softer. State-based laws spread the modulus over the bonds that are left, so a point that
+   hangs on a few short ones is stiffer than before: for them this is the value for the bonds as they are. 0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
 /* Rows [first, first+count) of the N x M family array ([T] 3.11) to rows[count*width]: ascending ids, padded with the
@@ -471,7 +525,7 @@ typedef struct peri_run {
     int64_t       steps;        /* run this many steps; or                                                               */
     double        duration;     /* [T] run this long; the last step is shortened to end exactly there. One of the two is
                                    required: both default to 0                                                           */
-    double        time_step;    /* [T] > 0; 0 (default) = safety * peri_stable_step                                      */
+    double        time_step;    /* [T] > 0; 0 (default) = safety * peri_stable_step, made shorter where broken bonds shorten that */
     double        safety;       /* (0, 1]. Default 0.9                                                                   */
     double        damping;      /* a [T^-1] >= 0: force -a*density*velocity on every point; a*time_step <= 2. Default 0  */
     int64_t       frame_steps;  /* steps between calls of on_frame; 0 (default) = only at the end                        */
@@ -484,7 +538,8 @@ PERI_API void peri_run_init(peri_run *run);
 
 /* Advances the body in time. On PERI_ERROR_STEP nothing has moved and error.value is the largest step. On
    PERI_ERROR_UNSTABLE and PERI_ERROR_CALLBACK (error.index: the point) it stopped within a step: read it, then reset or destroy it.
-   An obstacle that on_frame added and that makes the step too large ends the run with PERI_ERROR_STEP, at a whole step. */
+   An obstacle that on_frame added, or state-based bonds that broke, may make a given time_step too large: this ends the run with
+   PERI_ERROR_STEP, at a whole step; error.value is what may follow. */
 PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
 
 /* ---- results ------------------------------------------------------------------------------------------------------ */
@@ -500,9 +555,17 @@ typedef enum peri_field {
     PERI_FAMILY_SIZE    = 7,  /* bonds of the point, broken ones included                                       derived  */
     PERI_DAMAGE         = 8,  /* 1 - intact/all volume of the family (beta V_j, kept to 6e-8); initial cuts count [L] derived */
     PERI_DAMAGE_GROWN   = 9,  /* the same among bonds that were not cut before the first step                   derived  */
-    PERI_ENERGY_DENSITY = 10, /* macroelastic energy density W [M L^-1 T^-2]                      ([P] eq. 7)   derived  */
-    PERI_CURRENT        = 11  /* [dim] current position [L]                                                     derived  */
-} peri_field;
+    PERI_ENERGY_DENSITY = 10, /* elastic energy density W of the law [M L^-1 T^-2]                ([P] eq. 7)   derived  */
+    PERI_CURRENT        = 11, /* [dim] current position [L]                                                     derived  */
+    PERI_DILATATION     = 12, /* theta of the law; bond-based: that of LPS; correspondence: tr(strain)          derived  */
+    PERI_STRAIN         = 13, /* [tensor] F = (sum w Y xi V) K^-1 over live bonds: 1/2(F + F^T) - 1 where the geometry is linear
+                                 ([T] 4.14), else Green-Lagrange 1/2(F^T F - 1), zero for rotations             derived  */
+    PERI_STRESS         = 14, /* [tensor] Cauchy stress of the material at this F [M L^-1 T^-2]                 derived  */
+    PERI_FORCE_STRESS   = 15, /* [tensor] collapsed peridynamic stress sum T xi V ([T] 4.10), as Cauchy stress (4.13),
+                                 symmetric part: what the bonds carry                                           derived  */
+    PERI_REACTION       = 16  /* [dim] force density of the supports on each point, mean of the last step
+                                 [M L^-2 T^-2]; 0 where not supported                                           derived  */
+} peri_field; /* [tensor]: xx yy xy in 2D, xx yy zz xy yz xz in 3D. Where live bonds do not span the space, F is what they do span */
 
 /* Entries that peri_read needs for a field: points*components. */
 PERI_API int64_t peri_field_size(const peri_body *body, int32_t field);
@@ -524,7 +587,7 @@ typedef struct peri_view {
     int64_t     count;            /* points                                                                              */
     int64_t     point_stride;     /* in elements                                                                         */
     int64_t     component_stride; /* in elements                                                                         */
-    int32_t     components;       /* 1 or dim                                                                            */
+    int32_t     components;       /* 1, dim, or 3 or 6 of a tensor                                                       */
     int32_t     type;             /* PERI_F64, PERI_F32 or PERI_I32                                                      */
     double      scale;
     double      offset[3];

@@ -23,13 +23,15 @@
 #include "src/status.c"     /* status texts, the error record, the log                                     */
 #include "src/memory.c"     /* the allocator hook, aligned arrays, growing arrays                          */
 #include "src/parallel.c"   /* one loop over blocks of points; sums in a fixed order                       */
+#include "src/tensor.c"     /* symmetric matrices, small linear systems                                    */
 #include "src/influence.c"  /* w(q) and its moments                                                        */
-#include "src/material.c"   /* engineering constants           -> micromodulus, critical stretch           */
+#include "src/material.c"   /* engineering constants           -> those of the laws, critical values       */
 #include "src/points.c"     /* boxes, balls, shapes, arrays    -> points and cells                         */
 #include "src/overlap.c"    /* disk and polygon, ball and box  -> exact partial areas and volumes          */
 #include "src/parts.c"      /* a cell and a horizon            -> the part within                          */
 #include "src/neighbors.c"  /* points                          -> families (Ibond)                         */
 #include "src/quadrature.c" /* families                        -> lengths and weights of bonds             */
+#include "src/correction.c" /* weights                         -> weights that surfaces need               */
 #include "src/lanes.c"      /* families of lattices            -> columns, the compressed Ibond            */
 
 #define PERI_T_REAL 64
@@ -45,12 +47,16 @@
 #define PERI_T_DIM 3
 #include "src/kernels.inl"
 
+#include "src/response.c"   /* live families                   -> constants of state-based laws            */
+#include "src/arrays.c"     /* what a body keeps                                                           */
 #include "src/body.c"       /* create, build, clone, reset, destroy                                        */
 #include "src/sets.c"       /* selections of points                                                        */
 #include "src/state.c"      /* access to the state in the user's units; energies                           */
 #include "src/cracks.c"     /* initial cracks, no-fail zones, break events                                 */
 #include "src/loads.c"      /* supports, loads, obstacles                                                  */
+#include "src/failure.c"    /* state-based bonds that break                                                */
 #include "src/explicit.c"   /* stable step, the step loop                                                  */
+#include "src/strain.c"     /* dilatation, strain and stress of points                                     */
 #include "src/fields.c"     /* fields by copy and by view, the ledger                                      */
 #include "src/output.c"     /* VTU, CSV                                                                    */
 

@@ -14,6 +14,7 @@ PERI_API void peri_body_desc_init(peri_body_desc *d) {
     d->influence = PERI_INFLUENCE_CONSTANT;
     d->quadrature = PERI_FULL_VOLUME;
     d->break_timing = PERI_BREAK_AT_STEP_END;
+    d->correction = PERI_NO_CORRECTION;
     d->ledger = 1;
     d->thickness = 1.0;
 }
@@ -28,6 +29,8 @@ static const char *peri__bad_choice(const peri_body_desc *d) {
     if (d->quadrature < PERI_FULL_VOLUME || d->quadrature > PERI_PARTIAL_MOMENT) return "quadrature";
     if (d->space == PERI_SOLID && d->quadrature > PERI_PARTIAL_VOLUME) return "quadrature";
     if (d->break_timing != PERI_BREAK_AT_STEP_END && d->break_timing != PERI_BREAK_AFTER_DRIFT) return "break_timing";
+    if (d->correction < PERI_NO_CORRECTION || d->correction > PERI_MOMENT_CORRECTION) return "correction";
+    if (d->correction != PERI_NO_CORRECTION && d->quadrature >= PERI_PARTIAL_CENTROID) return "correction";
     if (d->threads < 0) return "threads";
     if ((d->allocate == NULL) != (d->release == NULL)) return "allocate, release";
     return NULL;
@@ -62,8 +65,6 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
     return PERI_OK;
 }
 
-static size_t peri__real(const peri_body *b) { return b->f32 ? sizeof(float) : sizeof(double); }
-
 /* ---- the shared model --------------------------------------------------------------------------------------------- */
 
 static void peri__release_model(peri__model *m, size_t real) {
@@ -75,6 +76,7 @@ static void peri__release_model(peri__model *m, size_t real) {
     peri__delete(&memory, m->material, m->points, sizeof *m->material);
     peri__delete(&memory, m->ids, entries, sizeof *m->ids);
     peri__delete(&memory, m->count, m->points, sizeof *m->count);
+    if (m->back != m->weight) peri__delete(&memory, m->back, entries, real);
     peri__delete(&memory, m->weight, entries, real);
     peri__delete(&memory, m->bond, entries, real);
     peri__delete(&memory, m->centroid, entries * m->dim, real);
@@ -99,11 +101,20 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
     m->energy = m->stress * m->length * m->length * (b->dim == 3 ? m->length : b->desc.thickness);
     for (int32_t i = 0; i < n; ++i) {
         m->rho[i] = b->materials[i].density / m->density;
+        m->laws[i] = peri__law_of(&b->materials[i], b->desc.space, m->stress);
+        if (m->laws[i].model != PERI_BOND_BASED) m->states = 1;
+        if (m->laws[i].model == PERI_CORRESPONDENCE) m->tensors = 1;
+        if (m->laws[i].model == PERI_OTERKUS) m->dilates = 1;
+        if (m->laws[i].model == PERI_LPS && (m->laws[i].a != 0.0 || b->desc.correction == PERI_ENERGY_CORRECTION)) m->dilates = 1;
+        if (b->materials[i].criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
+        if (b->materials[i].criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
+        if (i == 0 && m->states && !m->tensors) m->ordinary = m->laws[i].model;
+        if (m->laws[i].model != m->ordinary) m->ordinary = 0;
         for (int32_t j = 0; j < n; ++j) {
             peri__pair *pair = &m->pairs[i * n + j];
             int32_t status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, pair);
             if (status < 0) return status;
-            if (pair->s0 < PERI_NEVER) m->breakable = 1;
+            if (pair->s0 < PERI_NEVER || pair->bond_energy < PERI_NEVER || pair->node_energy < PERI_NEVER) m->breakable = 1;
         }
     }
     return PERI_OK;
@@ -141,8 +152,13 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     if (status == PERI_OK) status = b->setup.ibond ? peri__take_families(b, cloud) : peri__find_families(b, cloud, sums);
     if (status == PERI_OK) status = peri__check_families(b, m);
     if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
-    if (status == PERI_OK && !(m->rate > 1e-30 && m->rate < 1e30))
-        status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
+    if (status == PERI_OK) status = peri__correct(b, cloud, sums);
+    if (status == PERI_OK && !m->states) {
+        peri__for_points(b, m->points, m->width, peri__rate_block, cloud, sums);
+        for (int64_t k = 0; k < m->blocks; ++k)
+            if (sums[k].a > m->rate) m->rate = sums[k].a;
+        if (!(m->rate > 1e-30 && m->rate < 1e30)) status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
+    }
     m->words = (m->width + 31) / 32;
     return status;
 }
@@ -165,23 +181,19 @@ static void peri__delete_vector(const peri_body *b, void *vector) {
 static void peri__free_state(peri_body *b) {
     const peri__memory *memory = &b->memory;
     const peri__model *m = b->model;
-    int64_t vector = m->stride * m->dim, flags = m->points * m->words;
     void **vectors[3] = { &b->u, &b->v, &b->f };
     for (int k = 0; k < 3; ++k) {
         peri__delete_vector(b, *vectors[k]);
         *vectors[k] = NULL;
     }
-    peri__delete(memory, b->alive, flags, sizeof *b->alive);
-    peri__delete(memory, b->lanes_alive, m->lanes.columns, sizeof *b->lanes_alive);
-    peri__delete(memory, b->uncut, flags, sizeof *b->uncut);
-    peri__delete(memory, b->before, flags, sizeof *b->before);
-    peri__delete(memory, b->no_fail, m->points, 1);
-    peri__delete(memory, b->cls, m->points, 1);
-    peri__delete(memory, b->pairs, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs);
-    peri__delete(memory, b->sums, m->blocks, sizeof *b->sums);
-    peri__delete(memory, b->push, vector, sizeof *b->push);
-    for (size_t k = 0; k < sizeof b->derived / sizeof b->derived[0]; ++k) {
-        peri__delete(memory, b->derived[k], m->points * m->dim, sizeof(double));
+    peri__array arrays[PERI_ARRAYS];
+    peri__list_arrays(b, arrays);
+    for (int k = 0; k < PERI_ARRAYS; ++k) {
+        peri__delete(memory, peri__array_of(b, &arrays[k]), arrays[k].count, arrays[k].size);
+        peri__set_array(b, &arrays[k], NULL);
+    }
+    for (int32_t k = 0; k <= PERI_FIELDS; ++k) {
+        peri__delete(memory, b->derived[k], m->points * peri__components(k, m->dim), sizeof(double));
         b->derived[k] = NULL;
     }
     for (int64_t k = 0; k < b->set_count; ++k) {
@@ -197,12 +209,6 @@ static void peri__free_state(peri_body *b) {
     }
     peri__delete(memory, b->loads, b->load_capacity, sizeof *b->loads);
     peri__delete(memory, b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
-    b->alive = b->uncut = b->before = NULL;
-    b->lanes_alive = NULL;
-    b->no_fail = b->cls = NULL;
-    b->pairs = NULL;
-    b->sums = NULL;
-    b->push = NULL;
     b->sets = NULL;
     b->loads = NULL;
     b->obstacles = NULL;
@@ -265,9 +271,13 @@ static int32_t peri__new_state(peri_body *b) {
     b->f = peri__new_vector(b);
     b->sums = (peri__sums *)peri__new(&b->memory, m->blocks, sizeof *b->sums);
     b->pairs = (peri__pair *)peri__new(&b->memory, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs);
-    if (!b->u || !b->v || !b->f || !b->sums || !b->pairs || (m->breakable && !peri__need_alive(b)))
+    if (!b->u || !b->v || !b->f || !b->sums || !b->pairs || (m->breakable && !peri__need_alive(b)) || !peri__need_states(b))
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
-    return peri__update_classes(b);
+    int32_t status = peri__update_classes(b);
+    if (status < 0 || !m->states) return status;
+    b->stale = 1;
+    peri__refresh(b);
+    return b->fastest > 1e-30 && b->fastest < 1e30 ? PERI_OK : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
 }
 
 PERI_API int32_t peri_build(peri_body *b) {
@@ -339,7 +349,8 @@ PERI_API void peri_body_destroy(peri_body *b) {
 static int peri__copy_state(peri_body *b, const peri_body *from) {
     const peri__memory *memory = &b->memory;
     const peri__model *m = b->model;
-    int64_t vector = m->stride * m->dim, flags = m->points * m->words;
+    int64_t vector = m->stride * m->dim;
+    peri__array arrays[PERI_ARRAYS];
     int ok = 1;
 #define PERI_COPY_(member, count, size)                                                                                \
     if (from->member) {                                                                                                \
@@ -356,15 +367,13 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         memcpy(b->v, from->v, (size_t)vector * peri__real(b));
         memcpy(b->f, from->f, (size_t)vector * peri__real(b));
     }
-    PERI_COPY_(alive, flags, sizeof *b->alive)
-    PERI_COPY_(lanes_alive, m->lanes.columns, sizeof *b->lanes_alive)
-    PERI_COPY_(uncut, flags, sizeof *b->uncut)
-    PERI_COPY_(before, flags, sizeof *b->before)
-    PERI_COPY_(no_fail, m->points, 1)
-    PERI_COPY_(cls, m->points, 1)
-    PERI_COPY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs)
-    PERI_COPY_(sums, m->blocks, sizeof *b->sums)
-    PERI_COPY_(push, vector, sizeof *b->push)
+    peri__list_arrays(b, arrays);
+    for (int k = 0; k < PERI_ARRAYS; ++k) {
+        const void *own = peri__array_of(from, &arrays[k]);
+        void *made = own ? peri__copy(memory, own, arrays[k].count, arrays[k].size) : NULL;
+        ok = ok && (made || !own);
+        peri__set_array(b, &arrays[k], made);
+    }
     PERI_COPY_(obstacles, from->obstacle_capacity, sizeof *b->obstacles)
     b->obstacle_count = from->obstacle_count;
     b->obstacle_capacity = b->obstacles ? from->obstacle_capacity : 0;
@@ -415,6 +424,8 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
     b->ops = from->ops;
     b->classes = from->classes;
     b->lanes_stale = from->lanes_stale;
+    b->stale = from->stale;
+    b->fastest = from->fastest;
     b->on_break = from->on_break;
     b->break_user = from->break_user;
     b->cut = from->cut;
@@ -456,6 +467,12 @@ PERI_API int32_t peri_reset(peri_body *b) {
             for (int32_t k = 0; k < m->count[i]; ++k) b->alive[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
         b->lanes_stale = 1;
+        b->stale = m->states;
+    }
+    if (b->work) {
+        memset(b->work, 0, (size_t)(m->points * m->width) * peri__real(b));
+        memset(b->pull, 0, (size_t)(m->points * m->width * m->dim) * peri__real(b));
+        memset(b->worked, 0, vector);
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);

@@ -76,11 +76,8 @@ static int32_t peri__need_flags(peri_body *b) {
     if (b->steps == 0 && !b->uncut) b->uncut = peri__new_flags(b);
     if ((b->steps == 0 && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
     b->lanes_stale = 1;
+    b->stale = b->model->states;
     return PERI_OK;
-}
-
-static int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
-    return !b->alive || (b->alive[i * b->model->words + k / 32] >> (k % 32) & 1);
 }
 
 /* Cuts bond k of row i, one direction; returns 1 where it was whole. */

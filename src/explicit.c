@@ -30,7 +30,7 @@ PERI_API void peri_run_init(peri_run *r) {
    diagonal and once off it; obstacles once, taken as if all touched the lightest point. */
 static double peri__stable(const peri_body *b) {
     const peri__model *m = b->model;
-    double lambda = m->rate, lightest = m->rho[0];
+    double lambda = m->states ? b->fastest : m->rate, lightest = m->rho[0];
     for (int32_t k = 1; k < m->materials; ++k)
         if (m->rho[k] < lightest) lightest = m->rho[k];
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -38,7 +38,24 @@ static double peri__stable(const peri_body *b) {
     return 2.0 / sqrt(lambda);
 }
 
-PERI_API double peri_stable_step(const peri_body *b) { return b && b->model ? peri__stable(b) * b->model->time : 0.0; }
+PERI_API double peri_stable_step(const peri_body *b) {
+    if (!b || !b->model) return 0.0;
+    peri__refresh((peri_body *)b);
+    return peri__stable(b) * b->model->time;
+}
+
+/* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion. */
+static void peri__bond_forces(peri_body *b, peri__step *step) {
+    const peri__model *m = b->model;
+    if (!m->states) {
+        peri__for_points(b, m->points, m->width, b->ops->force, step, b->sums);
+        return;
+    }
+    step->working = m->works;
+    if (m->dilates || m->tensors || m->nodes) peri__for_points(b, m->points, m->width, b->ops->respond, step, NULL);
+    peri__for_points(b, m->points, m->width, b->ops->share, step, b->sums);
+    if (m->works) memcpy(b->worked, b->u, (size_t)(m->stride * m->dim) * peri__real(b));
+}
 
 /* Brings f up to date with u, loads and cracks as they are, without breaking anything. */
 static int32_t peri__update_force(peri_body *b) {
@@ -48,11 +65,12 @@ static int32_t peri__update_force(peri_body *b) {
     if (b->force_current) return PERI_OK;
     b->running = 2;
     peri__update_lanes(b);
+    peri__refresh(b);
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
     int32_t status = peri__apply_loads(b, b->time, 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, b->time, 0.0);
     if (status == PERI_OK) {
-        peri__for_points(b, m->points, m->width, b->ops->force, &step, b->sums);
+        peri__bond_forces(b, &step);
         status = peri__meet_supports(b);
     }
     b->running = running;
@@ -118,11 +136,15 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
     step.breaking = b->alive != NULL && m->breakable;
     step.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
-    peri__for_points(b, m->points, m->width, b->ops->force, &step, b->sums);
+    peri__bond_forces(b, &step);
     if (step.breaking) {
         peri__sums total = peri__total(b->sums, m->points);
-        b->ledger.fracture += total.a;
-        b->broken += total.n;
+        if (m->states && total.n > 0) {
+            peri__break_states(b, &step);
+        } else {
+            b->ledger.fracture += total.a;
+            b->broken += total.n;
+        }
         if (b->before && total.n > 0) peri__report_breaks(b);
     }
     peri__hold_supports(b, dt, damping);
@@ -150,6 +172,7 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     PERI_NEED(b, r->frame_steps >= 0, "frame_steps");
     PERI_NEED(b, r->steps >= 0, "steps");
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
+    peri__refresh(b);
     double stable = peri__stable(b) * b->model->time, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
     if (r->damping * step > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
     if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
@@ -169,42 +192,67 @@ static int32_t peri__show_frame(peri_body *b, const peri_run *r) {
     return status;
 }
 
+/* The rest of a run: `steps` steps of dt from the time `start` on, the last of them of `last`, to `end` where that is given. */
+typedef struct peri__plan {
+    double  dt, last, start, end;
+    int64_t steps, done;
+} peri__plan;
+
+static int32_t peri__plan_steps(peri_body *b, const peri_run *r, double left, peri__plan *plan) {
+    plan->start = b->time;
+    plan->last = plan->dt;
+    plan->steps -= plan->done;
+    plan->done = 0;
+    if (r->steps > 0) return PERI_OK;
+    double duration = left / b->model->time, count = ceil(duration / plan->dt * (1.0 - 1e-12));
+    if (count >= 9e18) return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
+    plan->steps = (int64_t)count;
+    plan->last = duration - (double)(plan->steps - 1) * plan->dt;
+    return PERI_OK;
+}
+
+/* Is a step of `size` too large by now? State-based bonds that broke, or an obstacle that on_frame added, can have made it so. */
+static int peri__outrun(const peri_body *b, const peri_run *r, double size) {
+    return !r->force_step && size > peri__stable(b) * (1.0 + 1e-12);
+}
+
 static int32_t peri__march(peri_body *b, const peri_run *r) {
     const peri__model *m = b->model;
     int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
-    double damping = r->damping * m->time, start = b->time, duration = r->duration / m->time;
-    double dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b), last = dt;
-    int64_t steps = r->steps, done = 0, left_to_frame = r->frame_steps;
-    if (duration > 0.0) {
-        double count = ceil(duration / dt * (1.0 - 1e-12));
-        if (count >= 9e18) return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
-        steps = (int64_t)count;
-        last = duration - (double)(steps - 1) * dt;
-    }
-    int32_t status = peri__update_force(b);
+    double damping = r->damping * m->time;
+    int64_t left_to_frame = r->frame_steps;
+    peri__plan plan = { 0.0, 0.0, 0.0, b->time + r->duration, r->steps, 0 };
+    plan.dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b);
+    int32_t status = peri__plan_steps(b, r, r->duration, &plan);
+    if (status == PERI_OK) status = peri__update_force(b);
     if (status < 0) return status;
     if (b->desc.ledger) peri__settle(b);
-    while (done < steps && status == PERI_OK) {
+    while (plan.done < plan.steps && status == PERI_OK) {
         /* a stretch of steps of one size, up to the next frame */
-        int64_t stretch = steps - done;
-        double size = dt;
+        int64_t stretch = plan.steps - plan.done, run = 0;
+        double size = plan.dt;
         if (r->on_frame && r->frame_steps > 0 && stretch > left_to_frame) stretch = left_to_frame;
-        if (last < dt && done + stretch == steps && stretch > 1) stretch--;
-        if (last < dt && done + 1 == steps) size = last;
+        if (plan.last < plan.dt && plan.done + stretch == plan.steps && stretch > 1) stretch--;
+        if (plan.last < plan.dt && plan.done + 1 == plan.steps) size = plan.last;
         if (central) peri__stagger(b, size, damping);
-        for (int64_t k = 0; k < stretch && status == PERI_OK; ++k, ++done) {
-            double next = start + ((double)done * dt + size) * m->time;
-            if (done + 1 == steps && r->steps == 0) next = start + r->duration;
+        while (run < stretch && status == PERI_OK && (run == 0 || !peri__outrun(b, r, size))) {
+            double next = plan.start + ((double)plan.done * plan.dt + size) * m->time;
+            if (plan.done + 1 == plan.steps && r->steps == 0) next = plan.end;
             status = peri__one_step(b, r, size, next, damping);
+            run++;
+            plan.done++;
         }
         if (central && status == PERI_OK) peri__unstagger(b, size, damping);
-        left_to_frame -= stretch;
+        left_to_frame -= run;
         if (status != PERI_OK) break;
-        if (r->on_frame && (done == steps || (r->frame_steps > 0 && left_to_frame == 0))) {
+        if (r->on_frame && (plan.done == plan.steps || (r->frame_steps > 0 && left_to_frame == 0))) {
             left_to_frame = r->frame_steps;
             status = peri__show_frame(b, r);
-            if (status == PERI_OK && dt > peri__stable(b) * (1.0 + 1e-12) && !r->force_step && done < steps)
-                status = peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
+        }
+        if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, plan.dt)) {
+            if (r->time_step > 0.0 || !m->states) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
+            plan.dt = r->safety * peri__stable(b);
+            status = peri__plan_steps(b, r, plan.end - b->time, &plan);
         }
     }
     return status;
@@ -236,6 +284,20 @@ PERI_API int32_t peri_read_obstacle_force(peri_body *b, int32_t obstacle, double
     }
     for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
     return PERI_OK;
+}
+
+/* Force density of the supports on every point, user's units. */
+static void peri__read_reactions(const peri_body *b, double *out) {
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < m->points * m->dim; ++k) out[k] = 0.0;
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        const peri__load *load = &b->loads[s];
+        for (int64_t k = 0; load->owned && k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d)
+                if (load->owned[k] >> d & 1)
+                    out[peri__set_point(b, load->set, k) * m->dim + d] =
+                        *peri__held(b, load, PERI__HELD_REACTION, k, d) * peri__force_unit(m);
+    }
 }
 
 PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {

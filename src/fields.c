@@ -1,28 +1,13 @@
-/* fields.c - fields by copy and by view, the ledger, the momenta. One table says how each field is had. */
+/* fields.c - fields by copy and by view, the ledger, the momenta. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
 
-typedef struct peri__field_row {
-    int32_t field, vector, writable;
-} peri__field_row;
-
-static const peri__field_row peri__fields[] = {
-    { PERI_POSITION, 1, 0 },      { PERI_DISPLACEMENT, 1, 1 }, { PERI_VELOCITY, 1, 1 },     { PERI_FORCE_DENSITY, 1, 0 },
-    { PERI_VOLUME, 0, 0 },        { PERI_MATERIAL, 0, 0 },     { PERI_FAMILY_SIZE, 0, 0 },  { PERI_DAMAGE, 0, 0 },
-    { PERI_DAMAGE_GROWN, 0, 0 },  { PERI_ENERGY_DENSITY, 0, 0 }, { PERI_CURRENT, 1, 0 },
-};
-
-static const peri__field_row *peri__field_of(int32_t field) {
-    int32_t count = (int32_t)(sizeof peri__fields / sizeof peri__fields[0]);
-    return field >= 1 && field <= count ? &peri__fields[field - 1] : NULL;
-}
-
 PERI_API int64_t peri_field_size(const peri_body *b, int32_t field) {
-    const peri__field_row *row = peri__field_of(field);
     if (!b) return PERI_ERROR_ARGUMENT;
     if (!b->model) return PERI_ERROR_ORDER;
-    return row ? b->model->points * (row->vector ? b->dim : 1) : PERI_ERROR_FIELD;
+    int32_t components = peri__components(field, b->dim);
+    return components > 0 ? b->model->points * components : PERI_ERROR_FIELD;
 }
 
 /* Damage of point i ([L]): 1 - intact/all, both sums of beta V_j over the family; uncut_only: over bonds not cut at the start. */
@@ -86,6 +71,16 @@ static void peri__compute(peri_body *b, int32_t field, double *out) {
         for (int64_t i = 0; i < m->points; ++i) out[i] *= m->stress;
         return;
     }
+    if (field == PERI_REACTION) {
+        peri__read_reactions(b, out);
+        return;
+    }
+    if (field >= PERI_DILATATION) {
+        peri__gradients gradients = { b, field, out };
+        peri__refresh(b);
+        peri__for_points(b, m->points, 8 * m->width, peri__gradients_block, &gradients, NULL);
+        return;
+    }
     (void)peri__stored_view(b, PERI_POSITION, &view);
     (void)peri__stored_view(b, PERI_DISPLACEMENT, &moved);
     for (int64_t i = 0; i < m->points; ++i) switch (field) {
@@ -98,10 +93,10 @@ static void peri__compute(peri_body *b, int32_t field, double *out) {
         }
 }
 
-/* The force is the one field that a write or a cut can leave out of date. */
+/* Forces are what a write or a cut can leave out of date. */
 static int32_t peri__ready_field(peri_body *b, int32_t field) {
-    if (!peri__field_of(field)) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
-    return field == PERI_FORCE_DENSITY && b->running < 2 ? peri__update_force(b) : PERI_OK;
+    if (peri__components(field, b->dim) == 0) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
+    return (field == PERI_FORCE_DENSITY || field == PERI_REACTION) && b->running < 2 ? peri__update_force(b) : PERI_OK;
 }
 
 PERI_API int32_t peri_read(peri_body *b, int32_t field, double *out, int64_t capacity) {
@@ -122,12 +117,13 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     PERI_NEED(b, view, "view");
     memset(view, 0, sizeof *view);
     if (peri__stored_view(b, field, view)) return PERI_OK;
-    if (!b->derived[field]) b->derived[field] = (double *)peri__new(&b->memory, b->model->points * b->dim, sizeof(double));
+    int32_t components = peri__components(field, b->dim);
+    if (!b->derived[field]) b->derived[field] = (double *)peri__new(&b->memory, b->model->points * components, sizeof(double));
     if (!b->derived[field]) return peri__fail(b, PERI_ERROR_MEMORY, "field", field, 0.0);
     peri__compute(b, field, b->derived[field]);
     view->data = b->derived[field];
-    view->components = peri__field_of(field)->vector ? b->dim : 1;
-    view->point_stride = view->components;
+    view->components = components;
+    view->point_stride = components;
     view->component_stride = 1;
     view->type = PERI_F64;
     view->scale = 1.0;
@@ -136,8 +132,7 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
 
 PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64_t count) {
     PERI_NEED_IDLE(b);
-    const peri__field_row *row = peri__field_of(field);
-    if (!row || !row->writable) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
+    if (field != PERI_DISPLACEMENT && field != PERI_VELOCITY) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
     PERI_NEED(b, in, "in");
     const peri__model *m = b->model;
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));

@@ -149,25 +149,3 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, peri_r 
     for (int d = 0; d < PERI_D; ++d) f[d] = sum[d];
     return broke;
 }
-
-/* Elastic energy of intact bonds: sums->a, and per point to step->out where it is not NULL. */
-static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *step = (const peri__step *)context;
-    const peri_body *b = step->body;
-    const peri__model *m = b->model;
-    int linear = b->desc.geometry == PERI_LINEAR;
-    for (int64_t i = begin; i < end; ++i) {
-        double density = 0.0;
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t at = i * m->width + k, j = m->ids[at];
-            peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
-            peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
-            if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-            PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
-            (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
-            density += 0.25 * PERI_FN(pair)(b, i, j)->c * (double)weight * (double)e * (double)e / (double)bond;
-        }
-        if (step->out) step->out[i] = density;
-        sums->a += density * m->volume[i];
-    }
-}

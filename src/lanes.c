@@ -184,7 +184,7 @@ static int32_t peri__build_lanes(peri_body *b, const double *x) {
     peri__lanes *l = &m->lanes;
     int64_t room = (int64_t)m->width * PERI_LANES;
     int32_t status = PERI_ERROR_MEMORY;
-    if (m->centroid || m->materials > 1 || b->desc.reference) return PERI_OK;
+    if (m->centroid || m->materials > 1 || m->states || b->desc.reference) return PERI_OK;
     peri__lane_draft *draft = (peri__lane_draft *)peri__new(&b->memory, 1, sizeof *draft);
     if (draft) draft->entry = (int64_t *)peri__new(&b->memory, room, sizeof *draft->entry);
     l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;

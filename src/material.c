@@ -1,4 +1,4 @@
-/* material.c - engineering constants to micromodulus c and critical stretch s0. */
+/* material.c - engineering constants to those of the laws: micromodulus, moduli of the plane, critical stretch and energy. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -11,18 +11,65 @@ PERI_API void peri_material_init(peri_material *m, int32_t model) {
     m->cookie = PERI_COOKIE_MATERIAL;
     m->model = model;
     m->poisson = (double)NAN;
+    m->criterion = PERI_CRITERION_STRETCH;
+    m->stabilization = model == PERI_CORRESPONDENCE ? 0.5 : 0.0;
 }
 
 static double peri__bond_poisson(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
 
+static double peri__poisson(const peri_material *m, int32_t space) {
+    return m->model == PERI_BOND_BASED ? peri__bond_poisson(space) : m->poisson;
+}
+
 static double peri__young(const peri_material *m, int32_t space) {
-    return m->young > 0.0 ? m->young : 3.0 * (1.0 - 2.0 * peri__bond_poisson(space)) * m->bulk;
+    return m->young > 0.0 ? m->young : 3.0 * (1.0 - 2.0 * peri__poisson(m, space)) * m->bulk;
+}
+
+/* The elasticity of a material in units of stress. A vanishes to the last bit at the Poisson ratio of a bond-based material. */
+static peri__law peri__law_of(const peri_material *m, int32_t space, double stress) {
+    peri__law law;
+    int dim = space == PERI_SOLID ? 3 : 2;
+    double nu = peri__poisson(m, space);
+    law.model = m->model;
+    law.young = peri__young(m, space) / stress;
+    law.mu = law.young / (2.0 * (1.0 + nu));
+    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / (1.0 - nu * nu) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    law.bulk = law.lambda + 2.0 * law.mu / dim;
+    law.a = dim * (law.lambda - law.mu);
+    law.b = dim * (dim + 2) * law.mu;
+    if (fabs(nu - peri__bond_poisson(space)) < 1e-9) law.a = 0.0;
+    law.stabilization = m->stabilization;
+    return law;
+}
+
+/* Energy criteria: the work w0 on a bond such that all bonds across a unit of area take G0 ([T] 1.100; in 3D the same integral over
+   the ball: G0 = w0 int_0^h dz int_z^h 2 pi r^2 (1 - z/r) dr = w0 pi h^4/4). Per unit thickness in 2D. */
+static double peri__critical_energy(const peri_material *m, int32_t space, double horizon) {
+    double h3 = horizon * horizon * horizon;
+    return space == PERI_SOLID ? 4.0 * m->fracture_energy / (PERI_PI * h3 * horizon) : 1.5 * m->fracture_energy / h3;
+}
+
+/* What only some models can have. */
+static int32_t peri__check_model(peri_body *b, const peri_material *m) {
+    int32_t space = b->desc.space, bonds = m->model == PERI_BOND_BASED;
+    PERI_NEED(b, m->model >= PERI_BOND_BASED && m->model <= PERI_CORRESPONDENCE, "model");
+    PERI_NEED(b, m->criterion >= PERI_CRITERION_STRETCH && m->criterion <= PERI_CRITERION_NODE_ENERGY, "criterion");
+    PERI_NEED_NUMBER(b, m->stabilization >= 0.0, m->stabilization);
+    if (m->model != PERI_CORRESPONDENCE && m->stabilization != 0.0)
+        return peri__fail(b, PERI_ERROR_MODEL, "stabilization", -1, m->stabilization);
+    if (m->criterion != PERI_CRITERION_STRETCH && (bonds || !(m->fracture_energy > 0.0)))
+        return peri__fail(b, PERI_ERROR_CRITERION, bonds ? "criterion" : "fracture_energy", -1, m->criterion);
+    if (!bonds && b->desc.quadrature >= PERI_PARTIAL_CENTROID)
+        return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    if (!bonds) PERI_NEED_NUMBER(b, m->poisson > -1.0 && m->poisson < 0.5, m->poisson);
+    if (bonds && m->poisson == m->poisson && fabs(m->poisson - peri__bond_poisson(space)) > 1e-9)
+        return peri__fail(b, PERI_ERROR_POISSON, "poisson", -1, peri__bond_poisson(space));
+    return PERI_OK;
 }
 
 static int32_t peri__check_material(peri_body *b, const peri_material *m, int need_density) {
     PERI_NEED(b, m, "material");
     if (m->cookie != PERI_COOKIE_MATERIAL) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
-    if (m->model != PERI_BOND_BASED) return peri__fail(b, PERI_ERROR_ARGUMENT, "model", -1, m->model);
     PERI_NEED_NUMBER(b, m->young >= 0.0, m->young);
     PERI_NEED_NUMBER(b, m->bulk >= 0.0, m->bulk);
     PERI_NEED_NUMBER(b, m->fracture_energy >= 0.0, m->fracture_energy);
@@ -31,9 +78,7 @@ static int32_t peri__check_material(peri_body *b, const peri_material *m, int ne
     if ((m->young > 0.0) == (m->bulk > 0.0)) return peri__fail(b, PERI_ERROR_MATERIAL, "young, bulk", -1, m->bulk);
     if (m->fracture_energy > 0.0 && m->critical_stretch > 0.0)
         return peri__fail(b, PERI_ERROR_MATERIAL, "fracture_energy, critical_stretch", -1, m->critical_stretch);
-    if (m->poisson == m->poisson && fabs(m->poisson - peri__bond_poisson(b->desc.space)) > 1e-9)
-        return peri__fail(b, PERI_ERROR_POISSON, "poisson", -1, peri__bond_poisson(b->desc.space));
-    return PERI_OK;
+    return peri__check_model(b, m);
 }
 
 PERI_API int32_t peri_add_material(peri_body *b, const peri_material *m) {
@@ -59,6 +104,8 @@ PERI_API int32_t peri_set_interface(peri_body *b, int32_t i, int32_t j, const pe
     if (status == PERI_OK && i == j) status = peri__fail(b, PERI_ERROR_MATERIAL, "i, j", i, 0.0);
     if (status == PERI_OK) status = peri__check_material(b, material, 0);
     if (status < 0) return status;
+    if (material->model != PERI_BOND_BASED || b->materials[i].model != PERI_BOND_BASED || b->materials[j].model != PERI_BOND_BASED)
+        return peri__fail(b, PERI_ERROR_MODEL, material->model != PERI_BOND_BASED ? "model" : "i, j", -1, 0.0);
     for (int64_t k = 0; k < b->interface_count; ++k) {
         peri__interface *face = &b->interfaces[k];
         if ((face->i == i && face->j == j) || (face->i == j && face->j == i)) {
@@ -75,33 +122,44 @@ PERI_API int32_t peri_set_interface(peri_body *b, int32_t i, int32_t j, const pe
     return PERI_OK;
 }
 
-/* c and s0 of one material in units of stress and length; c per unit thickness in 2D.
+/* Constants of the bonds of one material in units of stress and length; c per unit thickness in 2D.
      3D            c = 9K/(2 pi I3 h^4)   s0^2 = 2 G0/(pi c I4 h^5)      [T] 1.24, 1.39: 18K/(pi h^4), 5G0/(9Kh) for w = 1
      plane strain  c = 16E/(5 pi I2 h^3)  s0^2 = G0/(c I3 h^4)           [P] C.15, C.20
-     plane stress  c = 3E/(pi I2 h^3)     s0^2 = G0/(c I3 h^4)           [P] C.18, C.20                                       */
+     plane stress  c = 3E/(pi I2 h^3)     s0^2 = G0/(c I3 h^4)           [P] C.18, C.20
+   The central bonds of a state-based law with w are those of a bond-based one with w |xi|, so its moments are one higher. It has no c
+   of its own; this one serves s0. */
 static int32_t peri__constants(peri_body *b, const peri_material *m, double stress, double length, double edge,
                                peri__pair *pair) {
-    int32_t space = b->desc.space;
-    int solid = space == PERI_SOLID;
-    double h = b->desc.horizon / length, modulus = peri__young(m, space) / stress, ic, is;
-    if (!peri__moment(&b->desc, solid ? 3 : 2, edge, &ic) || !peri__moment(&b->desc, solid ? 4 : 3, edge, &is))
-        return peri__fail(b, PERI_ERROR_INFLUENCE, "influence", b->desc.influence, 0.0);
-    if (solid) {
-        double bulk = modulus / 1.5; /* K = E/(3(1-2 nu)), nu = 1/4 */
-        pair->c = 9.0 * bulk / (2.0 * PERI_PI * ic * h * h * h * h);
-    } else {
-        pair->c = (space == PERI_PLANE_STRAIN ? 3.2 : 3.0) * modulus / (PERI_PI * ic * h * h * h);
+    int32_t space = b->desc.space, states = m->model != PERI_BOND_BASED;
+    int solid = space == PERI_SOLID, stretch = m->criterion == PERI_CRITERION_STRETCH;
+    double h = b->desc.horizon / length, modulus = peri__young(m, space) / stress, ic = 1.0, is = 1.0;
+    pair->s0 = pair->bond_energy = pair->node_energy = PERI_NEVER;
+    pair->c = 0.0;
+    if (!states || (stretch && m->fracture_energy > 0.0)) {
+        if (!peri__moment(&b->desc, (solid ? 3 : 2) + states, edge, &ic) || !peri__moment(&b->desc, (solid ? 4 : 3) + states, edge, &is))
+            return peri__fail(b, PERI_ERROR_INFLUENCE, "influence", b->desc.influence, 0.0);
+        if (solid) {
+            double bulk = modulus / 1.5; /* K = E/(3(1-2 nu)), nu = 1/4 */
+            pair->c = 9.0 * bulk / (2.0 * PERI_PI * ic * h * h * h * h);
+        } else {
+            pair->c = (space == PERI_PLANE_STRAIN ? 3.2 : 3.0) * modulus / (PERI_PI * ic * h * h * h);
+        }
     }
-    pair->s0 = PERI_NEVER;
-    if (m->critical_stretch > 0.0) pair->s0 = m->critical_stretch;
-    if (m->fracture_energy > 0.0) {
+    if (!stretch) {
+        double critical = peri__critical_energy(m, space, h) / (stress * length);
+        if (m->criterion == PERI_CRITERION_BOND_ENERGY) pair->bond_energy = critical;
+        else pair->node_energy = critical;
+    } else if (m->fracture_energy > 0.0) {
         double g0 = m->fracture_energy / (stress * length);
         pair->s0 = sqrt(solid ? 2.0 * g0 / (PERI_PI * pair->c * is * h * h * h * h * h) : g0 / (pair->c * is * h * h * h * h));
     }
+    if (m->critical_stretch > 0.0) pair->s0 = m->critical_stretch;
     return PERI_OK;
 }
 
-/* The same for the bonds between materials i and j. */
+static double peri__lower(double a, double b) { return a < b ? a : b; }
+
+/* The same for the bonds between materials i and j, c as of the end i. */
 static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double stress, double length, double edge,
                                     peri__pair *pair) {
     peri__pair p, q;
@@ -114,10 +172,11 @@ static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double s
     if (status == PERI_OK) status = peri__constants(b, &b->materials[j], stress, length, edge, &q);
     if (status < 0) return status;
     *pair = p;
-    if (i != j) {
+    pair->s0 = peri__lower(p.s0, q.s0);
+    pair->bond_energy = peri__lower(p.bond_energy, q.bond_energy);
+    pair->node_energy = peri__lower(p.node_energy, q.node_energy);
+    if (i != j && b->materials[i].model == PERI_BOND_BASED && b->materials[j].model == PERI_BOND_BASED)
         pair->c = 2.0 * p.c * q.c / (p.c + q.c);
-        pair->s0 = p.s0 < q.s0 ? p.s0 : q.s0;
-    }
     return PERI_OK;
 }
 
@@ -126,6 +185,8 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
     int32_t status = peri__check_material_id(b, i);
     if (status == PERI_OK) status = peri__check_material_id(b, j);
     if (status < 0) return status;
+    if (c && (b->materials[i].model != PERI_BOND_BASED || b->materials[j].model != PERI_BOND_BASED))
+        return peri__fail(b, PERI_ERROR_MODEL, "c", -1, 0.0);
     int solid = b->desc.space == PERI_SOLID;
     double edge = 0.0, length = b->desc.horizon, stress = peri__young(&b->materials[i], b->desc.space);
     peri__pair pair;
@@ -140,5 +201,16 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
     if (status < 0) return status;
     if (c) *c = pair.c * stress / (length * length * length * (solid ? length : b->desc.thickness));
     if (s0) *s0 = pair.s0 < PERI_NEVER ? pair.s0 : HUGE_VAL;
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_read_critical_energy(peri_body *b, int32_t material, double *w0) {
+    PERI_NEED_BODY(b);
+    int32_t status = peri__check_material_id(b, material);
+    if (status < 0) return status;
+    PERI_NEED(b, w0, "w0");
+    const peri_material *m = &b->materials[material];
+    double thickness = b->desc.space == PERI_SOLID ? 1.0 : b->desc.thickness;
+    *w0 = m->criterion == PERI_CRITERION_STRETCH ? HUGE_VAL : peri__critical_energy(m, b->desc.space, b->desc.horizon) / thickness;
     return PERI_OK;
 }

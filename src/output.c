@@ -80,7 +80,7 @@ static void peri__emit_length(peri__writer *w, int64_t bytes) {
 
 /* `values` is scratch for one field. */
 static void peri__emit_field(peri_body *b, peri__writer *w, int32_t field, int32_t components, double *values) {
-    int32_t have = peri__field_of(field)->vector ? b->dim : 1;
+    int32_t have = peri__components(field, b->dim);
     const double zero = 0.0;
     peri__compute(b, field, values);
     peri__emit_length(w, b->model->points * components * 8);

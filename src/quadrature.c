@@ -18,7 +18,15 @@ static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, do
     return beta * peri__influence(&c->body->desc, length / c->model->horizon, edge) * length / bond;
 }
 
-/* Weights of a block of rows. sums->a: largest 2 sum(c w beta V/|xi|)/rho of a point; sums->bad with sums->n = status. */
+/* sum of beta V_j over the whole family of a point. */
+static double peri__family_volume(const peri__model *m, int64_t i) {
+    double sum = 0.0;
+    for (int64_t k = 0; k < m->count[i]; ++k)
+        sum += m->part ? (double)m->part[i * m->width + k] : m->volume[m->ids[i * m->width + k]];
+    return sum;
+}
+
+/* Weights of a block of rows. sums->bad with sums->n = status. */
 static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     const peri_body *b = c->body;
@@ -28,7 +36,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     peri__parts parts;
     peri__clear_parts(&parts);
     for (int64_t i = begin; i < end; ++i) {
-        double rate = 0.0, total = 0.0;
+        double total = 0.0, stiff = 0.0;
         for (int64_t k = 0; k < m->width; ++k) {
             int64_t at = i * m->width + k, j = m->ids[at];
             double xi[3], centre[3], square = 0.0, bond, length, w, beta;
@@ -61,16 +69,30 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
                 for (int32_t d = 0; d < dim; ++d) peri__put_real(m->centroid, b->f32, at * dim + d, centre[d]);
             peri__put_real(m->weight, b->f32, at, w);
             peri__put_real(m->bond, b->f32, at, length);
-            rate += m->pairs[m->material[i] * m->materials + m->material[j]].c * fabs(w) / length;
             total += fabs(w);
+            stiff += w * length * length;
+        }
+        if (!(total > 0.0) || (m->laws[m->material[i]].model != PERI_BOND_BASED && !(stiff > 0.0))) {
+            sums->bad = i;
+            sums->n = total > 0.0 ? PERI_ERROR_INFLUENCE : PERI_ERROR_FAMILY;
+            return;
+        }
+    }
+}
+
+/* sums->a: largest 2 sum(c w beta V/|xi|)/rho of a bond-based point. */
+static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__cloud *c = (const peri__cloud *)context;
+    const peri__model *m = c->model;
+    for (int64_t i = begin; i < end; ++i) {
+        double rate = 0.0;
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            int64_t at = i * m->width + k;
+            rate += m->pairs[m->material[i] * m->materials + m->material[m->ids[at]]].c
+                  * fabs(peri__get_real(m->weight, c->body->f32, at)) / peri__get_real(m->bond, c->body->f32, at);
         }
         rate *= 2.0 / m->rho[m->material[i]];
         if (rate > sums->a) sums->a = rate;
-        if (!(total > 0.0)) {
-            sums->bad = i;
-            sums->n = PERI_ERROR_FAMILY;
-            return;
-        }
     }
 }
 
@@ -94,9 +116,7 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     } else {
         peri__for_points(b, m->points, 8 * m->width, peri__weigh_block, c, sums);
     }
-    for (int64_t k = 0; k < m->blocks; ++k) {
+    for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].bad >= 0) return peri__fail(b, (int32_t)sums[k].n, "influence", sums[k].bad, 0.0);
-        if (sums[k].a > m->rate) m->rate = sums[k].a;
-    }
     return PERI_OK;
 }

@@ -6,6 +6,8 @@
      w         influence function w(|xi|)                 e      extension |xi+eta| - |xi|
      beta      part of cell j within the horizon of i     s      stretch e/|xi|
      V         volume (2D: area)                          c, s0  micromodulus, critical stretch
+     theta     dilatation                                 m      weighted volume, sum w |xi|^2 V
+     K, F      shape tensor, deformation gradient         H      F - 1, displacement gradient
    Inside, lengths are in units of `length` (the spacing), stresses of `stress` (Young's modulus), densities of `density`,
    times of length*sqrt(density/stress). So c, forces and velocities are of order one for nanometres and for kilometres, and the
    coordinates of a lattice are small half-integers: exact in single precision too.
@@ -18,6 +20,7 @@
 #define PERI_BLOCK 64          /* points per task; totals are summed block by block, whatever the threads                */
 #define PERI_LANES 16          /* component planes of vectors are padded to a multiple of this                           */
 #define PERI_MATERIAL_LIMIT 120 /* a point's class is material + (no-fail ? materials : 0), in 8 bits                    */
+#define PERI_FIELDS 16         /* the last peri_field                                                                     */
 #define PERI_NEVER 1e30        /* critical stretch of bonds that do not break; finite, so that 0*PERI_NEVER is 0         */
 
 typedef struct peri__memory {
@@ -52,8 +55,28 @@ typedef struct peri__setup {
 } peri__setup;
 
 typedef struct peri__pair { /* constants of the bonds between two materials, in inner units                               */
-    double c, s0;
+    double c, s0; /* c: of the end whose row this is; the same from both where both are bond-based                       */
+    double bond_energy, node_energy; /* w0 of the energy criteria; PERI_NEVER where neither material has them            */
 } peri__pair;
+
+typedef struct peri__law { /* the elasticity of a material, inner units                                                   */
+    int32_t model;
+    double  young, lambda, mu; /* lambda: of the plane, lambda' = E nu/(1-nu^2) in plane stress                          */
+    double  a, b;              /* A, B of LPS                                                                            */
+    double  bulk;              /* lambda + 2 mu/D: W = D^2/2 bulk e^2 under the strain e in all directions               */
+    double  stabilization;
+} peri__law;
+
+/* What the live family of a point makes of its law: planes of body->constant. The half of a bond that point i gives is
+   w [(p g + q e) M + Q xi + k eta] with g = |xi|, Oterkus 1. */
+typedef enum peri__constant {
+    PERI__DILATE,  /* theta = dilate * sum w g e V                                                                       */
+    PERI__PRESS,   /* p = press * theta                                                                                  */
+    PERI__SPRING,  /* q                                                                                                  */
+    PERI__VECTOR,  /* k; planes from here on only where a material is of the correspondence model                        */
+    PERI__INVERSE, /* K^-1: xx yy xy, or xx yy zz xy yz xz                                                               */
+    PERI__CONSTANTS = PERI__INVERSE + 6
+} peri__constant;
 
 typedef struct peri__interface {
     int32_t       i, j;
@@ -97,12 +120,20 @@ typedef struct peri__model {
     int32_t   *count;    /* [points] family sizes                                                                        */
     void      *weight;   /* real [points][width] w(|xi|) beta V_j, 0 in the padding                                      */
     void      *bond;     /* real [points][width] |xi|, 1 in the padding                                                  */
+    void      *back;     /* real [points][width] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal */
     void      *centroid; /* real [points][width][dim] bond to the centroid of the part; NULL but for that rule           */
     float     *part;     /* [points][width] beta V_j; NULL for whole cells                                               */
     peri__lanes lanes;   /* the same rows compressed, where they come from a lattice                                     */
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
+    int32_t    states;  /* 1 where some material is state-based: bodies then have constants and responses                */
+    int32_t    ordinary; /* PERI_LPS or PERI_OTERKUS where all materials are of that model, else 0                       */
+    int32_t    dilates; /* 1 where some of them responds to theta                                                        */
+    int32_t    tensors; /* 1 where some of them is of the correspondence model                                           */
+    int32_t    works;   /* 1 where some bond breaks by its energy                                                        */
+    int32_t    nodes;   /* 1 where some bond breaks by the energy of its ends                                            */
+    peri__law  laws[PERI_MATERIAL_LIMIT];
     double     rho[PERI_MATERIAL_LIMIT];
     int32_t    breakable; /* 1 where some pair has a finite s0                                                           */
     peri__pair *pairs;    /* [materials][materials]                                                                      */
@@ -158,6 +189,7 @@ typedef struct peri__step { /* what a pass over the points needs to know        
     double     keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                                */
     double     loss_old, loss_new; /* damping work: (loss_old v_old + loss_new v_new).(v_old + v_new)/2 rho V            */
     double     impulse;           /* time that a bond still acts after it broke: half a step, or 0                       */
+    int32_t    working;           /* the work on bonds is counted                                                        */
     int32_t    breaking;          /* bonds may break                                                                     */
     double    *out;               /* energy density per point, or NULL                                                   */
 } peri__step;
@@ -169,7 +201,10 @@ typedef struct peri__ledger { /* inner units of energy                          
 } peri__ledger;
 
 struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn on a peri__step                  */
-    void (*force)(void *, int64_t, int64_t, peri__sums *);
+    void (*force)(void *, int64_t, int64_t, peri__sums *);   /* bond-based                                               */
+    void (*respond)(void *, int64_t, int64_t, peri__sums *); /* state-based: what each point makes of its family, then   */
+    void (*share)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
+    void (*exchange)(const peri__step *, const int32_t *points, int64_t count, int sign);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
@@ -200,8 +235,20 @@ struct peri_body {
     peri__pair *pairs;       /* [classes][classes]                                                                       */
     int32_t   classes;
     peri__sums *sums;        /* [blocks]                                                                                 */
+    void     *constant;      /* real [constants][stride], see peri__constant; NULL, like the next, without state-based laws */
+    void     *response;      /* real [1 + dim*dim][stride]: p, and Q where there are tensors                             */
+    double   *rate, *wide;   /* [points] row sum of the stiffness over rho; what theta or F of a point adds to those of others */
+    double    fastest;       /* largest rate                                                                             */
+    int32_t   stale;         /* 1: bonds have changed since the constants were made                                      */
+    uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
+    int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
+    uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
+    void     *work;          /* real [points][width] work done on bonds; NULL, like the next, without that criterion     */
+    void     *pull;          /* real [points][width][dim] force density of bonds when last worked out                    */
+    void     *worked;        /* real [dim][stride] displacement then                                                     */
+    double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
-    double   *derived[16];   /* by field: what peri_view_field computed, [points*dim]; NULL until first asked for         */
+    double   *derived[PERI_FIELDS + 1]; /* by field: what peri_view_field computed; NULL until first asked for            */
 
     peri__set      *sets;
     int64_t         set_count, set_capacity;

@@ -26,7 +26,7 @@ class Error(C.Structure):
 class BodyDesc(C.Structure):
     _fields_ = ([("cookie", C.c_uint64)]
                 + [(n, C.c_int32) for n in ("space", "precision", "geometry", "influence", "quadrature", "break_timing",
-                                            "threads", "reference", "ledger", "reserved")]
+                                            "threads", "reference", "ledger", "correction")]
                 + [("horizon", C.c_double), ("thickness", C.c_double)]
                 + [(n, C.c_void_p) for n in ("influence_fn", "influence_user")]
                 + [("allocate", ALLOC), ("release", RELEASE)]
@@ -34,8 +34,9 @@ class BodyDesc(C.Structure):
 
 
 class Material(C.Structure):
-    _fields_ = ([("cookie", C.c_uint64), ("model", C.c_int32), ("reserved", C.c_int32)]
-                + [(n, C.c_double) for n in ("young", "bulk", "poisson", "density", "fracture_energy", "critical_stretch")])
+    _fields_ = ([("cookie", C.c_uint64), ("model", C.c_int32), ("criterion", C.c_int32)]
+                + [(n, C.c_double) for n in ("young", "bulk", "poisson", "density", "fracture_energy", "critical_stretch",
+                                            "stabilization")])
 
 
 class Run(C.Structure):

@@ -146,6 +146,9 @@ static void bad_materials(peri_body *b) { /* b: plane stress, not built */
     BAD_MATERIAL(PERI_ERROR_RANGE, "critical_stretch", m.critical_stretch = NAN);
     BAD_MATERIAL(PERI_ERROR_MATERIAL, "", m.fracture_energy = 1; m.critical_stretch = 1);
     BAD_MATERIAL(PERI_ERROR_ARGUMENT, "model", m.model = 77);
+    BAD_MATERIAL(PERI_ERROR_ARGUMENT, "criterion", m.criterion = 4);
+    BAD_MATERIAL(PERI_ERROR_CRITERION, "criterion", m.criterion = PERI_CRITERION_BOND_ENERGY; m.fracture_energy = 1);
+    BAD_MATERIAL(PERI_ERROR_MODEL, "stabilization", m.stabilization = 1);
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_add_material(b, NULL));
 }
 
@@ -414,7 +417,7 @@ static void wrong_runs_and_reads(peri_body *b) {
     REFUSE(b, PERI_ERROR_CAPACITY, peri_read(b, PERI_VELOCITY, buffer, n - 1));
     CHECK_NEAR(seen.value, (double)n, 0, 0);
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_read(b, PERI_VELOCITY, NULL, n));
-    REFUSE(b, PERI_ERROR_FIELD, peri_view_field(b, 12, &view));
+    REFUSE(b, PERI_ERROR_FIELD, peri_view_field(b, 17, &view));
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_view_field(b, PERI_DAMAGE, NULL));
     u = get(b, PERI_VELOCITY);
     REFUSE(b, PERI_ERROR_FIELD, peri_write(b, PERI_POSITION, u, n));

@@ -1,0 +1,196 @@
+/* correction.c - what makes good for the missing part of a family: factors on the weights of bonds, chosen once per body.
+
+   The uniform strain eps has the energy of the solid where the fourth moment of the family is isotropic,
+       sum_j w |xi|^2 n n n n V_j = m/(D(D+2)) (delta delta + ...),   n = xi/|xi|,
+   because e = |xi| n.eps.n; and a bond-based point needs m, which is then sum w |xi| V, to be that of the full horizon. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_QUARTICS 15 /* monomials of degree 4 in n: 5 in 2D, 15 in 3D                                                 */
+
+/* n^4 by monomials, and (isotropic != NULL) their mean over all directions. Returns their number. */
+static int peri__quartics(int32_t dim, const double *n, double *monomial, double *isotropic) {
+    int count = 0;
+    for (int p = 4; p >= 0; --p)
+        for (int q = 4 - p; q >= 0; --q) {
+            int r = 4 - p - q;
+            if (dim == 2 && r > 0) continue;
+            double product = 1.0;
+            for (int k = 0; k < p; ++k) product *= n[0];
+            for (int k = 0; k < q; ++k) product *= n[1];
+            for (int k = 0; k < r; ++k) product *= n[2];
+            int odd = p % 2 || q % 2 || r % 2, pure = p == 4 || q == 4 || r == 4;
+            if (isotropic) isotropic[count] = odd ? 0.0 : (pure ? 3.0 : 1.0) / (dim * (dim + 2));
+            monomial[count++] = product;
+        }
+    return count;
+}
+
+typedef struct peri__fitter {
+    peri__cloud *cloud;
+    double      *factor; /* [points][width] of the own half of each bond                                                 */
+    double       full;   /* sum w |xi| V over a full horizon                                                             */
+    double       whole;  /* its volume                                                                                   */
+} peri__fitter;
+
+/* What bond k of point i adds to m, and its direction. */
+static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n) {
+    const peri__model *m = f->cloud->model;
+    int64_t at = i * m->width + k, j = m->ids[at];
+    double bond = 0.0, weight = peri__get_real(m->weight, f->cloud->body->f32, at);
+    for (int32_t d = 0; d < m->dim; ++d) {
+        n[d] = f->cloud->x[j * m->dim + d] - f->cloud->x[i * m->dim + d];
+        bond += n[d] * n[d];
+    }
+    bond = sqrt(bond);
+    for (int32_t d = 0; d < m->dim; ++d) n[d] /= bond;
+    return m->laws[m->material[i]].model == PERI_BOND_BASED ? weight * bond : weight * bond * bond;
+}
+
+/* Factors x_k = max(0, 1 + lambda.n^4) of row i, nearest to 1 in the mean weighted by the bonds, whose fourth moment is isotropic: the
+   minimum of a convex function of lambda, by Newton's method. soft > 0: a compromise, where no such factors exist. Returns the
+   largest factor, or HUGE_VAL where the moment was missed by more than rounding (soft = 0). */
+static double peri__fit_row(const peri__fitter *f, int64_t i, double total, double soft) {
+    const peri__model *m = f->cloud->model;
+    double lambda[PERI_QUARTICS] = { 0.0 }, isotropic[PERI_QUARTICS], psi[PERI_QUARTICS], step[PERI_QUARTICS];
+    double n[3] = { 0.0, 0.0, 0.0 }, *x = &f->factor[i * m->width], missed = 0.0, largest = 0.0, value = HUGE_VAL, scale = 0.0, sum = 0.0;
+    int terms = peri__quartics(m->dim, n, psi, isotropic);
+    for (int d = 0; d < PERI_QUARTICS; ++d) step[d] = 0.0;
+    for (int newton = 0; newton < 60; ++newton) {
+        double g[PERI_QUARTICS], hessian[PERI_QUARTICS * PERI_QUARTICS] = { 0.0 }, trial[PERI_QUARTICS], now = 0.0;
+        for (int a = 0; a < terms; ++a) {
+            trial[a] = lambda[a] + scale * step[a];
+            g[a] = soft * trial[a] - isotropic[a];
+            hessian[a * PERI_QUARTICS + a] = soft;
+            now += (0.5 * soft * trial[a] - isotropic[a]) * trial[a];
+        }
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            double share = peri__stiff(f, i, k, n) / total, factor = 1.0;
+            (void)peri__quartics(m->dim, n, psi, NULL);
+            for (int a = 0; a < terms; ++a) factor += trial[a] * psi[a];
+            if (!(factor > 0.0)) continue;
+            now += 0.5 * share * factor * factor;
+            for (int a = 0; a < terms; ++a) {
+                g[a] += share * factor * psi[a];
+                for (int c = 0; c <= a; ++c) hessian[a * PERI_QUARTICS + c] += share * psi[a] * psi[c];
+            }
+        }
+        if (now > value + 1e-13 * fabs(value) && scale > 1e-9) { /* too far: half the way */
+            scale *= 0.5;
+            continue;
+        }
+        memcpy(lambda, trial, sizeof lambda);
+        value = now;
+        missed = 0.0;
+        for (int a = 0; a < terms; ++a) missed = fabs(g[a]) > missed ? fabs(g[a]) : missed;
+        if (missed < 1e-15) break;
+        peri__solve(terms, PERI_QUARTICS, hessian, g, step);
+        for (int a = 0; a < terms; ++a) step[a] = -step[a];
+        scale = 1.0;
+    }
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        double share = peri__stiff(f, i, k, n) / total;
+        (void)peri__quartics(m->dim, n, psi, NULL);
+        x[k] = 1.0;
+        for (int a = 0; a < terms; ++a) x[k] += lambda[a] * psi[a];
+        if (!(x[k] > 0.0)) x[k] = 0.0;
+        if (x[k] > largest) largest = x[k];
+        sum += share * x[k];
+    }
+    for (int64_t k = 0; k < m->count[i]; ++k) x[k] /= sum; /* m stays */
+    return soft == 0.0 && !(missed < 1e-12) ? HUGE_VAL : largest;
+}
+
+/* Is the family of i that of an earlier point of its block, moved? Then so are its factors: on a lattice most are. */
+static int peri__same_family(const peri__fitter *f, int64_t i, int64_t other) {
+    const peri__model *m = f->cloud->model;
+    if (m->count[i] != m->count[other] || m->material[i] != m->material[other]) return 0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        double a[3], c[3], stiff = peri__stiff(f, i, k, a), apart = fabs(stiff - peri__stiff(f, other, k, c));
+        for (int32_t d = 0; d < m->dim; ++d) apart += fabs(a[d] - c[d]) * stiff;
+        if (!(apart <= 1e-13 * fabs(stiff))) return 0;
+    }
+    return 1;
+}
+
+static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__fitter *f = (const peri__fitter *)context;
+    const peri_body *b = f->cloud->body;
+    const peri__model *m = f->cloud->model;
+    int64_t fitted = -1;
+    for (int64_t i = begin; i < end; ++i) {
+        double n[3], total = 0.0, volume = m->volume[i] + peri__family_volume(m, i), least = 0.0, *x = &f->factor[i * m->width];
+        int bonds = m->laws[m->material[i]].model == PERI_BOND_BASED;
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            double stiff = peri__stiff(f, i, k, n);
+            total += stiff;
+            if (stiff < least) least = stiff;
+            x[k] = 1.0;
+        }
+        if (b->desc.correction == PERI_VOLUME_CORRECTION) {
+            for (int64_t k = 0; bonds && k < m->count[i]; ++k) {
+                int64_t j = m->ids[i * m->width + k];
+                x[k] = 2.0 * f->whole / (volume + m->volume[j] + peri__family_volume(m, j));
+            }
+            continue;
+        }
+        if (!(total > 0.0)) continue; /* refused later */
+        if (b->desc.correction == PERI_MOMENT_CORRECTION && least >= 0.0) {
+            if (fitted >= 0 && peri__same_family(f, i, fitted)) {
+                memcpy(x, &f->factor[fitted * m->width], (size_t)m->count[i] * sizeof *x);
+                continue;
+            }
+            fitted = i;
+            if (!(peri__fit_row(f, i, total, 0.0) < 10.0)) {
+                sums->n++;
+                (void)peri__fit_row(f, i, total, 0.01);
+            }
+        }
+        for (int64_t k = 0; bonds && k < m->count[i]; ++k) x[k] *= f->full / total;
+    }
+}
+
+/* Puts the factors into the weights: a bond between bond-based points has one weight, else each half has its own. */
+static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__fitter *f = (const peri__fitter *)context;
+    const peri_body *b = f->cloud->body;
+    peri__model *m = f->cloud->model;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i)
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            int64_t at = i * m->width + k, j = m->ids[at];
+            double own = f->factor[at], other = f->factor[j * m->width + peri__find_bond(m, j, i)];
+            double weight = peri__get_real(m->weight, b->f32, at);
+            if (m->states) peri__put_real(m->back, b->f32, at, weight * other);
+            peri__put_real(m->weight, b->f32, at, weight * (m->states ? own : 0.5 * (own + other)));
+        }
+}
+
+/* Corrects the weights as the descriptor asks. Influence functions were checked to have moments where bond-based materials are. */
+static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
+    peri__model *m = c->model;
+    peri__fitter f;
+    int64_t entries = m->points * m->width, missed = 0;
+    double h = m->horizon, moment = 0.0;
+    size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    m->back = m->weight;
+    if (b->desc.correction == PERI_NO_CORRECTION || (m->states && b->desc.correction != PERI_MOMENT_CORRECTION && m->materials == 1))
+        return PERI_OK;
+    if (m->states) m->back = peri__new(&m->memory, entries, real);
+    f.cloud = c;
+    f.factor = (double *)peri__new(&m->memory, entries, sizeof *f.factor);
+    if (!f.factor || !m->back) {
+        peri__delete(&m->memory, f.factor, entries, sizeof *f.factor);
+        return peri__fail(b, PERI_ERROR_MEMORY, "correction", -1, 0.0);
+    }
+    (void)peri__moment(&b->desc, m->dim, 0.5 * m->spacing / h, &moment);
+    f.full = m->dim == 3 ? 4.0 * PERI_PI * h * h * h * h * moment : 2.0 * PERI_PI * h * h * h * moment;
+    f.whole = m->dim == 3 ? 4.0 / 3.0 * PERI_PI * h * h * h : PERI_PI * h * h;
+    peri__for_points(b, m->points, 64 * m->width, peri__fit_block, &f, sums);
+    missed = peri__total(sums, m->points).n;
+    if (missed > 0) peri__log(b, 0, "moment correction: some families near surfaces have no isotropic weights; the nearest are taken");
+    peri__for_points(b, m->points, 8 * m->width, peri__apply_block, &f, sums);
+    peri__delete(&m->memory, f.factor, entries, sizeof *f.factor);
+    return PERI_OK;
+}

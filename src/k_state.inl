@@ -1,0 +1,339 @@
+/* k_state.inl - state-based force and energy ([T] 1.80, [C] 1-21), for any mixture of laws in one body:
+
+       f_i = sum_j (T_i + T_j) V_j,    T_i = w [(p_i g + q_i e) M + Q_i xi + k_i eta]
+
+   is what the end i gives to bond (i, j). Two passes: `respond` makes p_i (from theta) and Q_i (from F) of every point, `share` adds the
+   halves of both ends. weight = w_ij beta V_j weighs the own half, back = w_ji beta V_j that of j; both are of the same force on i.
+   Seen from j the same sum has the opposite sign, term by term: momentum is conserved whatever the laws of the two ends are. */
+
+/* The half of end i of its bond with j: adds to the central part (along M) and, correspondence, to the vector t. */
+PERI_INLINE void PERI_FN(half_bond)(const peri_body *b, int64_t i, int64_t j, peri_r weight, const peri_r *xi, const peri_r *eta,
+                                    peri_r bond, peri_r e, peri_r *central, peri_r *t) {
+    const peri__model *m = b->model;
+    const int32_t law = m->laws[m->material[i]].model;
+    const peri_r *constant = (const peri_r *)b->constant + i, *response = (const peri_r *)b->response + i;
+    if (law == PERI_BOND_BASED) {
+        *central += weight * (peri_r)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
+        return;
+    }
+    *central += weight * (response[0] * (law == PERI_OTERKUS ? 1 : bond) + constant[PERI__SPRING * m->stride] * e);
+    if (law != PERI_CORRESPONDENCE) return;
+    for (int a = 0; a < PERI_D; ++a) {
+        peri_r sum = constant[PERI__VECTOR * m->stride] * eta[a];
+        for (int d = 0; d < PERI_D; ++d) sum += response[(1 + a * PERI_D + d) * m->stride] * xi[d];
+        t[a] += weight * sum;
+    }
+}
+
+/* Row i, every quantity by its formula: adds to f, and notes what the criteria need. Returns the number of bonds that meet one. */
+static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, peri_r *f) {
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const int linear = b->desc.geometry == PERI_LINEAR;
+    int32_t dying = 0;
+    if (step->breaking)
+        for (int32_t k = 0; k < m->words; ++k) b->dying[i * m->words + k] = 0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        const int64_t at = i * m->width + k, j = m->ids[at];
+        peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], t[PERI_D], e, central = 0, length;
+        const peri_r bond = ((const peri_r *)m->bond)[at];
+        if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+        PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
+        length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
+        for (int d = 0; d < PERI_D; ++d) t[d] = 0;
+        PERI_FN(half_bond)(b, i, j, ((const peri_r *)m->weight)[at], xi, eta, bond, e, &central, t);
+        PERI_FN(half_bond)(b, j, i, ((const peri_r *)m->back)[at], xi, eta, bond, e, &central, t);
+        for (int d = 0; d < PERI_D; ++d) {
+            t[d] += central * y[d] / (length + PERI_TINY);
+            f[d] += t[d];
+        }
+        if (step->working) { /* the work of t along the way since last time, by the trapezoidal rule */
+            const peri_r *worked = (const peri_r *)b->worked;
+            peri_r *pull = (peri_r *)b->pull + at * PERI_D, *work = (peri_r *)b->work + at;
+            for (int d = 0; d < PERI_D; ++d) {
+                const peri_r *w = worked + d * m->stride;
+                *work += (peri_r)0.5 * (pull[d] + t[d]) * (eta[d] - (w[j] - w[i]));
+                pull[d] = t[d];
+            }
+        }
+        if (step->breaking && e > 0) {
+            const peri__pair *pair = PERI_FN(pair)(b, i, j);
+            const double share = m->part ? (double)m->part[at] : m->volume[j];
+            int dies = e / bond > (peri_r)pair->s0;
+            if (b->work) dies |= (double)((const peri_r *)b->work)[at] > pair->bond_energy * share;
+            if (b->node) dies |= 0.5 * (b->node[i] + b->node[j]) > pair->node_energy;
+            if (dies) b->dying[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
+            dying += dies;
+        }
+    }
+    return dying;
+}
+
+/* The same row where every point is of one ordinary law: constants at hand, one square root and two divisions per bond. `flagged`,
+   `linear`, `dilates`, `oterkus`, `mirrored` (back is weight) are constants where this is inlined. */
+PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r *f, const int flagged, const int linear,
+                                       const int dilates, const int oterkus, const int mirrored) {
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const int64_t stride = m->stride;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response;
+    const peri_r *q = (const peri_r *)b->constant + PERI__SPRING * stride;
+    const peri_r *bonds = (const peri_r *)m->bond + i * m->width, *weights = (const peri_r *)m->weight + i * m->width;
+    const peri_r *backs = (const peri_r *)m->back + i * m->width;
+    const int32_t *ids = m->ids + i * m->width;
+    const uint8_t *cls = b->cls;
+    const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
+    peri_r here[PERI_D], moved[PERI_D], sum[PERI_D], s0 = (peri_r)pairs->s0;
+    const peri_r qi = q[i], pi = dilates ? p[i] : 0;
+    int32_t dying = 0;
+    for (int d = 0; d < PERI_D; ++d) {
+        here[d] = x[d * stride + i];
+        moved[d] = u[d * stride + i];
+        sum[d] = f[d];
+    }
+    for (int32_t first = 0; first < m->count[i]; first += 32) {
+        const uint32_t live = flagged ? b->alive[i * m->words + first / 32] : 0;
+        const int32_t chunk = m->count[i] - first < 32 ? m->count[i] - first : 32;
+        uint32_t dead = 0;
+        for (int32_t k = 0; k < chunk; ++k) {
+            const int64_t j = ids[first + k];
+            const peri_r bond = bonds[first + k], weight = weights[first + k], back = mirrored ? weight : backs[first + k];
+            peri_r y[PERI_D], along = 0, square = 0, length, e, scale;
+            if (flagged && !(live >> k & 1)) continue;
+            for (int d = 0; d < PERI_D; ++d) {
+                const peri_r xi = x[d * stride + j] - here[d], eta = u[d * stride + j] - moved[d];
+                y[d] = linear ? xi : xi + eta;
+                along += (linear ? xi : 2 * xi + eta) * eta;
+                square += y[d] * y[d];
+            }
+            length = linear ? bond : PERI_SQRT(square);
+            e = along / (linear ? bond : length + bond);
+            if (mirrored)
+                scale = weight * ((dilates ? (pi + p[j]) * (oterkus ? 1 : bond) : 0) + (qi + q[j]) * e);
+            else
+                scale = weight * ((dilates ? pi * (oterkus ? 1 : bond) : 0) + qi * e)
+                      + back * ((dilates ? p[j] * (oterkus ? 1 : bond) : 0) + q[j] * e);
+            scale /= length + PERI_TINY;
+            for (int d = 0; d < PERI_D; ++d) sum[d] += scale * y[d];
+            if (flagged && step->breaking) {
+                if (cls) s0 = (peri_r)pairs[cls[j]].s0;
+                if (e > s0 * bond) {
+                    dead |= (uint32_t)1 << k;
+                    dying++;
+                }
+            }
+        }
+        if (flagged && step->breaking) b->dying[i * m->words + first / 32] = dead;
+    }
+    for (int d = 0; d < PERI_D; ++d) f[d] = sum[d];
+    return dying;
+}
+
+/* Force density of the bonds of row i, by whichever of the two serves; adds to f. */
+static int32_t PERI_FN(share_force)(const peri__step *step, int64_t i, peri_r *f) {
+    const peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->works || m->nodes;
+    const int32_t law = m->ordinary;
+    if (plain || !law) return PERI_FN(share_row_reference)(step, i, f);
+#define PERI_SHARE(flag, line, theta, one, same)                                                                       \
+    if ((b->alive != NULL) == (flag) && linear == (line) && m->dilates == (theta) && (law == PERI_OTERKUS) == (one)       \
+        && (m->back == m->weight) == (same))                                                                           \
+        return PERI_FN(share_row)(step, i, f, flag, line, theta, one, same);
+#define PERI_SHARES(theta, one, same)                                                                                  \
+    PERI_SHARE(0, 0, theta, one, same)                                                                                 \
+    PERI_SHARE(0, 1, theta, one, same)                                                                                 \
+    PERI_SHARE(1, 0, theta, one, same)                                                                                 \
+    PERI_SHARE(1, 1, theta, one, same)
+    PERI_SHARES(0, 0, 1)
+    PERI_SHARES(1, 0, 1)
+    PERI_SHARES(1, 1, 1)
+    PERI_SHARES(1, 0, 0)
+#undef PERI_SHARES
+#undef PERI_SHARE
+    return PERI_FN(share_row_reference)(step, i, f);
+}
+
+/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion. sums: n their (directed) number. */
+static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *step = (const peri__step *)context;
+    const peri__model *m = step->body->model;
+    peri_r *force = (peri_r *)step->body->f;
+    for (int64_t i = begin; i < end; ++i) {
+        peri_r f[PERI_D];
+        for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride + i];
+        sums->n += PERI_FN(share_force)(step, i, f);
+        for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
+    }
+}
+
+/* For the points of a list: takes the force that their bonds give out of f (sign -1), or puts it in (1), and gives the opposite of it for
+   the time step->impulse to v. */
+static void PERI_FN(exchange)(const peri__step *step, const int32_t *points, int64_t count, int sign) {
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < count; ++k) {
+        const int64_t i = points[k];
+        const peri_r kick = (peri_r)(step->impulse / m->rho[m->material[i]]);
+        peri_r f[PERI_D];
+        for (int d = 0; d < PERI_D; ++d) f[d] = 0;
+        (void)PERI_FN(share_force)(step, i, f);
+        for (int d = 0; d < PERI_D; ++d) {
+            ((peri_r *)b->f)[d * m->stride + i] += (peri_r)sign * f[d];
+            ((peri_r *)b->v)[d * m->stride + i] -= (peri_r)sign * kick * f[d];
+        }
+    }
+}
+
+/* Displacement gradient H = (sum w eta xi V) K^-1 of a correspondence point. */
+static void PERI_FN(gradient)(const peri_body *b, int64_t i, peri_r h[PERI_D][PERI_D]) {
+    const peri__model *m = b->model;
+    peri_r n[PERI_D][PERI_D];
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) n[a][d] = 0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        const int64_t at = i * m->width + k;
+        const peri_r weight = ((const peri_r *)m->weight)[at];
+        peri_r xi[PERI_D], eta[PERI_D];
+        if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+        PERI_FN(bond_vectors)(b, i, at, m->ids[at], xi, eta);
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
+    }
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) {
+            h[a][d] = 0;
+            for (int c = 0; c < PERI_D; ++c)
+                h[a][d] += n[a][c] * ((const peri_r *)b->constant)[(PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride + i];
+        }
+}
+
+/* Strain of H: 1/2 (H + H^T), and 1/2 H^T H more where the geometry is not linear. */
+static void PERI_FN(strain)(int linear, peri_r h[PERI_D][PERI_D], peri_r strain[PERI_D][PERI_D]) {
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) {
+            strain[a][d] = (peri_r)0.5 * (h[a][d] + h[d][a]);
+            for (int c = 0; !linear && c < PERI_D; ++c) strain[a][d] += (peri_r)0.5 * h[c][a] * h[c][d];
+        }
+}
+
+/* Q_i = P K^-1 - k H, so that T = w (P K^-1 xi + k (eta - H xi)); P = sigma, or F S. */
+static void PERI_FN(respond_tensor)(peri_body *b, int64_t i) {
+    const peri__model *m = b->model;
+    const peri__law *law = &m->laws[m->material[i]];
+    const int linear = b->desc.geometry == PERI_LINEAR;
+    const peri_r *constant = (const peri_r *)b->constant + i, lambda = (peri_r)law->lambda, mu2 = (peri_r)(2.0 * law->mu);
+    peri_r *response = (peri_r *)b->response + i, h[PERI_D][PERI_D], s[PERI_D][PERI_D], p[PERI_D][PERI_D], trace = 0;
+    PERI_FN(gradient)(b, i, h);
+    PERI_FN(strain)(linear, h, s);
+    for (int a = 0; a < PERI_D; ++a) trace += s[a][a];
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) s[a][d] = mu2 * s[a][d] + (a == d ? lambda * trace : 0);
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) {
+            p[a][d] = s[a][d];
+            for (int c = 0; !linear && c < PERI_D; ++c) p[a][d] += h[a][c] * s[c][d];
+        }
+    response[0] = 0;
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) {
+            peri_r q = -constant[PERI__VECTOR * m->stride] * h[a][d];
+            for (int c = 0; c < PERI_D; ++c) q += p[a][c] * constant[(PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride];
+            response[(1 + a * PERI_D + d) * m->stride] = q;
+        }
+}
+
+/* sum w g e V of an ordinary point; *square: sum w e^2 V. */
+static double PERI_FN(stretched)(const peri_body *b, int64_t i, double *square) {
+    const peri__model *m = b->model;
+    const int linear = b->desc.geometry == PERI_LINEAR, oterkus = m->laws[m->material[i]].model == PERI_OTERKUS;
+    peri_r sum = 0;
+    double squares = 0.0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        const int64_t at = i * m->width + k;
+        const peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
+        peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
+        if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+        PERI_FN(bond_vectors)(b, i, at, m->ids[at], xi, eta);
+        (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
+        sum += weight * (oterkus ? 1 : bond) * e;
+        squares += (double)weight * (double)e * (double)e;
+    }
+    *square = squares;
+    return (double)sum;
+}
+
+/* Energy density of point i. */
+static double PERI_FN(point_energy)(const peri_body *b, int64_t i) {
+    const peri__model *m = b->model;
+    const peri__law *law = &m->laws[m->material[i]];
+    const int linear = b->desc.geometry == PERI_LINEAR;
+    const peri_r *constant = (const peri_r *)b->constant + i;
+    double density = 0.0, square = 0.0;
+    if (law->model == PERI_BOND_BASED) {
+        for (int64_t k = 0; k < m->count[i]; ++k) {
+            const int64_t at = i * m->width + k, j = m->ids[at];
+            peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
+            const peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
+            if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+            PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
+            (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
+            density += 0.25 * PERI_FN(pair)(b, i, j)->c * (double)weight * (double)e * (double)e / (double)bond;
+        }
+        return density;
+    }
+    double sum = PERI_FN(stretched)(b, i, &square), dilate = (double)constant[PERI__DILATE * m->stride];
+    density = 0.5 * (double)constant[PERI__SPRING * m->stride] * square;
+    if (law->model != PERI_CORRESPONDENCE) return density + 0.5 * (double)constant[PERI__PRESS * m->stride] * dilate * sum * sum;
+
+    peri_r h[PERI_D][PERI_D], s[PERI_D][PERI_D];
+    double trace = 0.0, norm = 0.0, apart = 0.0;
+    PERI_FN(gradient)(b, i, h);
+    PERI_FN(strain)(linear, h, s);
+    for (int a = 0; a < PERI_D; ++a) {
+        trace += (double)s[a][a];
+        for (int d = 0; d < PERI_D; ++d) norm += peri__square((double)s[a][d]);
+    }
+    for (int64_t k = 0; k < m->count[i]; ++k) { /* sum w |Y - F xi|^2 V */
+        const int64_t at = i * m->width + k;
+        peri_r xi[PERI_D], eta[PERI_D];
+        if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+        PERI_FN(bond_vectors)(b, i, at, m->ids[at], xi, eta);
+        for (int a = 0; a < PERI_D; ++a) {
+            peri_r z = eta[a];
+            for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * xi[d];
+            apart += (double)((const peri_r *)m->weight)[at] * peri__square((double)z);
+        }
+    }
+    return density + 0.5 * law->lambda * trace * trace + law->mu * norm + 0.5 * (double)constant[PERI__VECTOR * m->stride] * apart;
+}
+
+/* What points make of their families: p, Q, and where a criterion asks for it the energy of the node. */
+static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *step = (const peri__step *)context;
+    peri_body *b = step->body;
+    const peri__model *m = b->model;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        const int32_t law = m->laws[m->material[i]].model;
+        const peri_r *constant = (const peri_r *)b->constant + i;
+        double square;
+        if (law == PERI_CORRESPONDENCE) PERI_FN(respond_tensor)(b, i);
+        else if (law != PERI_BOND_BASED)
+            ((peri_r *)b->response)[i] = constant[PERI__PRESS * m->stride] == 0 ? 0
+                                       : constant[PERI__PRESS * m->stride] * constant[PERI__DILATE * m->stride]
+                                             * (peri_r)PERI_FN(stretched)(b, i, &square);
+        if (b->node) b->node[i] = 2.0 * PERI_FN(point_energy)(b, i) / peri__family_volume(m, i);
+    }
+}
+
+/* Elastic energy of live bonds: sums->a, and per point to step->out where it is not NULL. */
+static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *step = (const peri__step *)context;
+    const peri__model *m = step->body->model;
+    for (int64_t i = begin; i < end; ++i) {
+        double density = PERI_FN(point_energy)(step->body, i);
+        if (step->out) step->out[i] = density;
+        sums->a += density * m->volume[i];
+    }
+}

@@ -1,0 +1,211 @@
+/* response.c - what the live family of a point makes of its state-based law: the constants of peri__constant, and how stiff that is.
+
+   Every law is calibrated on the bonds that are left, so a cut crack and a gap between points act alike. The price is that few
+   short bonds carry what many did: the bound of the highest frequency is kept per point, and follows the bonds that break. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_SPAN 0.02 /* a shape tensor whose eigenvalues differ by more than this factor counts as singular              */
+
+typedef struct peri__moments { /* sums over the bonds of a family, inner units                                            */
+    double volume, m;    /* w |xi|^2 V                                                                                   */
+    double length;       /* w |xi| V                                                                                     */
+    double shear;        /* w xi_a^2 xi_b^2/|xi|^2 V, mean over the planes a < b                                         */
+    double shape[6];     /* w xi xi V                                                                                    */
+} peri__moments;
+
+static int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
+    return !b->alive || (b->alive[i * b->model->words + k / 32] >> (k % 32) & 1);
+}
+
+static void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t k, double *xi) {
+    int64_t j = m->ids[i * m->width + k];
+    for (int32_t d = 0; d < m->dim; ++d)
+        xi[d] = peri__get_real(m->x, f32, d * m->stride + j) - peri__get_real(m->x, f32, d * m->stride + i);
+}
+
+static peri__moments peri__family_moments(const peri_body *b, int64_t i, int live) {
+    const peri__model *m = b->model;
+    peri__moments sum;
+    memset(&sum, 0, sizeof sum);
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        int64_t at = i * m->width + k;
+        double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(m->weight, b->f32, at), bond = peri__get_real(m->bond, b->f32, at);
+        double planes = m->dim * (m->dim - 1) / 2;
+        if (live && !peri__is_alive(b, i, k)) continue;
+        peri__bond_of(m, b->f32, i, k, xi);
+        sum.m += weight * bond * bond;
+        sum.length += weight * bond;
+        for (int a = 0; a < m->dim; ++a)
+            for (int c = a; c < m->dim; ++c) {
+                sum.shape[peri__packed(m->dim, a, c)] += weight * xi[a] * xi[c];
+                if (a != c) sum.shear += weight * peri__square(xi[a] * xi[c] / bond) / planes;
+            }
+    }
+    return sum;
+}
+
+static void peri__put_constant(peri_body *b, int64_t i, int plane, double value) {
+    peri__put_real(b->constant, b->f32, plane * b->model->stride + i, value);
+}
+
+static double peri__get_constant(const peri_body *b, int64_t i, int plane) {
+    return peri__get_real(b->constant, b->f32, plane * b->model->stride + i);
+}
+
+/* q m of LPS on this family: B; or such that the mean energy of shear over its directions is mu, theta of the shear included, while
+   that of isotropic strain stays exact: X/(D(D+2)) + 1/2 (bulk - X/D^2) R = mu, R = D^2 |dev K|^2/(m^2 N), N deviators. */
+static double peri__lps_spring(const peri_body *b, const peri__law *law, const peri__moments *sum) {
+    int32_t dim = b->dim;
+    double dev = 0.0, deviators = 0.5 * (dim - 1) * (dim + 2);
+    if (b->desc.correction != PERI_ENERGY_CORRECTION) return law->b;
+    for (int a = 0; a < dim; ++a)
+        for (int c = 0; c < dim; ++c)
+            dev += peri__square(sum->shape[peri__packed(dim, a, c)] - (a == c ? sum->m / dim : 0.0));
+    double r = dim * dim * dev / (sum->m * sum->m * deviators), room = 1.0 / (dim * (dim + 2)) - r / (2.0 * dim * dim);
+    double x = room > 0.25 / (dim * (dim + 2)) ? (law->mu - 0.5 * law->bulk * r) / room : 0.0;
+    return x < 0.2 * law->b ? 0.2 * law->b : x > 2.0 * law->b ? 2.0 * law->b : x; /* families too lopsided to calibrate          */
+}
+
+static void peri__set_constants(peri_body *b, int64_t i) {
+    const peri__model *m = b->model;
+    const peri__law *law = &m->laws[m->material[i]];
+    double dilate = 0.0, press = 0.0, spring = 0.0, vector = 0.0, inverse[6] = { 0.0 };
+    int32_t dim = m->dim;
+    if (law->model == PERI_BOND_BASED) return;
+    peri__moments sum = peri__family_moments(b, i, 1);
+    if (sum.m > 0.0 && law->model == PERI_LPS) {
+        double x = peri__lps_spring(b, law, &sum), kappa = law->a / dim;
+        if (x != law->b) kappa = law->bulk - x / (dim * dim);
+        dilate = dim / sum.m;
+        press = kappa * dilate;
+        spring = x / sum.m;
+    } else if (sum.m > 0.0 && law->model == PERI_OTERKUS) {
+        /* b = mu/(2 S), a = (bulk - 2 b m/D^2)/2 ([C] 16, 17); a family without shear bonds to calibrate on takes that of LPS */
+        dilate = dim / sum.length;
+        spring = dim * (dim + 2) * sum.shear > 0.2 * sum.m ? law->mu / sum.shear : law->b / sum.m;
+        press = (law->bulk - spring * sum.m / (dim * dim)) * dilate;
+    } else if (sum.m > 0.0) {
+        if (peri__invert(dim, sum.shape, PERI_SPAN, inverse) == dim) {
+            vector = law->stabilization * law->b / sum.m;
+        } else {
+            memset(inverse, 0, sizeof inverse);
+            spring = law->b / peri__family_moments(b, i, 0).m;
+        }
+    }
+    peri__put_constant(b, i, PERI__DILATE, dilate);
+    peri__put_constant(b, i, PERI__PRESS, press);
+    peri__put_constant(b, i, PERI__SPRING, spring);
+    if (!m->tensors) return;
+    peri__put_constant(b, i, PERI__VECTOR, vector);
+    for (int k = 0; k < PERI_PACKED(dim); ++k) peri__put_constant(b, i, PERI__INVERSE + k, inverse[k]);
+}
+
+/* ---- stiffness ---------------------------------------------------------------------------------------------------- */
+
+/* The Hessian of the energy is that of springs, sum q w e^2, and of kappa theta^2 (or C |H|^2). Rows of the first sum to twice the
+   springs. theta = G u with |G_ij| = d w g V: rows of G^T kappa G sum to sum_i |G_ij| kappa_i R_i with R_i the row sum of |G|. */
+
+/* d g of a bond of point i, or |K^-1 xi|: the size of what the bond adds to theta or H. */
+static double peri__gauge(const peri_body *b, int64_t i, const double *xi, double bond) {
+    const peri__model *m = b->model;
+    double square = 0.0;
+    switch (m->laws[m->material[i]].model) {
+    case PERI_LPS: return peri__get_constant(b, i, PERI__DILATE) * bond;
+    case PERI_OTERKUS: return peri__get_constant(b, i, PERI__DILATE);
+    case PERI_CORRESPONDENCE: break;
+    default: return 0.0;
+    }
+    for (int a = 0; a < m->dim; ++a) {
+        double sum = 0.0;
+        for (int c = 0; c < m->dim; ++c) sum += peri__get_constant(b, i, PERI__INVERSE + peri__packed(m->dim, a, c)) * xi[c];
+        square += sum * sum;
+    }
+    return sqrt(square);
+}
+
+/* |sum_j G_ij| of the point itself: what a motion of i alone does to its theta or H. */
+static double peri__lean(const peri_body *b, int64_t i, double *row) {
+    const peri__model *m = b->model;
+    double lean[3] = { 0.0, 0.0, 0.0 };
+    int tensor = m->laws[m->material[i]].model == PERI_CORRESPONDENCE;
+    *row = 0.0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        double xi[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(m->weight, b->f32, i * m->width + k);
+        double bond = peri__get_real(m->bond, b->f32, i * m->width + k);
+        if (!peri__is_alive(b, i, k)) continue;
+        peri__bond_of(m, b->f32, i, k, xi);
+        double gauge = peri__gauge(b, i, xi, bond);
+        *row += fabs(w) * gauge;
+        for (int d = 0; d < m->dim; ++d) /* of a tensor K^-1 sum w xi is the sum: its size is taken below */
+            lean[d] += w * (tensor ? xi[d] : gauge * xi[d] / bond);
+    }
+    return tensor ? peri__gauge(b, i, lean, 1.0) : sqrt(peri__dot(lean, lean, m->dim));
+}
+
+static void peri__set_wide(peri_body *b, int64_t i) {
+    const peri__model *m = b->model;
+    const peri__law *law = &m->laws[m->material[i]];
+    double row, dilate = peri__get_constant(b, i, PERI__DILATE), stiff = 0.0;
+    if (law->model == PERI_CORRESPONDENCE) stiff = law->lambda > 0.0 ? m->dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
+    else if (dilate > 0.0) stiff = peri__get_constant(b, i, PERI__PRESS) / dilate;
+    b->wide[i] = stiff > 0.0 ? stiff * (peri__lean(b, i, &row) + row) : 0.0;
+}
+
+/* Stiffness of the half of point i in bond (i, j), per weight. */
+static double peri__half_stiffness(const peri_body *b, int64_t i, int64_t j, double bond) {
+    const peri__model *m = b->model;
+    if (m->laws[m->material[i]].model == PERI_BOND_BASED)
+        return 0.5 * m->pairs[m->material[i] * m->materials + m->material[j]].c / bond;
+    return peri__get_constant(b, i, PERI__SPRING) + (m->tensors ? peri__get_constant(b, i, PERI__VECTOR) : 0.0);
+}
+
+static void peri__set_rate(peri_body *b, int64_t i) {
+    const peri__model *m = b->model;
+    double sum = 0.0, row;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        int64_t at = i * m->width + k, j = m->ids[at];
+        double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(m->bond, b->f32, at);
+        double own = fabs(peri__get_real(m->weight, b->f32, at)), back = fabs(peri__get_real(m->back, b->f32, at));
+        if (!peri__is_alive(b, i, k)) continue;
+        peri__bond_of(m, b->f32, i, k, xi);
+        sum += 2.0 * (own * peri__half_stiffness(b, i, j, bond) + back * peri__half_stiffness(b, j, i, bond));
+        if (b->wide[j] > 0.0) sum += back * peri__gauge(b, j, xi, bond) * b->wide[j];
+    }
+    if (b->wide[i] > 0.0) sum += peri__lean(b, i, &row) * b->wide[i];
+    b->rate[i] = sum / m->rho[m->material[i]];
+}
+
+static void peri__constants_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    peri_body *b = ((const peri__step *)context)->body;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        peri__set_constants(b, i);
+        peri__set_wide(b, i);
+    }
+}
+
+static void peri__rates_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    peri_body *b = ((const peri__step *)context)->body;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) peri__set_rate(b, i);
+}
+
+static void peri__find_fastest(peri_body *b) {
+    b->fastest = 0.0;
+    for (int64_t i = 0; i < b->model->points; ++i)
+        if (b->rate[i] > b->fastest) b->fastest = b->rate[i];
+}
+
+/* Brings the constants up to date with the bonds that are left. */
+static void peri__refresh(peri_body *b) {
+    peri__step step;
+    if (!b->stale) return;
+    memset(&step, 0, sizeof step);
+    step.body = b;
+    peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &step, NULL);
+    peri__for_points(b, b->model->points, 4 * b->model->width, peri__rates_block, &step, NULL);
+    peri__find_fastest(b);
+    b->stale = 0;
+}

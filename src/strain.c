@@ -1,0 +1,172 @@
+/* strain.c - dilatation, strain and stress of points, from the displacements of their live families ([T] 4.10-4.14). */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+typedef struct peri__gradients {
+    peri_body *body;
+    int32_t    field;
+    double    *out; /* [points*components]                                                                               */
+} peri__gradients;
+
+/* Bond k of point i: xi and eta. */
+static void peri__pull_of(const peri_body *b, int64_t i, int64_t k, double *xi, double *eta) {
+    const peri__model *m = b->model;
+    int64_t j = m->ids[i * m->width + k];
+    peri__bond_of(m, b->f32, i, k, xi);
+    for (int32_t d = 0; d < m->dim; ++d)
+        eta[d] = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);
+}
+
+/* theta of the law; a bond-based point counts as LPS with w/|xi| in place of w. */
+static double peri__dilatation(const peri_body *b, int64_t i) {
+    const peri__model *m = b->model;
+    int32_t law = m->laws[m->material[i]].model;
+    double sum = 0.0, whole = 0.0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        double w = peri__get_real(m->weight, b->f32, i * m->width + k), bond = peri__get_real(m->bond, b->f32, i * m->width + k);
+        if (!peri__is_alive(b, i, k)) continue;
+        if (law == PERI_LPS) w *= bond;
+        sum += w * bond * peri__stretch(b, i, k);
+        whole += w * bond;
+    }
+    return whole > 0.0 ? m->dim * sum / whole : 0.0;
+}
+
+/* H = F - 1 on what the live bonds span. */
+static void peri__gradient(const peri_body *b, int64_t i, double h[3][3]) {
+    const peri__model *m = b->model;
+    double n[3][3] = { { 0.0 } }, shape[6] = { 0.0 }, inverse[6];
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        double xi[3], eta[3], w = peri__get_real(m->weight, b->f32, i * m->width + k);
+        if (!peri__is_alive(b, i, k)) continue;
+        peri__pull_of(b, i, k, xi, eta);
+        for (int a = 0; a < m->dim; ++a)
+            for (int c = 0; c < m->dim; ++c) {
+                n[a][c] += w * eta[a] * xi[c];
+                if (c >= a) shape[peri__packed(m->dim, a, c)] += w * xi[a] * xi[c];
+            }
+    }
+    (void)peri__invert(m->dim, shape, PERI_SPAN, inverse);
+    for (int a = 0; a < m->dim; ++a)
+        for (int c = 0; c < m->dim; ++c) {
+            h[a][c] = 0.0;
+            for (int d = 0; d < m->dim; ++d) h[a][c] += n[a][d] * inverse[peri__packed(m->dim, d, c)];
+        }
+}
+
+static void peri__strain_of(const peri_body *b, double h[3][3], double strain[3][3]) {
+    for (int a = 0; a < b->dim; ++a)
+        for (int c = 0; c < b->dim; ++c) {
+            strain[a][c] = 0.5 * (h[a][c] + h[c][a]);
+            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) strain[a][c] += 0.5 * h[d][a] * h[d][c];
+        }
+}
+
+/* Cauchy stress of the first Piola-Kirchhoff stress p: p F^T/det F; p itself where the geometry is linear. Symmetric part, packed. */
+static void peri__cauchy(const peri_body *b, double p[3][3], double h[3][3], double *out) {
+    double sigma[3][3], f[3][3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, volume = 1.0;
+    int dim = b->dim, linear = b->desc.geometry == PERI_LINEAR;
+    for (int a = 0; !linear && a < dim; ++a)
+        for (int c = 0; c < dim; ++c) f[a][c] += h[a][c];
+    if (!linear)
+        volume = f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0])
+               + f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+    if (!(fabs(volume) > 1e-12)) volume = 1e-12; /* a family pressed flat has no Cauchy stress; a large one is shown */
+    for (int a = 0; a < dim; ++a)
+        for (int c = 0; c < dim; ++c) {
+            sigma[a][c] = 0.0;
+            for (int d = 0; d < dim; ++d) sigma[a][c] += p[a][d] * f[c][d] / volume;
+        }
+    for (int a = 0; a < dim; ++a)
+        for (int c = a; c < dim; ++c) out[peri__packed(dim, a, c)] = 0.5 * (sigma[a][c] + sigma[c][a]);
+}
+
+/* sigma = lambda tr(strain) + 2 mu strain of the material, times F where it is the second Piola-Kirchhoff stress. */
+static void peri__piola(const peri_body *b, int64_t i, double h[3][3], double p[3][3]) {
+    const peri__law *law = &b->model->laws[b->model->material[i]];
+    double s[3][3], trace = 0.0;
+    peri__strain_of(b, h, s);
+    for (int a = 0; a < b->dim; ++a) trace += s[a][a];
+    for (int a = 0; a < b->dim; ++a)
+        for (int c = 0; c < b->dim; ++c) s[a][c] = 2.0 * law->mu * s[a][c] + (a == c ? law->lambda * trace : 0.0);
+    for (int a = 0; a < b->dim; ++a)
+        for (int c = 0; c < b->dim; ++c) {
+            p[a][c] = s[a][c];
+            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) p[a][c] += h[a][d] * s[d][c];
+        }
+}
+
+/* sum T xi V over the live bonds, T the half that point i gives. */
+static void peri__collapse(const peri_body *b, int64_t i, double h[3][3], double p[3][3]) {
+    const peri__model *m = b->model;
+    const peri__law *law = &m->laws[m->material[i]];
+    int linear = b->desc.geometry == PERI_LINEAR;
+    double inverse[6] = { 0.0 }, press = 0.0, spring = 0.0, vector = 0.0, stress[3][3];
+    int tensor = 0;
+    if (law->model != PERI_BOND_BASED) {
+        press = peri__get_constant(b, i, PERI__PRESS);
+        if (press != 0.0) press *= peri__dilatation(b, i);
+        spring = peri__get_constant(b, i, PERI__SPRING);
+    }
+    if (law->model == PERI_CORRESPONDENCE) {
+        vector = peri__get_constant(b, i, PERI__VECTOR);
+        for (int k = 0; k < PERI_PACKED(m->dim); ++k) inverse[k] = peri__get_constant(b, i, PERI__INVERSE + k);
+        tensor = inverse[0] != 0.0;
+        peri__piola(b, i, h, stress);
+    }
+    for (int a = 0; a < 3; ++a)
+        for (int c = 0; c < 3; ++c) p[a][c] = 0.0;
+    for (int64_t k = 0; k < m->count[i]; ++k) {
+        int64_t at = i * m->width + k;
+        double xi[3], eta[3], t[3] = { 0.0, 0.0, 0.0 }, length = 0.0, central;
+        double w = peri__get_real(m->weight, b->f32, at), bond = peri__get_real(m->bond, b->f32, at), e;
+        if (!peri__is_alive(b, i, k)) continue;
+        peri__pull_of(b, i, k, xi, eta);
+        if (m->centroid)
+            for (int d = 0; d < m->dim; ++d) xi[d] = peri__get_real(m->centroid, b->f32, at * m->dim + d);
+        e = bond * peri__stretch(b, i, k);
+        for (int d = 0; d < m->dim; ++d) length += peri__square(xi[d] + (linear ? 0.0 : eta[d]));
+        length = sqrt(length) + DBL_MIN;
+        if (law->model == PERI_BOND_BASED) central = 0.5 * m->pairs[m->material[i] * m->materials + m->material[m->ids[at]]].c * e / bond;
+        else central = press * (law->model == PERI_OTERKUS ? 1.0 : bond) + spring * e;
+        for (int d = 0; d < m->dim; ++d) {
+            t[d] = central * (xi[d] + (linear ? 0.0 : eta[d])) / length + vector * eta[d];
+            for (int a = 0; tensor && a < m->dim; ++a) {
+                t[d] -= vector * h[d][a] * xi[a];
+                for (int c = 0; c < m->dim; ++c) t[d] += stress[d][a] * inverse[peri__packed(m->dim, a, c)] * xi[c];
+            }
+            for (int a = 0; a < m->dim; ++a) p[d][a] += w * t[d] * xi[a];
+        }
+    }
+}
+
+static void peri__gradients_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__gradients *g = (const peri__gradients *)context;
+    const peri_body *b = g->body;
+    const peri__model *m = b->model;
+    int32_t parts = peri__components(g->field, m->dim);
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        double h[3][3], p[3][3], *out = &g->out[i * parts];
+        if (g->field == PERI_DILATATION && m->laws[m->material[i]].model != PERI_CORRESPONDENCE) {
+            *out = peri__dilatation(b, i);
+            continue;
+        }
+        peri__gradient(b, i, h);
+        if (g->field == PERI_STRESS || g->field == PERI_FORCE_STRESS) {
+            if (g->field == PERI_STRESS) peri__piola(b, i, h, p);
+            else peri__collapse(b, i, h, p);
+            peri__cauchy(b, p, h, out);
+            for (int k = 0; k < parts; ++k) out[k] *= m->stress;
+            continue;
+        }
+        peri__strain_of(b, h, p);
+        if (g->field == PERI_DILATATION) *out = 0.0;
+        for (int a = 0; a < m->dim; ++a)
+            for (int c = a; c < m->dim; ++c) {
+                if (g->field == PERI_STRAIN) out[peri__packed(m->dim, a, c)] = p[a][c];
+                else if (a == c) *out += p[a][a];
+            }
+    }
+}

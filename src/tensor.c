@@ -1,0 +1,84 @@
+/* tensor.c - symmetric matrices of dimension 2 and 3, packed xx yy xy, or xx yy zz xy yz xz as VTK does; small linear systems. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_PACKED(dim) ((dim) * ((dim) + 1) / 2)
+
+/* Place of entry (a, b) in the packed form. */
+static int peri__packed(int32_t dim, int a, int b) {
+    return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
+}
+
+/* Eigenvalues and orthonormal eigenvectors (columns of v) by Jacobi's rotations: for matrices this small as exact as any way. */
+static void peri__eigen(int32_t dim, const double *packed, double *value, double v[3][3]) {
+    double a[3][3];
+    for (int p = 0; p < dim; ++p)
+        for (int q = 0; q < dim; ++q) {
+            a[p][q] = packed[peri__packed(dim, p, q)];
+            v[p][q] = p == q ? 1.0 : 0.0;
+        }
+    for (int sweep = 0; sweep < 30; ++sweep)
+        for (int p = 0; p < dim; ++p)
+            for (int q = p + 1; q < dim; ++q) {
+                if (!(fabs(a[p][q]) > DBL_MIN)) continue;
+                double phi = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
+                double t = (phi < 0.0 ? -1.0 : 1.0) / (fabs(phi) + sqrt(phi * phi + 1.0)), c = 1.0 / sqrt(t * t + 1.0), s = t * c;
+                for (int k = 0; k < dim; ++k) {
+                    double x = a[k][p], y = a[k][q];
+                    a[k][p] = c * x - s * y;
+                    a[k][q] = s * x + c * y;
+                }
+                for (int k = 0; k < dim; ++k) {
+                    double x = a[p][k], y = a[q][k], vx = v[k][p], vy = v[k][q];
+                    a[p][k] = c * x - s * y;
+                    a[q][k] = s * x + c * y;
+                    v[k][p] = c * vx - s * vy;
+                    v[k][q] = s * vx + c * vy;
+                }
+            }
+    for (int p = 0; p < dim; ++p) value[p] = a[p][p];
+}
+
+/* Inverse on the eigenvectors whose eigenvalue exceeds `cut` times the largest, nothing on the others. Returns how many there are. */
+static int peri__invert(int32_t dim, const double *packed, double cut, double *inverse) {
+    double value[3], v[3][3], largest = 0.0;
+    int kept = 0;
+    peri__eigen(dim, packed, value, v);
+    for (int p = 0; p < dim; ++p)
+        if (value[p] > largest) largest = value[p];
+    for (int k = 0; k < PERI_PACKED(dim); ++k) inverse[k] = 0.0;
+    for (int p = 0; p < dim; ++p) {
+        if (!(value[p] > cut * largest)) continue;
+        kept++;
+        for (int a = 0; a < dim; ++a)
+            for (int b = a; b < dim; ++b) inverse[peri__packed(dim, a, b)] += v[a][p] * v[b][p] / value[p];
+    }
+    return kept;
+}
+
+/* Solves G x = r for a positive semi-definite G [n][n] with a row length of `row`, by Cholesky's factors in place; directions
+   without a pivot above 1e-12 of their diagonal stay 0. x may be r. */
+static void peri__solve(int n, int row, double *g, const double *r, double *x) {
+    double floor_[16];
+    for (int k = 0; k < n; ++k) floor_[k] = 1e-12 * g[k * row + k];
+    for (int k = 0; k < n; ++k) {
+        double pivot = g[k * row + k];
+        int dead = !(pivot > floor_[k]);
+        double root = dead ? 0.0 : sqrt(pivot);
+        g[k * row + k] = root;
+        for (int i = k + 1; i < n; ++i) g[i * row + k] = dead ? 0.0 : g[i * row + k] / root;
+        for (int i = k + 1; i < n; ++i)
+            for (int j = k + 1; j <= i; ++j) g[i * row + j] -= g[i * row + k] * g[j * row + k];
+    }
+    for (int k = 0; k < n; ++k) {
+        double sum = r[k];
+        for (int j = 0; j < k; ++j) sum -= g[k * row + j] * x[j];
+        x[k] = g[k * row + k] > 0.0 ? sum / g[k * row + k] : 0.0;
+    }
+    for (int k = n - 1; k >= 0; --k) {
+        double sum = x[k];
+        for (int j = k + 1; j < n; ++j) sum -= g[j * row + k] * x[j];
+        x[k] = g[k * row + k] > 0.0 ? sum / g[k * row + k] : 0.0;
+    }
+}
