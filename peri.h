@@ -242,7 +242,9 @@ typedef enum peri_correction {
                                    Bonds between points take the mean of both                                            */
     PERI_MOMENT_CORRECTION = 4  /* the weights of each family changed as little as can be so that every uniform strain has the
                                    energy of the solid (after Trask et al. 2019), bond-based moduli calibrated as above: exact to
-                                   rounding in the bulk; near surfaces as far as weights that are not negative allow     */
+                                   rounding in the bulk; near surfaces as far as weights that are not negative allow. Where it would
+                                   take factors above 10 (edges; m near 1; steep poles) it is a compromise, and the log says so;
+                                   families with negative w stay as they are                                             */
 } peri_correction;
 
 typedef struct peri_body_desc {
@@ -299,7 +301,8 @@ PERI_API int32_t peri_last_error(const peri_body *body, peri_error *error);
      correspondence  T = w P K^-1 xi + k w (Y - F xi)                K = sum w xi xi V,  F = (sum w Y xi V) K^-1,  P from F
 
    A = 3K - 5 mu, B = 15 mu in 3D; 2 lambda - 2 mu, 8 mu in plane strain; the same with lambda' = E nu/(1-nu^2) in plane stress.
-   LPS at the Poisson ratio of a bond-based material has A = 0 and skips theta. Oterkus's factor Lambda (cosine of the bond's rotation)
+   LPS at the Poisson ratio of a bond-based material has A = 0 and skips theta. Oterkus takes the spring of LPS where a family has next to
+   no bonds to calibrate shear on. Oterkus's factor Lambda (cosine of the bond's rotation)
    is taken as 1: with it the law would not be objective. Bonds that are broken or cut are in none of the sums. A correspondence point
    whose live bonds span too little (K nearly singular) acts by central bonds alone, t = B w e/m0 with m0 of the whole family. */
 typedef enum peri_model {
@@ -395,7 +398,7 @@ PERI_API int64_t peri_point_count(const peri_body *body);    /* points          
 PERI_API int32_t peri_family_width(const peri_body *body);   /* M: the size of the largest family; 0 before peri_build   */
 PERI_API int64_t peri_bond_count(const peri_body *body);     /* entries (i,j) of all families: twice the number of bonds */
 PERI_API int64_t peri_cut_count(const peri_body *body);      /* bonds (pairs) cut before the first step                  */
-PERI_API int64_t peri_broken_count(const peri_body *body);   /* bonds (pairs) broken by stretch, or cut, since then      */
+PERI_API int64_t peri_broken_count(const peri_body *body);   /* bonds (pairs) broken by a criterion, or cut, since then  */
 PERI_API int64_t peri_step_count(const peri_body *body);     /* steps since build or reset                               */
 PERI_API double  peri_time(const peri_body *body);           /* [T] since build or reset                                 */
 
@@ -450,10 +453,10 @@ PERI_API int64_t peri_cut_rectangle(peri_body *body, const double *corner, const
 PERI_API int64_t peri_cut_pairs(peri_body *body, int64_t count, const int32_t *pairs); /* pairs[2*count]; each must be a bond */
 PERI_API int64_t peri_cut_if(peri_body *body, peri_pair_fn cut, void *user);
 
-/* Bonds with an end in the set never break by stretch (on = 1) or may again (on = 0). Cuts still cut them. */
+/* Bonds with an end in the set never break by a criterion (on = 1) or may again (on = 0). Cuts still cut them. */
 PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
 
-/* Called for every bond that breaks by stretch: i < j, the time [T] and the stretch at which it broke. Called after the
+/* Called for every bond that breaks by its criterion: i < j, the time [T] and the stretch at which it broke. Called after the
    step in ascending (i, j); it may read the body but not change it. NULL removes. Costs one bit per bond. */
 typedef void (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, double stretch);
 PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
@@ -603,7 +606,7 @@ typedef struct peri_energy {
     double external; /* work done by loads and supports                                                                  */
     double obstacle; /* work done by obstacles                                                                           */
     double damping;  /* dissipated by mass damping                                                                       */
-    double fracture; /* energy of the bonds that broke by stretch, each at its break                                     */
+    double fracture; /* energy that bonds took with them when they broke                                                 */
     double initial;  /* put in by writing displacement or velocity (less what later cuts took out)                       */
     double error;    /* initial + external + obstacle - kinetic - elastic - damping - fracture                           */
 } peri_energy;

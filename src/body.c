@@ -256,7 +256,7 @@ static int32_t peri__update_classes(peri_body *b) {
         for (int32_t q = 0; q < b->classes; ++q) {
             peri__pair *pair = &b->pairs[p * b->classes + q];
             *pair = m->pairs[p % n * n + q % n];
-            if (p >= n || q >= n) pair->s0 = PERI_NEVER;
+            if (p >= n || q >= n) pair->s0 = pair->bond_energy = pair->node_energy = PERI_NEVER;
         }
     for (int64_t i = 0; b->cls && i < m->points; ++i)
         b->cls[i] = (uint8_t)(m->material[i] + (b->no_fail && b->no_fail[i] ? n : 0));

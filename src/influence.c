@@ -3,21 +3,24 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* Polynomials by ascending coefficients: their moments are sums of a_n/(n+k+1), the closed forms of [P] C.12, C.21. */
+/* Polynomials by ascending coefficients: their moments are sums of a_n/(n+k+1), the closed forms of [P] C.12, C.21. Values are taken
+   from the same with the root at q = 1 split off, (1-q)^edge times the rest: never below 0, and exact near the horizon. */
 typedef struct peri__polynomial {
-    int    terms; /* 0: not a polynomial                                                                                 */
+    int    terms;
     double a[8];
+    int    edge, rest;
+    double b[4];
 } peri__polynomial;
 
 static const peri__polynomial peri__polynomials[] = {
-    /* CONSTANT */ { 1, { 1 } },
-    /* CUTOFF   */ { 1, { 1 } },
-    /* LINEAR   */ { 2, { 1, -1 } },
-    /* CUBIC    */ { 4, { 1, 0, -3, 2 } },
-    /* QUINTIC  */ { 6, { 1, 0, 0, -10, 15, -6 } },
-    /* SEPTIC   */ { 8, { 1, 0, 0, 0, -35, 84, -70, 20 } },
-    /* POWER_2  */ { 3, { 1, -2, 1 } },
-    /* POWER_3  */ { 4, { 1, -3, 3, -1 } },
+    /* CONSTANT */ { 1, { 1 }, 0, 1, { 1 } },
+    /* CUTOFF   */ { 1, { 1 }, 0, 1, { 1 } },
+    /* LINEAR   */ { 2, { 1, -1 }, 1, 1, { 1 } },
+    /* CUBIC    */ { 4, { 1, 0, -3, 2 }, 2, 2, { 1, 2 } },
+    /* QUINTIC  */ { 6, { 1, 0, 0, -10, 15, -6 }, 3, 3, { 1, 3, 6 } },
+    /* SEPTIC   */ { 8, { 1, 0, 0, 0, -35, 84, -70, 20 }, 4, 4, { 1, 4, 10, 20 } },
+    /* POWER_2  */ { 3, { 1, -2, 1 }, 2, 1, { 1 } },
+    /* POWER_3  */ { 4, { 1, -3, 3, -1 }, 3, 1, { 1 } },
 };
 
 static const peri__polynomial *peri__polynomial_of(int32_t influence) {
@@ -34,7 +37,8 @@ static double peri__influence(const peri_body_desc *desc, double q, double edge)
     if (p) {
         double t = q < 1.0 ? q : 1.0, sum = 0.0;
         if (!inside) return 0.0;
-        for (int n = p->terms - 1; n >= 0; --n) sum = sum * t + p->a[n];
+        for (int n = p->rest - 1; n >= 0; --n) sum = sum * t + p->b[n];
+        for (int n = 0; n < p->edge; ++n) sum *= 1.0 - t;
         return sum;
     }
     switch (desc->influence) {

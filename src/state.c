@@ -19,6 +19,7 @@ static double peri__kinetic_energy(peri_body *b) {
 /* Energy of the intact bonds; per point to density[points] where it is not NULL. */
 static double peri__elastic_energy(peri_body *b, double *density) {
     peri__step step = peri__no_step(b);
+    peri__refresh(b);
     step.out = density;
     peri__for_points(b, b->model->points, 4 * b->model->width, b->ops->energy, &step, b->sums);
     return peri__total(b->sums, b->model->points).a;
