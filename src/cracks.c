@@ -75,8 +75,6 @@ static void peri__inner(const peri_body *b, const double *place, double *out) {
 static int32_t peri__need_flags(peri_body *b) {
     if (b->steps == 0 && !b->uncut) b->uncut = peri__new_flags(b);
     if ((b->steps == 0 && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
-    b->lanes_stale = 1;
-    b->stale = b->model->states;
     return PERI_OK;
 }
 
@@ -92,6 +90,12 @@ static int peri__cut_one(peri_body *b, int64_t i, int64_t k) {
         b->broken++;
     }
     return 1;
+}
+
+/* Bonds have been cut: what is derived from them is out of date. */
+static void peri__cuts_made(peri_body *b) {
+    b->lanes_stale = 1;
+    b->stale = b->model->states;
 }
 
 typedef struct peri__cutter {
@@ -137,6 +141,7 @@ static int64_t peri__apply_crack(peri_body *b, const peri__crack *crack) {
     int64_t cut = peri__total(b->sums, b->model->points).n;
     if (b->steps == 0) b->cut += cut;
     else b->broken += cut;
+    peri__cuts_made(b);
     if (cut == 0) peri__log(b, 1, "the crack meets no bond that was whole");
     return cut / 2;
 }
@@ -293,6 +298,7 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int64_t count, const int32_t *pair
         cut += peri__cut_one(b, i, peri__find_bond(b->model, i, j));
         (void)peri__cut_one(b, j, peri__find_bond(b->model, j, i));
     }
+    peri__cuts_made(b);
     return cut;
 }
 
@@ -320,6 +326,7 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
             (void)peri__cut_one(b, j, peri__find_bond(m, j, i));
         }
     b->running = running;
+    peri__cuts_made(b);
     return count;
 }
 

@@ -6,7 +6,7 @@
    to the notch, downwards ([T] 5.1, 5.2). Plane stress, LPS, s0 = 0.1 %, as the thesis; size and rate, which it does not state, are chosen
    here: horizon a/20, v = 5e-5 sqrt(E/rho), motion starting as v y/a everywhere so that no shock runs ahead. psi is the direction of the
    undisturbed field. A tip that is small beside the plate obeys the mixed-mode stress intensities instead, which turn it further: with a
-   horizon of a/32 the angles are some 4 degrees larger. */
+   horizon of a/32 the angles are 3 to 6 degrees larger. */
 #include "peri_test.h"
 
 typedef struct crack {
