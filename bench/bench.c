@@ -47,20 +47,25 @@ static void need(peri_body *body, int64_t result) {
 
 typedef struct bench_case {
     const char *name;
-    int32_t     space, precision, geometry, threads, damage, cloud;
+    int32_t     model, space, precision, geometry, threads, damage, cloud;
     int64_t     edge; /* points per edge of the cube or square                                                           */
     double      m;    /* horizon over spacing                                                                            */
 } bench_case;
 
 static const bench_case cases[] = {
-    { "2D plane stress, m=3, f64", PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 300, 3 },
-    { "2D plane stress, m=3, f32", PERI_PLANE_STRESS, PERI_F32, PERI_NONLINEAR, 1, 1, 0, 300, 3 },
-    { "2D m=3, f64, linear", PERI_PLANE_STRESS, PERI_F64, PERI_LINEAR, 1, 1, 0, 300, 3 },
-    { "3D m=3, f64, elastic", PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 0, 0, 40, 3 },
-    { "3D m=3, f64, damage", PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
-    { "3D m=3, f32, damage", PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
-    { "3D m=3, f64, damage, perturbed", PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 1, 40, 3 },
-    { "3D m=3, f64, damage, 2 threads", PERI_SOLID, PERI_F64, PERI_NONLINEAR, 2, 1, 0, 40, 3 },
+    { "2D plane stress, m=3, f64", PERI_BOND_BASED, PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 300, 3 },
+    { "2D plane stress, m=3, f32", PERI_BOND_BASED, PERI_PLANE_STRESS, PERI_F32, PERI_NONLINEAR, 1, 1, 0, 300, 3 },
+    { "2D m=3, f64, linear", PERI_BOND_BASED, PERI_PLANE_STRESS, PERI_F64, PERI_LINEAR, 1, 1, 0, 300, 3 },
+    { "3D m=3, f64, elastic", PERI_BOND_BASED, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 0, 0, 40, 3 },
+    { "3D m=3, f64, damage", PERI_BOND_BASED, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
+    { "3D m=3, f32, damage", PERI_BOND_BASED, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
+    { "3D m=3, f64, damage, perturbed", PERI_BOND_BASED, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 1, 40, 3 },
+    { "3D m=3, f64, damage, 2 threads", PERI_BOND_BASED, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 2, 1, 0, 40, 3 },
+    { "LPS 2D m=3, f64, damage", PERI_LPS, PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 300, 3 },
+    { "LPS 3D m=3, f64, damage", PERI_LPS, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
+    { "LPS 3D m=3, f32, damage", PERI_LPS, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
+    { "LPS 3D m=3, f64, damage, perturbed", PERI_LPS, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 1, 40, 3 },
+    { "correspondence 3D m=3, f64, damage", PERI_CORRESPONDENCE, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
 };
 
 /* The loop of a textbook: every bond by itself, double precision, no damage, force only. */
@@ -118,7 +123,8 @@ static void run_case(const bench_case *c, int64_t repeats, FILE *csv) {
     desc.allocate = count_allocate;
     desc.release = count_release;
     if (peri_body_create(&desc, &body, NULL) < 0) exit(1);
-    peri_material_init(&material, PERI_BOND_BASED);
+    peri_material_init(&material, c->model);
+    if (c->model != PERI_BOND_BASED) material.poisson = 0.3;
     material.young = 1.0;
     material.density = 1.0;
     material.critical_stretch = c->damage ? 0.5 : 0.0;
@@ -148,7 +154,7 @@ static void run_case(const bench_case *c, int64_t repeats, FILE *csv) {
         free(u);
         free(f);
     }
-    printf("%-34s %8.2f %9.2f %9.0f %9.1f\n", c->name, best, plain, per_point, build);
+    printf("%-36s %8.2f %9.2f %9.0f %9.1f\n", c->name, best, plain, per_point, build);
     if (csv) fprintf(csv, "%s,%.4g,%.4g,%.6g,%.4g\n", c->name, best, plain, per_point, build);
     peri_body_destroy(body);
 }
@@ -158,7 +164,7 @@ int main(int argc, char **argv) {
     FILE *csv = fopen("out/bench.csv", "w");
     if (repeats < 2) repeats = 2;
     if (csv) fprintf(csv, "case,ns_per_bond,textbook_ns_per_bond,bytes_per_point,build_ns_per_bond\n");
-    printf("%-34s %8s %9s %9s %9s\n", "case", "ns/bond", "textbook", "bytes/pt", "build");
+    printf("%-36s %8s %9s %9s %9s\n", "case", "ns/bond", "textbook", "bytes/pt", "build");
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k)
         if (argc < 3 || strstr(cases[k].name, argv[2])) run_case(&cases[k], repeats, csv);
     if (csv) (void)fclose(csv);

@@ -60,15 +60,17 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
             uint32_t flag = (uint32_t)1 << (k % 32), *alive = &b->alive[i * m->words + k / 32];
             if (b->marked[i] != 1 || !(b->dying[i * m->words + k / 32] & flag)) continue;
             *alive &= ~flag;
+            b->dying[i * m->words + k / 32] &= ~flag;
             b->broken++;
         }
         if (b->marked[i] == 1) {
+            if (b->lanes_alive) peri__group_masks(m, i / PERI_LANES, b->alive, b->lanes_alive);
             peri__set_constants(b, i);
             peri__set_wide(b, i);
         }
     }
     for (int64_t n = 0; n < count; ++n)
-        if (b->marked[b->near_dying[n]] == 1) b->ops->respond(&step, b->near_dying[n], b->near_dying[n] + 1, NULL);
+        if (b->marked[b->near_dying[n]] == 1) b->ops->respond_rows(&step, b->near_dying[n], b->near_dying[n] + 1, NULL);
     b->ledger.fracture += energy - peri__energy_at_stake(b, &step, count);
     b->ops->exchange(&step, b->near_dying, count, 1);
     for (int64_t n = 0; n < count; ++n) {

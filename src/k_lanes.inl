@@ -1,14 +1,12 @@
-/* k_lanes.inl - the bond-based force on columns (lanes.c): the equation of k_bond.inl for PERI_LANES points at once, operation by operation
-   in the same order, so with the same result. Included per real type, dimension and instruction set; PERI_LANES_FN names it. */
+/* k_lanes.inl - bond-based and ordinary state-based force on columns (lanes.c): the equations of k_bond.inl and k_state.inl for PERI_LANES
+   points at once, operation by operation in the same order, so with the same result. Included per real type, dimension and instruction
+   set; PERI_LANES_FN names it. Arguments `masked`, `linear`, ... are constants where these are inlined. */
 
-/* One column: bond vector xi, |xi| = bond, weight = c w beta V, breaking beyond along > limit*reach; masked and linear are constants where
-   this is inlined. */
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(column)(const peri_r *xi, peri_r bond, peri_r weight, peri_r limit, peri_i mask,
-                                                         const peri_r *const *uj, peri_r ui[PERI_D][PERI_LANES],
-                                                         peri_r sum[PERI_D][PERI_LANES], peri_i *hit, const int masked,
-                                                         const int linear) {
+/* One column: bond vector xi. along = (2 xi + eta).eta, or xi.eta; length = |y|. */
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(extend)(const peri_r *xi, peri_r bond, const peri_r *const *uj,
+                                                         peri_r ui[PERI_D][PERI_LANES], peri_r y[PERI_D][PERI_LANES],
+                                                         peri_r along[PERI_LANES], peri_r length[PERI_LANES], const int linear) {
     PERI_NO_CONTRACTION
-    peri_r y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
     for (int l = 0; l < PERI_LANES; ++l) {
         along[l] = length[l] = 0;
         for (int d = 0; d < PERI_D; ++d) {
@@ -19,10 +17,21 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(column)(const peri_r *xi, peri_
         }
     }
     if (!linear) PERI_LANES_SQRT(length);
+    for (int l = 0; linear && l < PERI_LANES; ++l) length[l] = bond;
+}
+
+/* One column of bond-based bonds: |xi| = bond, weight = c w beta V, breaking beyond along > limit*reach. */
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(column)(const peri_r *xi, peri_r bond, peri_r weight, peri_r limit, peri_i mask,
+                                                         const peri_r *const *uj, peri_r ui[PERI_D][PERI_LANES],
+                                                         peri_r sum[PERI_D][PERI_LANES], peri_i *hit, const int masked,
+                                                         const int linear) {
+    PERI_NO_CONTRACTION
+    peri_r y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
+    PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, linear);
     for (int l = 0; l < PERI_LANES; ++l) {
         const peri_i live = masked ? mask >> l & 1 : 1;
-        peri_r now = linear ? bond : length[l], reach = linear ? bond : now + bond;
-        peri_r scale = weight * along[l] / (reach * bond * now + PERI_TINY);
+        peri_r reach = linear ? bond : length[l] + bond;
+        peri_r scale = weight * along[l] / (reach * bond * length[l] + PERI_TINY);
         scale = live ? scale : 0; /* a select: what a dead lane read may be anything */
         hit[l] |= (along[l] > limit * reach) & live;
         for (int d = 0; d < PERI_D; ++d) sum[d][l] += scale * y[d][l];
@@ -64,6 +73,119 @@ PERI_LANES_TARGET static int PERI_LANES_FN(lanes)(const peri__step *step, int64_
             if (linear) PERI_LANES_FN(column)(xi, bond, weight, limit, mask, uj, ui, sum, hit, 1, 1);
             else PERI_LANES_FN(column)(xi, bond, weight, limit, mask, uj, ui, sum, hit, 1, 0);
         }
+    }
+    for (int l = 0; l < PERI_LANES; ++l) any |= (int)hit[l];
+    for (int d = 0; d < PERI_D; ++d)
+        for (int l = 0; l < PERI_LANES; ++l) f[d][l] = sum[d][l];
+    return any;
+}
+
+/* sum w g e V of the points of group g to sum; weight of a column times `gauged` ? |xi| : 1. */
+PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64_t g, const int gauged, peri_r sum[PERI_LANES]) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = b->model;
+    const peri__lanes *lanes = &m->lanes;
+    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
+    const int linear = b->desc.geometry == PERI_LINEAR;
+    peri_r ui[PERI_D][PERI_LANES], y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
+    for (int l = 0; l < PERI_LANES; ++l) sum[l] = 0;
+    for (int d = 0; d < PERI_D; ++d)
+        for (int l = 0; l < PERI_LANES; ++l) ui[d][l] = u[d * m->stride + l];
+    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
+        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
+        const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4] * (gauged ? bond : 1);
+        const peri_i mask = masks[column];
+        peri_r xi[PERI_D];
+        if (mask == 0) continue;
+        for (int d = 0; d < PERI_D; ++d) {
+            xi[d] = (peri_r)row[d];
+            uj[d] = u + d * m->stride + lanes->offset[column];
+        }
+#define PERI_ADD(line, whole)                                                                                          \
+    PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, line);                                                   \
+    for (int l = 0; l < PERI_LANES; ++l) {                                                                             \
+        peri_r part = weight * (along[l] / ((line) ? bond : length[l] + bond));                                        \
+        sum[l] += (whole) || (mask >> l & 1) ? part : 0;                                                               \
+    }
+        if (mask == 0xFFFF) {
+            if (linear) { PERI_ADD(1, 1) } else { PERI_ADD(0, 1) }
+        } else {
+            if (linear) { PERI_ADD(1, 0) } else { PERI_ADD(0, 0) }
+        }
+#undef PERI_ADD
+    }
+}
+
+/* One column of ordinary state-based bonds: p, q of both ends; gauge = |xi|, or 1. */
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(share_column)(const peri_r *xi, peri_r bond, peri_r weight, peri_r gauge, peri_r limit,
+                                                               peri_i mask, const peri_r *const *uj, const peri_r *pj, const peri_r *qj,
+                                                               peri_r ui[PERI_D][PERI_LANES], const peri_r *pi, const peri_r *qi,
+                                                               peri_r sum[PERI_D][PERI_LANES], peri_i *hit, const int masked,
+                                                               const int linear, const int dilates) {
+    PERI_NO_CONTRACTION
+    peri_r y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
+    PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, linear);
+    for (int l = 0; l < PERI_LANES; ++l) {
+        const peri_i live = masked ? mask >> l & 1 : 1;
+        peri_r reach = linear ? bond : length[l] + bond, pull = (qi[l] + qj[l]) * along[l];
+        if (dilates) pull += (pi[l] + pj[l]) * gauge * reach;
+        peri_r scale = weight * pull / (reach * length[l] + PERI_TINY);
+        scale = live ? scale : 0;
+        hit[l] |= (along[l] > limit * reach) & live;
+        for (int d = 0; d < PERI_D; ++d) sum[d][l] += scale * y[d][l];
+    }
+}
+
+/* Adds the force of all live state-based bonds of group g to f. Returns nonzero where one comes near its critical stretch; f is then
+   void. */
+PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    const peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const peri__lanes *lanes = &m->lanes;
+    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *p = (const peri_r *)b->response + m->margin + g * PERI_LANES;
+    const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * m->stride + g * PERI_LANES;
+    const peri_r s0 = (peri_r)(step->breaking ? b->pairs->s0 * (1.0 - PERI_NEAR) : PERI_NEVER);
+    const int linear = b->desc.geometry == PERI_LINEAR, dilates = m->dilates, oterkus = m->ordinary == PERI_OTERKUS;
+    peri_r ui[PERI_D][PERI_LANES], sum[PERI_D][PERI_LANES], pi[PERI_LANES], qi[PERI_LANES];
+    peri_i hit[PERI_LANES];
+    int any = 0;
+    for (int l = 0; l < PERI_LANES; ++l) {
+        hit[l] = 0;
+        pi[l] = p[l];
+        qi[l] = q[l];
+    }
+    for (int d = 0; d < PERI_D; ++d)
+        for (int l = 0; l < PERI_LANES; ++l) {
+            ui[d][l] = u[d * m->stride + l];
+            sum[d][l] = f[d][l];
+        }
+    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
+        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
+        const int64_t offset = lanes->offset[column];
+        const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4], limit = s0 * bond, gauge = oterkus ? 1 : bond;
+        const peri_i mask = masks[column];
+        peri_r xi[PERI_D];
+        if (mask == 0) continue;
+        for (int d = 0; d < PERI_D; ++d) {
+            xi[d] = (peri_r)row[d];
+            uj[d] = u + d * m->stride + offset;
+        }
+#define PERI_COLUMN(masked, line, theta)                                                                               \
+    PERI_LANES_FN(share_column)(xi, bond, weight, gauge, limit, mask, uj, p + offset, q + offset, ui, pi, qi, sum, hit, masked, line, theta)
+        if (mask == 0xFFFF) {
+            if (dilates && linear) PERI_COLUMN(0, 1, 1);
+            else if (dilates) PERI_COLUMN(0, 0, 1);
+            else if (linear) PERI_COLUMN(0, 1, 0);
+            else PERI_COLUMN(0, 0, 0);
+        } else {
+            if (dilates && linear) PERI_COLUMN(1, 1, 1);
+            else if (dilates) PERI_COLUMN(1, 0, 1);
+            else if (linear) PERI_COLUMN(1, 1, 0);
+            else PERI_COLUMN(1, 0, 0);
+        }
+#undef PERI_COLUMN
     }
     for (int l = 0; l < PERI_LANES; ++l) any |= (int)hit[l];
     for (int d = 0; d < PERI_D; ++d)

@@ -11,7 +11,7 @@ PERI_INLINE void PERI_FN(half_bond)(const peri_body *b, int64_t i, int64_t j, pe
                                     peri_r bond, peri_r e, peri_r *central, peri_r *t) {
     const peri__model *m = b->model;
     const int32_t law = m->laws[m->material[i]].model;
-    const peri_r *constant = (const peri_r *)b->constant + i, *response = (const peri_r *)b->response + i;
+    const peri_r *constant = (const peri_r *)b->constant + m->margin + i, *response = (const peri_r *)b->response + m->margin + i;
     if (law == PERI_BOND_BASED) {
         *central += weight * (peri_r)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
         return;
@@ -69,15 +69,15 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, p
     return dying;
 }
 
-/* The same row where every point is of one ordinary law: constants at hand, one square root and two divisions per bond. `flagged`,
+/* The same row where every point is of one ordinary law: constants at hand, one square root and one division per bond. `flagged`,
    `linear`, `dilates`, `oterkus`, `mirrored` (back is weight) are constants where this is inlined. */
 PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r *f, const int flagged, const int linear,
                                        const int dilates, const int oterkus, const int mirrored) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
     const int64_t stride = m->stride;
-    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response;
-    const peri_r *q = (const peri_r *)b->constant + PERI__SPRING * stride;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response + m->margin;
+    const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * stride;
     const peri_r *bonds = (const peri_r *)m->bond + i * m->width, *weights = (const peri_r *)m->weight + i * m->width;
     const peri_r *backs = (const peri_r *)m->back + i * m->width;
     const int32_t *ids = m->ids + i * m->width;
@@ -98,7 +98,8 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r
         for (int32_t k = 0; k < chunk; ++k) {
             const int64_t j = ids[first + k];
             const peri_r bond = bonds[first + k], weight = weights[first + k], back = mirrored ? weight : backs[first + k];
-            peri_r y[PERI_D], along = 0, square = 0, length, e, scale;
+            const peri_r gauge = oterkus ? 1 : bond;
+            peri_r y[PERI_D], along = 0, square = 0, length, reach, pull;
             if (flagged && !(live >> k & 1)) continue;
             for (int d = 0; d < PERI_D; ++d) {
                 const peri_r xi = x[d * stride + j] - here[d], eta = u[d * stride + j] - moved[d];
@@ -106,18 +107,22 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r
                 along += (linear ? xi : 2 * xi + eta) * eta;
                 square += y[d] * y[d];
             }
+            /* e = along/reach, force along y: w (p g + q e)/|y| */
             length = linear ? bond : PERI_SQRT(square);
-            e = along / (linear ? bond : length + bond);
-            if (mirrored)
-                scale = weight * ((dilates ? (pi + p[j]) * (oterkus ? 1 : bond) : 0) + (qi + q[j]) * e);
-            else
-                scale = weight * ((dilates ? pi * (oterkus ? 1 : bond) : 0) + qi * e)
-                      + back * ((dilates ? p[j] * (oterkus ? 1 : bond) : 0) + q[j] * e);
-            scale /= length + PERI_TINY;
-            for (int d = 0; d < PERI_D; ++d) sum[d] += scale * y[d];
+            reach = linear ? bond : length + bond;
+            if (mirrored) {
+                pull = (qi + q[j]) * along;
+                if (dilates) pull += (pi + p[j]) * gauge * reach;
+                pull *= weight;
+            } else {
+                pull = (weight * qi + back * q[j]) * along;
+                if (dilates) pull += (weight * pi + back * p[j]) * gauge * reach;
+            }
+            pull /= reach * length + PERI_TINY;
+            for (int d = 0; d < PERI_D; ++d) sum[d] += pull * y[d];
             if (flagged && step->breaking) {
                 if (cls) s0 = (peri_r)pairs[cls[j]].s0;
-                if (e > s0 * bond) {
+                if (along > s0 * bond * reach) {
                     dead |= (uint32_t)1 << k;
                     dying++;
                 }
@@ -154,9 +159,8 @@ static int32_t PERI_FN(share_force)(const peri__step *step, int64_t i, peri_r *f
     return PERI_FN(share_row_reference)(step, i, f);
 }
 
-/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion. sums: n their (directed) number. */
-static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *step = (const peri__step *)context;
+/* Rows [begin, end) by the list. */
+static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = step->body->model;
     peri_r *force = (peri_r *)step->body->f;
     for (int64_t i = begin; i < end; ++i) {
@@ -164,6 +168,35 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride + i];
         sums->n += PERI_FN(share_force)(step, i, f);
         for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
+    }
+}
+
+/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion: by columns where there are any, by the list
+   in groups where a bond is about to break. sums: n their (directed) number. */
+static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *step = (const peri__step *)context;
+    const peri__model *m = step->body->model;
+    if (!m->lanes.columns) {
+        PERI_FN(share_rows)(step, begin, end, sums);
+        return;
+    }
+    for (int64_t first = begin; first < end; first += PERI_LANES) {
+        peri_r *force = (peri_r *)step->body->f + first, f[PERI_D][PERI_LANES];
+        int near_breaking;
+        for (int d = 0; d < PERI_D; ++d)
+            for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
+#ifdef PERI_ISA
+        if (m->lanes.isa == 2) near_breaking = PERI_FN(share_avx512)(step, first / PERI_LANES, f);
+        else if (m->lanes.isa == 1) near_breaking = PERI_FN(share_avx2)(step, first / PERI_LANES, f);
+        else
+#endif
+            near_breaking = PERI_FN(share_plain)(step, first / PERI_LANES, f);
+        if (near_breaking) {
+            PERI_FN(share_rows)(step, first, peri__min(first + PERI_LANES, end), sums);
+            continue;
+        }
+        for (int d = 0; d < PERI_D; ++d)
+            for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
     }
 }
 
@@ -204,7 +237,8 @@ static void PERI_FN(gradient)(const peri_body *b, int64_t i, peri_r h[PERI_D][PE
         for (int d = 0; d < PERI_D; ++d) {
             h[a][d] = 0;
             for (int c = 0; c < PERI_D; ++c)
-                h[a][d] += n[a][c] * ((const peri_r *)b->constant)[(PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride + i];
+                h[a][d] += n[a][c]
+                         * ((const peri_r *)b->constant)[m->margin + (PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride + i];
         }
 }
 
@@ -222,8 +256,8 @@ static void PERI_FN(respond_tensor)(peri_body *b, int64_t i) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_r *constant = (const peri_r *)b->constant + i, lambda = (peri_r)law->lambda, mu2 = (peri_r)(2.0 * law->mu);
-    peri_r *response = (peri_r *)b->response + i, h[PERI_D][PERI_D], s[PERI_D][PERI_D], p[PERI_D][PERI_D], trace = 0;
+    const peri_r *constant = (const peri_r *)b->constant + m->margin + i, lambda = (peri_r)law->lambda, mu2 = (peri_r)(2.0 * law->mu);
+    peri_r *response = (peri_r *)b->response + m->margin + i, h[PERI_D][PERI_D], s[PERI_D][PERI_D], p[PERI_D][PERI_D], trace = 0;
     PERI_FN(gradient)(b, i, h);
     PERI_FN(strain)(linear, h, s);
     for (int a = 0; a < PERI_D; ++a) trace += s[a][a];
@@ -268,7 +302,7 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_r *constant = (const peri_r *)b->constant + i;
+    const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
     double density = 0.0, square = 0.0;
     if (law->model == PERI_BOND_BASED) {
         for (int64_t k = 0; k < m->count[i]; ++k) {
@@ -309,21 +343,45 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i) {
 }
 
 /* What points make of their families: p, Q, and where a criterion asks for it the energy of the node. */
-static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     peri_body *b = step->body;
     const peri__model *m = b->model;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         const int32_t law = m->laws[m->material[i]].model;
-        const peri_r *constant = (const peri_r *)b->constant + i;
+        const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
         double square;
         if (law == PERI_CORRESPONDENCE) PERI_FN(respond_tensor)(b, i);
         else if (law != PERI_BOND_BASED)
-            ((peri_r *)b->response)[i] = constant[PERI__PRESS * m->stride] == 0 ? 0
-                                       : constant[PERI__PRESS * m->stride] * constant[PERI__DILATE * m->stride]
-                                             * (peri_r)PERI_FN(stretched)(b, i, &square);
+            ((peri_r *)b->response)[m->margin + i] =
+                constant[PERI__PRESS * m->stride] == 0 ? 0
+                                                       : constant[PERI__PRESS * m->stride] * constant[PERI__DILATE * m->stride]
+                                                             * (peri_r)PERI_FN(stretched)(b, i, &square);
         if (b->node) b->node[i] = 2.0 * PERI_FN(point_energy)(b, i) / peri__family_volume(m, i);
+    }
+}
+
+/* The same for a block of points, by columns where there are any. */
+static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri_body *b = ((const peri__step *)context)->body;
+    const peri__model *m = b->model;
+    if (!m->lanes.columns) {
+        PERI_FN(respond_rows)(context, begin, end, sums);
+        return;
+    }
+    for (int64_t first = begin; first < end; first += PERI_LANES) {
+        const peri_r *constant = (const peri_r *)b->constant + m->margin + first;
+        peri_r *response = (peri_r *)b->response + m->margin + first, sum[PERI_LANES];
+        const int gauged = m->ordinary != PERI_OTERKUS;
+#ifdef PERI_ISA
+        if (m->lanes.isa == 2) PERI_FN(stretched_avx512)(b, first / PERI_LANES, gauged, sum);
+        else if (m->lanes.isa == 1) PERI_FN(stretched_avx2)(b, first / PERI_LANES, gauged, sum);
+        else
+#endif
+            PERI_FN(stretched_plain)(b, first / PERI_LANES, gauged, sum);
+        for (int l = 0; l < PERI_LANES; ++l)
+            response[l] = constant[PERI__PRESS * m->stride + l] * constant[PERI__DILATE * m->stride + l] * sum[l];
     }
 }
 

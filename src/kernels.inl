@@ -70,7 +70,8 @@ PERI_INLINE void PERI_FN(sqrt_plain)(peri_r *a) {
 #include "k_march.inl"
 
 static const peri__ops PERI_FN(ops) = {
-    PERI_FN(force), PERI_FN(respond), PERI_FN(share), PERI_FN(exchange), PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic)
+    PERI_FN(force), PERI_FN(respond), PERI_FN(respond_rows), PERI_FN(share), PERI_FN(exchange), PERI_FN(energy), PERI_FN(kick),
+    PERI_FN(kinetic)
 };
 
 #undef peri_r

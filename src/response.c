@@ -47,11 +47,11 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, int liv
 }
 
 static void peri__put_constant(peri_body *b, int64_t i, int plane, double value) {
-    peri__put_real(b->constant, b->f32, plane * b->model->stride + i, value);
+    peri__put_real(b->constant, b->f32, b->model->margin + plane * b->model->stride + i, value);
 }
 
 static double peri__get_constant(const peri_body *b, int64_t i, int plane) {
-    return peri__get_real(b->constant, b->f32, plane * b->model->stride + i);
+    return peri__get_real(b->constant, b->f32, b->model->margin + plane * b->model->stride + i);
 }
 
 /* q m of LPS on this family: B; or such that the mean energy of shear over its directions is mu, theta of the shear included, while

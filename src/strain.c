@@ -9,6 +9,13 @@ typedef struct peri__gradients {
     double    *out; /* [points*components]                                                                               */
 } peri__gradients;
 
+/* H = F - 1 of a point on what its live bonds span, and the projector P onto that. A rotation R of a thin family has H = (R - 1) P, so
+   strain is P E P: zero for rotations, and E itself where the space is spanned. */
+typedef struct peri__deformation {
+    double h[3][3], p[3][3];
+    int    whole; /* the live bonds span the space                                                                       */
+} peri__deformation;
+
 /* Bond k of point i: xi and eta. */
 static void peri__pull_of(const peri_body *b, int64_t i, int64_t k, double *xi, double *eta) {
     const peri__model *m = b->model;
@@ -33,8 +40,7 @@ static double peri__dilatation(const peri_body *b, int64_t i) {
     return whole > 0.0 ? m->dim * sum / whole : 0.0;
 }
 
-/* H = F - 1 on what the live bonds span. */
-static void peri__gradient(const peri_body *b, int64_t i, double h[3][3]) {
+static void peri__deform(const peri_body *b, int64_t i, peri__deformation *f) {
     const peri__model *m = b->model;
     double n[3][3] = { { 0.0 } }, shape[6] = { 0.0 }, inverse[6];
     for (int64_t k = 0; k < m->count[i]; ++k) {
@@ -47,31 +53,51 @@ static void peri__gradient(const peri_body *b, int64_t i, double h[3][3]) {
                 if (c >= a) shape[peri__packed(m->dim, a, c)] += w * xi[a] * xi[c];
             }
     }
-    (void)peri__invert(m->dim, shape, PERI_SPAN, inverse);
+    f->whole = peri__invert(m->dim, shape, PERI_SPAN, inverse) == m->dim;
     for (int a = 0; a < m->dim; ++a)
         for (int c = 0; c < m->dim; ++c) {
-            h[a][c] = 0.0;
-            for (int d = 0; d < m->dim; ++d) h[a][c] += n[a][d] * inverse[peri__packed(m->dim, d, c)];
+            f->h[a][c] = f->p[a][c] = 0.0;
+            for (int d = 0; d < m->dim; ++d) {
+                f->h[a][c] += n[a][d] * inverse[peri__packed(m->dim, d, c)];
+                f->p[a][c] += shape[peri__packed(m->dim, a, d)] * inverse[peri__packed(m->dim, d, c)];
+            }
         }
 }
 
-static void peri__strain_of(const peri_body *b, double h[3][3], double strain[3][3]) {
+static void peri__strain_of(const peri_body *b, const peri__deformation *f, double strain[3][3]) {
+    double e[3][3];
     for (int a = 0; a < b->dim; ++a)
         for (int c = 0; c < b->dim; ++c) {
-            strain[a][c] = 0.5 * (h[a][c] + h[c][a]);
-            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) strain[a][c] += 0.5 * h[d][a] * h[d][c];
+            e[a][c] = 0.5 * (f->h[a][c] + f->h[c][a]);
+            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) e[a][c] += 0.5 * f->h[d][a] * f->h[d][c];
+        }
+    for (int a = 0; a < b->dim; ++a)
+        for (int c = 0; c < b->dim; ++c) {
+            strain[a][c] = f->whole ? e[a][c] : 0.0;
+            for (int k = 0; !f->whole && k < b->dim; ++k)
+                for (int l = 0; l < b->dim; ++l) strain[a][c] += f->p[a][k] * e[k][l] * f->p[l][c];
         }
 }
 
-/* Cauchy stress of the first Piola-Kirchhoff stress p: p F^T/det F; p itself where the geometry is linear. Symmetric part, packed. */
-static void peri__cauchy(const peri_body *b, double p[3][3], double h[3][3], double *out) {
-    double sigma[3][3], f[3][3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, volume = 1.0;
+static double peri__det(double f[3][3]) {
+    return f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0])
+         + f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+}
+
+/* Cauchy stress of the first Piola-Kirchhoff stress p: p F^T/det F; p itself where the geometry is linear. Symmetric part, packed. Where
+   the space is not spanned the volume is that of the strain, sqrt(det(1 + 2 E)). */
+static void peri__cauchy(const peri_body *b, double p[3][3], const peri__deformation *deformation, double *out) {
+    double sigma[3][3], f[3][3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, volume = 1.0, strain[3][3];
     int dim = b->dim, linear = b->desc.geometry == PERI_LINEAR;
+    if (!linear && !deformation->whole) {
+        peri__strain_of(b, deformation, strain);
+        for (int a = 0; a < dim; ++a)
+            for (int c = 0; c < dim; ++c) f[a][c] += 2.0 * strain[a][c];
+        volume = sqrt(fabs(peri__det(f)));
+    }
     for (int a = 0; !linear && a < dim; ++a)
-        for (int c = 0; c < dim; ++c) f[a][c] += h[a][c];
-    if (!linear)
-        volume = f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0])
-               + f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+        for (int c = 0; c < dim; ++c) f[a][c] = (a == c ? 1.0 : 0.0) + deformation->h[a][c];
+    if (!linear && deformation->whole) volume = peri__det(f);
     if (!(fabs(volume) > 1e-12)) volume = 1e-12; /* a family pressed flat has no Cauchy stress; a large one is shown */
     for (int a = 0; a < dim; ++a)
         for (int c = 0; c < dim; ++c) {
@@ -83,22 +109,22 @@ static void peri__cauchy(const peri_body *b, double p[3][3], double h[3][3], dou
 }
 
 /* sigma = lambda tr(strain) + 2 mu strain of the material, times F where it is the second Piola-Kirchhoff stress. */
-static void peri__piola(const peri_body *b, int64_t i, double h[3][3], double p[3][3]) {
+static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
     const peri__law *law = &b->model->laws[b->model->material[i]];
     double s[3][3], trace = 0.0;
-    peri__strain_of(b, h, s);
+    peri__strain_of(b, f, s);
     for (int a = 0; a < b->dim; ++a) trace += s[a][a];
     for (int a = 0; a < b->dim; ++a)
         for (int c = 0; c < b->dim; ++c) s[a][c] = 2.0 * law->mu * s[a][c] + (a == c ? law->lambda * trace : 0.0);
     for (int a = 0; a < b->dim; ++a)
         for (int c = 0; c < b->dim; ++c) {
             p[a][c] = s[a][c];
-            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) p[a][c] += h[a][d] * s[d][c];
+            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) p[a][c] += f->h[a][d] * s[d][c];
         }
 }
 
 /* sum T xi V over the live bonds, T the half that point i gives. */
-static void peri__collapse(const peri_body *b, int64_t i, double h[3][3], double p[3][3]) {
+static void peri__collapse(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     int linear = b->desc.geometry == PERI_LINEAR;
@@ -113,7 +139,7 @@ static void peri__collapse(const peri_body *b, int64_t i, double h[3][3], double
         vector = peri__get_constant(b, i, PERI__VECTOR);
         for (int k = 0; k < PERI_PACKED(m->dim); ++k) inverse[k] = peri__get_constant(b, i, PERI__INVERSE + k);
         tensor = inverse[0] != 0.0;
-        peri__piola(b, i, h, stress);
+        peri__piola(b, i, f, stress);
     }
     for (int a = 0; a < 3; ++a)
         for (int c = 0; c < 3; ++c) p[a][c] = 0.0;
@@ -133,7 +159,7 @@ static void peri__collapse(const peri_body *b, int64_t i, double h[3][3], double
         for (int d = 0; d < m->dim; ++d) {
             t[d] = central * (xi[d] + (linear ? 0.0 : eta[d])) / length + vector * eta[d];
             for (int a = 0; tensor && a < m->dim; ++a) {
-                t[d] -= vector * h[d][a] * xi[a];
+                t[d] -= vector * f->h[d][a] * xi[a];
                 for (int c = 0; c < m->dim; ++c) t[d] += stress[d][a] * inverse[peri__packed(m->dim, a, c)] * xi[c];
             }
             for (int a = 0; a < m->dim; ++a) p[d][a] += w * t[d] * xi[a];
@@ -148,20 +174,21 @@ static void peri__gradients_block(void *context, int64_t begin, int64_t end, per
     int32_t parts = peri__components(g->field, m->dim);
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
-        double h[3][3], p[3][3], *out = &g->out[i * parts];
+        peri__deformation f;
+        double p[3][3], *out = &g->out[i * parts];
         if (g->field == PERI_DILATATION && m->laws[m->material[i]].model != PERI_CORRESPONDENCE) {
             *out = peri__dilatation(b, i);
             continue;
         }
-        peri__gradient(b, i, h);
+        peri__deform(b, i, &f);
         if (g->field == PERI_STRESS || g->field == PERI_FORCE_STRESS) {
-            if (g->field == PERI_STRESS) peri__piola(b, i, h, p);
-            else peri__collapse(b, i, h, p);
-            peri__cauchy(b, p, h, out);
+            if (g->field == PERI_STRESS) peri__piola(b, i, &f, p);
+            else peri__collapse(b, i, &f, p);
+            peri__cauchy(b, p, &f, out);
             for (int k = 0; k < parts; ++k) out[k] *= m->stress;
             continue;
         }
-        peri__strain_of(b, h, p);
+        peri__strain_of(b, &f, p);
         if (g->field == PERI_DILATATION) *out = 0.0;
         for (int a = 0; a < m->dim; ++a)
             for (int c = a; c < m->dim; ++c) {

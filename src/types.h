@@ -203,6 +203,7 @@ typedef struct peri__ledger { /* inner units of energy                          
 struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn on a peri__step                  */
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* bond-based                                               */
     void (*respond)(void *, int64_t, int64_t, peri__sums *); /* state-based: what each point makes of its family, then   */
+    void (*respond_rows)(void *, int64_t, int64_t, peri__sums *);
     void (*share)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
     void (*exchange)(const peri__step *, const int32_t *points, int64_t count, int sign);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
@@ -235,8 +236,9 @@ struct peri_body {
     peri__pair *pairs;       /* [classes][classes]                                                                       */
     int32_t   classes;
     peri__sums *sums;        /* [blocks]                                                                                 */
-    void     *constant;      /* real [constants][stride], see peri__constant; NULL, like the next, without state-based laws */
-    void     *response;      /* real [1 + dim*dim][stride]: p, and Q where there are tensors                             */
+    void     *constant;      /* real [constants][stride], see peri__constant, with a margin before and after; NULL, like the next,
+                                without state-based laws                                                                 */
+    void     *response;      /* real [1 + dim*dim][stride]: p, and Q where there are tensors; with margins               */
     double   *rate, *wide;   /* [points] row sum of the stiffness over rho; what theta or F of a point adds to those of others */
     double    fastest;       /* largest rate                                                                             */
     int32_t   stale;         /* 1: bonds have changed since the constants were made                                      */
