@@ -23,7 +23,7 @@ typedef struct peri__array {
     size_t  size;
     int     wanted;
 } peri__array;
-#define PERI_ARRAYS 20
+#define PERI_ARRAYS 21
 
 static void *peri__array_of(const peri_body *b, const peri__array *array) {
     void *pointer;
@@ -56,6 +56,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(response, (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin, real, states),
         PERI_ARRAY_(rate, n, sizeof(double), states),
         PERI_ARRAY_(wide, n, sizeof(double), states),
+        PERI_ARRAY_(central, n / PERI_LANES + 1, 1, m->tensors),
         PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks),
         PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks),
         PERI_ARRAY_(marked, n, 1, breaks),

@@ -38,12 +38,7 @@ static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *
     int near_breaking;
     for (int d = 0; d < PERI_D; ++d)
         for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-#ifdef PERI_ISA
-    if (m->lanes.isa == 2) near_breaking = PERI_FN(lanes_avx512)(step, g, f);
-    else if (m->lanes.isa == 1) near_breaking = PERI_FN(lanes_avx2)(step, g, f);
-    else
-#endif
-        near_breaking = PERI_FN(lanes_plain)(step, g, f);
+    near_breaking = PERI_ON_LANES(m->lanes.isa, lanes, (step, g, f));
     if (near_breaking) {
         PERI_FN(force_rows)(step, g * PERI_LANES, peri__min((g + 1) * PERI_LANES, m->points), sums);
         if (sums->n > broken) peri__group_masks(m, g, b->alive, b->lanes_alive);

@@ -193,6 +193,82 @@ PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_
     return any;
 }
 
+/* sum w eta xi V of correspondence points. */
+PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g, peri_r n[PERI_D][PERI_D][PERI_LANES]) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = b->model;
+    const peri__lanes *lanes = &m->lanes;
+    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
+    peri_r ui[PERI_D][PERI_LANES];
+    for (int a = 0; a < PERI_D; ++a)
+        for (int l = 0; l < PERI_LANES; ++l) {
+            ui[a][l] = u[a * m->stride + l];
+            for (int d = 0; d < PERI_D; ++d) n[a][d][l] = 0;
+        }
+    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
+        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
+        const peri_r *uj = u + lanes->offset[column], weight = (peri_r)row[4];
+        const peri_i mask = masks[column];
+        peri_r xi[PERI_D];
+        if (mask == 0) continue;
+        for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];
+        for (int a = 0; a < PERI_D; ++a)
+            for (int l = 0; l < PERI_LANES; ++l) {
+                peri_r pulled = mask >> l & 1 ? weight * (uj[a * m->stride + l] - ui[a][l]) : 0;
+                for (int d = 0; d < PERI_D; ++d) n[a][d][l] += pulled * xi[d];
+            }
+    }
+}
+
+/* Adds the force of all live bonds of a group of correspondence points to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta); no central bonds. Returns
+   nonzero where a bond comes near its critical stretch, |y| > (1 + s0) |xi| or xi.eta > s0 |xi|^2. */
+PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    PERI_NO_CONTRACTION
+    const peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const peri__lanes *lanes = &m->lanes;
+    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *q = (const peri_r *)b->response + m->margin + m->stride + g * PERI_LANES;
+    const peri_r *k = (const peri_r *)b->constant + m->margin + PERI__VECTOR * m->stride + g * PERI_LANES;
+    const int linear = b->desc.geometry == PERI_LINEAR;
+    const double near_s0 = b->pairs->s0 * (1.0 - PERI_NEAR), stretched = linear ? near_s0 : peri__square(1.0 + near_s0);
+    peri_r ui[PERI_D][PERI_LANES], qi[PERI_D][PERI_D][PERI_LANES], ki[PERI_LANES];
+    peri_i hit[PERI_LANES];
+    int any = 0;
+    for (int l = 0; l < PERI_LANES; ++l) {
+        hit[l] = 0;
+        ki[l] = k[l];
+        for (int a = 0; a < PERI_D; ++a) {
+            ui[a][l] = u[a * m->stride + l];
+            for (int d = 0; d < PERI_D; ++d) qi[a][d][l] = q[(a * PERI_D + d) * m->stride + l];
+        }
+    }
+    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
+        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
+        const int64_t offset = lanes->offset[column];
+        const peri_r *uj = u + offset, *qj = q + offset, *kj = k + offset, weight = (peri_r)row[4];
+        const peri_r limit = step->breaking && b->pairs->s0 < PERI_NEVER ? (peri_r)(stretched * row[3] * row[3]) : (peri_r)PERI_NEVER;
+        const peri_i mask = masks[column];
+        peri_r xi[PERI_D], t[PERI_D][PERI_LANES], reach[PERI_LANES];
+        if (mask == 0) continue;
+        for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];
+        for (int l = 0; l < PERI_LANES; ++l) reach[l] = 0;
+        for (int a = 0; a < PERI_D; ++a)
+            for (int l = 0; l < PERI_LANES; ++l) {
+                const peri_r eta = uj[a * m->stride + l] - ui[a][l], y = xi[a] + eta;
+                t[a][l] = (ki[l] + kj[l]) * eta;
+                for (int d = 0; d < PERI_D; ++d) t[a][l] += (qi[a][d][l] + qj[(a * PERI_D + d) * m->stride + l]) * xi[d];
+                reach[l] += linear ? xi[a] * eta : y * y;
+            }
+        for (int l = 0; l < PERI_LANES; ++l) hit[l] |= (reach[l] > limit) & (mask >> l & 1);
+        for (int a = 0; a < PERI_D; ++a)
+            for (int l = 0; l < PERI_LANES; ++l) f[a][l] += mask >> l & 1 ? weight * t[a][l] : 0;
+    }
+    for (int l = 0; l < PERI_LANES; ++l) any |= (int)hit[l];
+    return any;
+}
+
 #undef PERI_LANES_SQRT
 #undef PERI_LANES_FN
 #undef PERI_LANES_TARGET

@@ -171,8 +171,8 @@ static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t e
     }
 }
 
-/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion: by columns where there are any, by the list
-   in groups where a bond is about to break. sums: n their (directed) number. */
+/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion: by columns where there are any; by the list
+   in groups where a bond is about to break, or where correspondence points act by central bonds. sums: n their (directed) number. */
 static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     const peri__model *m = step->body->model;
@@ -182,16 +182,13 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
     }
     for (int64_t first = begin; first < end; first += PERI_LANES) {
         peri_r *force = (peri_r *)step->body->f + first, f[PERI_D][PERI_LANES];
-        int near_breaking;
+        const int64_t g = first / PERI_LANES;
+        int by_list = m->tensors && step->body->central[g];
         for (int d = 0; d < PERI_D; ++d)
             for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-#ifdef PERI_ISA
-        if (m->lanes.isa == 2) near_breaking = PERI_FN(share_avx512)(step, first / PERI_LANES, f);
-        else if (m->lanes.isa == 1) near_breaking = PERI_FN(share_avx2)(step, first / PERI_LANES, f);
-        else
-#endif
-            near_breaking = PERI_FN(share_plain)(step, first / PERI_LANES, f);
-        if (near_breaking) {
+        if (!by_list)
+            by_list = m->tensors ? PERI_ON_LANES(m->lanes.isa, tensor, (step, g, f)) : PERI_ON_LANES(m->lanes.isa, share, (step, g, f));
+        if (by_list) {
             PERI_FN(share_rows)(step, first, peri__min(first + PERI_LANES, end), sums);
             continue;
         }
@@ -218,10 +215,9 @@ static void PERI_FN(exchange)(const peri__step *step, const int32_t *points, int
     }
 }
 
-/* Displacement gradient H = (sum w eta xi V) K^-1 of a correspondence point. */
-static void PERI_FN(gradient)(const peri_body *b, int64_t i, peri_r h[PERI_D][PERI_D]) {
+/* sum w eta xi V of a correspondence point. */
+static void PERI_FN(shape)(const peri_body *b, int64_t i, peri_r n[PERI_D][PERI_D]) {
     const peri__model *m = b->model;
-    peri_r n[PERI_D][PERI_D];
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) n[a][d] = 0;
     for (int64_t k = 0; k < m->count[i]; ++k) {
@@ -233,6 +229,11 @@ static void PERI_FN(gradient)(const peri_body *b, int64_t i, peri_r h[PERI_D][PE
         for (int a = 0; a < PERI_D; ++a)
             for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
     }
+}
+
+/* Displacement gradient H = (sum w eta xi V) K^-1. */
+static void PERI_FN(gradient)(const peri_body *b, int64_t i, peri_r n[PERI_D][PERI_D], peri_r h[PERI_D][PERI_D]) {
+    const peri__model *m = b->model;
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) {
             h[a][d] = 0;
@@ -252,13 +253,13 @@ static void PERI_FN(strain)(int linear, peri_r h[PERI_D][PERI_D], peri_r strain[
 }
 
 /* Q_i = P K^-1 - k H, so that T = w (P K^-1 xi + k (eta - H xi)); P = sigma, or F S. */
-static void PERI_FN(respond_tensor)(peri_body *b, int64_t i) {
+static void PERI_FN(respond_tensor)(peri_body *b, int64_t i, peri_r n[PERI_D][PERI_D]) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
     const peri_r *constant = (const peri_r *)b->constant + m->margin + i, lambda = (peri_r)law->lambda, mu2 = (peri_r)(2.0 * law->mu);
     peri_r *response = (peri_r *)b->response + m->margin + i, h[PERI_D][PERI_D], s[PERI_D][PERI_D], p[PERI_D][PERI_D], trace = 0;
-    PERI_FN(gradient)(b, i, h);
+    PERI_FN(gradient)(b, i, n, h);
     PERI_FN(strain)(linear, h, s);
     for (int a = 0; a < PERI_D; ++a) trace += s[a][a];
     for (int a = 0; a < PERI_D; ++a)
@@ -320,9 +321,10 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i) {
     density = 0.5 * (double)constant[PERI__SPRING * m->stride] * square;
     if (law->model != PERI_CORRESPONDENCE) return density + 0.5 * (double)constant[PERI__PRESS * m->stride] * dilate * sum * sum;
 
-    peri_r h[PERI_D][PERI_D], s[PERI_D][PERI_D];
+    peri_r n[PERI_D][PERI_D], h[PERI_D][PERI_D], s[PERI_D][PERI_D];
     double trace = 0.0, norm = 0.0, apart = 0.0;
-    PERI_FN(gradient)(b, i, h);
+    PERI_FN(shape)(b, i, n);
+    PERI_FN(gradient)(b, i, n, h);
     PERI_FN(strain)(linear, h, s);
     for (int a = 0; a < PERI_D; ++a) {
         trace += (double)s[a][a];
@@ -351,9 +353,12 @@ static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, per
     for (int64_t i = begin; i < end; ++i) {
         const int32_t law = m->laws[m->material[i]].model;
         const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
+        peri_r n[PERI_D][PERI_D];
         double square;
-        if (law == PERI_CORRESPONDENCE) PERI_FN(respond_tensor)(b, i);
-        else if (law != PERI_BOND_BASED)
+        if (law == PERI_CORRESPONDENCE) {
+            PERI_FN(shape)(b, i, n);
+            PERI_FN(respond_tensor)(b, i, n);
+        } else if (law != PERI_BOND_BASED)
             ((peri_r *)b->response)[m->margin + i] =
                 constant[PERI__PRESS * m->stride] == 0 ? 0
                                                        : constant[PERI__PRESS * m->stride] * constant[PERI__DILATE * m->stride]
@@ -364,7 +369,7 @@ static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, per
 
 /* The same for a block of points, by columns where there are any. */
 static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri_body *b = ((const peri__step *)context)->body;
+    peri_body *b = ((const peri__step *)context)->body;
     const peri__model *m = b->model;
     if (!m->lanes.columns) {
         PERI_FN(respond_rows)(context, begin, end, sums);
@@ -373,13 +378,19 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
     for (int64_t first = begin; first < end; first += PERI_LANES) {
         const peri_r *constant = (const peri_r *)b->constant + m->margin + first;
         peri_r *response = (peri_r *)b->response + m->margin + first, sum[PERI_LANES];
+        const int64_t g = first / PERI_LANES;
         const int gauged = m->ordinary != PERI_OTERKUS;
-#ifdef PERI_ISA
-        if (m->lanes.isa == 2) PERI_FN(stretched_avx512)(b, first / PERI_LANES, gauged, sum);
-        else if (m->lanes.isa == 1) PERI_FN(stretched_avx2)(b, first / PERI_LANES, gauged, sum);
-        else
-#endif
-            PERI_FN(stretched_plain)(b, first / PERI_LANES, gauged, sum);
+        if (m->tensors) {
+            peri_r shape[PERI_D][PERI_D][PERI_LANES], n[PERI_D][PERI_D];
+            PERI_ON_LANES(m->lanes.isa, shape, (b, g, shape));
+            for (int64_t i = first; i < peri__min(first + PERI_LANES, end); ++i) {
+                for (int a = 0; a < PERI_D; ++a)
+                    for (int d = 0; d < PERI_D; ++d) n[a][d] = shape[a][d][i - first];
+                PERI_FN(respond_tensor)(b, i, n);
+            }
+            continue;
+        }
+        PERI_ON_LANES(m->lanes.isa, stretched, (b, g, gauged, sum));
         for (int l = 0; l < PERI_LANES; ++l)
             response[l] = constant[PERI__PRESS * m->stride + l] * constant[PERI__DILATE * m->stride + l] * sum[l];
     }

@@ -65,6 +65,13 @@ PERI_INLINE void PERI_FN(sqrt_plain)(peri_r *a) {
 #include "k_lanes.inl"
 #endif
 
+#ifdef PERI_ISA
+#define PERI_ON_LANES(isa, name, arguments)                                                                            \
+    ((isa) == 2 ? PERI_FN(name##_avx512) arguments : (isa) == 1 ? PERI_FN(name##_avx2) arguments : PERI_FN(name##_plain) arguments)
+#else
+#define PERI_ON_LANES(isa, name, arguments) PERI_FN(name##_plain) arguments
+#endif
+
 #include "k_force.inl"
 #include "k_state.inl"
 #include "k_march.inl"
@@ -74,6 +81,7 @@ static const peri__ops PERI_FN(ops) = {
     PERI_FN(kinetic)
 };
 
+#undef PERI_ON_LANES
 #undef peri_r
 #undef peri_i
 #undef PERI_NEAR

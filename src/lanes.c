@@ -6,7 +6,7 @@
    meets its bonds in the same order as in the plain list. The list stays: it is the reference, and it decides about breaking.
 
    Not built (columns NULL) where columns would be mostly empty, where bond vectors are too many to tabulate (clouds), where bonds lead to
-   centroids, where materials differ, and for state-based laws with tensors, unequal halves or energy criteria. */
+   centroids, where materials differ, and for state-based laws with unequal halves or energy criteria. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -184,7 +184,7 @@ static int32_t peri__build_lanes(peri_body *b, const double *x) {
     peri__lanes *l = &m->lanes;
     int64_t room = (int64_t)m->width * PERI_LANES;
     int32_t status = PERI_ERROR_MEMORY;
-    if (m->centroid || m->materials > 1 || m->back != m->weight || m->tensors || m->works || m->nodes || b->desc.reference) return PERI_OK;
+    if (m->centroid || m->materials > 1 || m->back != m->weight || m->works || m->nodes || b->desc.reference) return PERI_OK;
     peri__lane_draft *draft = (peri__lane_draft *)peri__new(&b->memory, 1, sizeof *draft);
     if (draft) draft->entry = (int64_t *)peri__new(&b->memory, room, sizeof *draft->entry);
     l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;

@@ -170,6 +170,8 @@ static void peri__set_rate(peri_body *b, int64_t i) {
         double own = fabs(peri__get_real(m->weight, b->f32, at)), back = fabs(peri__get_real(m->back, b->f32, at));
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, k, xi);
+        if (m->tensors && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
+            b->central[i / PERI_LANES] = 1;
         sum += 2.0 * (own * peri__half_stiffness(b, i, j, bond) + back * peri__half_stiffness(b, j, i, bond));
         if (b->wide[j] > 0.0) sum += back * peri__gauge(b, j, xi, bond) * b->wide[j];
     }
@@ -204,6 +206,7 @@ static void peri__refresh(peri_body *b) {
     if (!b->stale) return;
     memset(&step, 0, sizeof step);
     step.body = b;
+    if (b->central) memset(b->central, 0, (size_t)(b->model->points / PERI_LANES + 1));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &step, NULL);
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__rates_block, &step, NULL);
     peri__find_fastest(b);

@@ -242,6 +242,8 @@ struct peri_body {
     double   *rate, *wide;   /* [points] row sum of the stiffness over rho; what theta or F of a point adds to those of others */
     double    fastest;       /* largest rate                                                                             */
     int32_t   stale;         /* 1: bonds have changed since the constants were made                                      */
+    uint8_t  *central;       /* [groups of PERI_LANES] 1: correspondence points there or beside it act by central bonds; NULL without
+                                tensors                                                                                  */
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
     uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
