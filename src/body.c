@@ -127,7 +127,7 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     m->dim = dim;
     m->points = b->setup.point_count;
     m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
-    m->stride = (m->points + PERI_LANES - 1) / PERI_LANES * PERI_LANES;
+    m->stride = ((m->points + PERI_LANES - 1) / PERI_LANES | 1) * PERI_LANES; /* odd: planes do not share the sets of a cache */
     m->x = peri__new(&m->memory, m->stride * dim, real);
     m->volume = (double *)peri__new(&m->memory, m->points, sizeof *m->volume);
     m->material = (uint8_t *)peri__copy(&m->memory, b->setup.material, m->points, 1);
