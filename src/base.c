@@ -13,12 +13,13 @@
 
 /* Kernels on lanes are loops that a compiler turns into vector instructions. Products and sums stay apart (no contraction), so that
    every instruction set gives the same bits. gcc gets its options here, whatever the user's flags; clang vectorises from -O2 on. On
-   x86-64 the best instruction set is chosen at run time. */
+   x86-64 the best instruction set is chosen at run time. Builds with gcc's address sanitizer take the plain text alone: vector code takes
+   minutes to instrument. */
 #if defined(__clang__)
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION _Pragma("clang fp contract(off)")
 #define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw"
-#elif defined(__GNUC__)
+#elif defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
 #define PERI_VECTOR_CODE __attribute__((optimize("O3", "no-trapping-math", "fp-contract=off")))
 #define PERI_NO_CONTRACTION
 #define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw,prefer-vector-width=512"
@@ -26,7 +27,7 @@
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION
 #endif
-#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(__TINYC__)
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(__TINYC__) && !defined(__SANITIZE_ADDRESS__)
 #define PERI_ISA
 #include <immintrin.h>
 #define PERI_AVX2 __attribute__((target("avx2")))

@@ -105,7 +105,7 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
         if (m->laws[i].model != PERI_BOND_BASED) m->states = 1;
         if (m->laws[i].model == PERI_CORRESPONDENCE) m->tensors = 1;
         if (m->laws[i].model == PERI_OTERKUS) m->dilates = 1;
-        if (m->laws[i].model == PERI_LPS && (m->laws[i].a != 0.0 || b->desc.correction == PERI_ENERGY_CORRECTION)) m->dilates = 1;
+        if (m->laws[i].model == PERI_LPS && m->laws[i].a != 0.0) m->dilates = 1;
         if (b->materials[i].criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
         if (b->materials[i].criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
         if (i == 0 && m->states && !m->tensors) m->ordinary = m->laws[i].model;

@@ -122,14 +122,14 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(share_column)(const peri_r *xi,
                                                                peri_i mask, const peri_r *const *uj, const peri_r *pj, const peri_r *qj,
                                                                peri_r ui[PERI_D][PERI_LANES], const peri_r *pi, const peri_r *qi,
                                                                peri_r sum[PERI_D][PERI_LANES], peri_i *hit, const int masked,
-                                                               const int linear, const int dilates) {
+                                                               const int linear) {
     PERI_NO_CONTRACTION
     peri_r y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
     PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, linear);
     for (int l = 0; l < PERI_LANES; ++l) {
         const peri_i live = masked ? mask >> l & 1 : 1;
-        peri_r reach = linear ? bond : length[l] + bond, pull = (qi[l] + qj[l]) * along[l];
-        if (dilates) pull += (pi[l] + pj[l]) * gauge * reach;
+        peri_r reach = linear ? bond : length[l] + bond;
+        peri_r pull = (qi[l] + qj[l]) * along[l] + (pi[l] + pj[l]) * gauge * reach;
         peri_r scale = weight * pull / (reach * length[l] + PERI_TINY);
         scale = live ? scale : 0;
         hit[l] |= (along[l] > limit * reach) & live;
@@ -147,7 +147,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_
     const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *p = (const peri_r *)b->response + m->margin + g * PERI_LANES;
     const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * m->stride + g * PERI_LANES;
     const peri_r s0 = (peri_r)(step->breaking ? b->pairs->s0 * (1.0 - PERI_NEAR) : PERI_NEVER);
-    const int linear = b->desc.geometry == PERI_LINEAR, dilates = m->dilates, oterkus = m->ordinary == PERI_OTERKUS;
+    const int linear = b->desc.geometry == PERI_LINEAR, oterkus = m->ordinary == PERI_OTERKUS;
     peri_r ui[PERI_D][PERI_LANES], sum[PERI_D][PERI_LANES], pi[PERI_LANES], qi[PERI_LANES];
     peri_i hit[PERI_LANES];
     int any = 0;
@@ -172,18 +172,14 @@ PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_
             xi[d] = (peri_r)row[d];
             uj[d] = u + d * m->stride + offset;
         }
-#define PERI_COLUMN(masked, line, theta)                                                                               \
-    PERI_LANES_FN(share_column)(xi, bond, weight, gauge, limit, mask, uj, p + offset, q + offset, ui, pi, qi, sum, hit, masked, line, theta)
+#define PERI_COLUMN(masked, line)                                                                                      \
+    PERI_LANES_FN(share_column)(xi, bond, weight, gauge, limit, mask, uj, p + offset, q + offset, ui, pi, qi, sum, hit, masked, line)
         if (mask == 0xFFFF) {
-            if (dilates && linear) PERI_COLUMN(0, 1, 1);
-            else if (dilates) PERI_COLUMN(0, 0, 1);
-            else if (linear) PERI_COLUMN(0, 1, 0);
-            else PERI_COLUMN(0, 0, 0);
+            if (linear) PERI_COLUMN(0, 1);
+            else PERI_COLUMN(0, 0);
         } else {
-            if (dilates && linear) PERI_COLUMN(1, 1, 1);
-            else if (dilates) PERI_COLUMN(1, 0, 1);
-            else if (linear) PERI_COLUMN(1, 1, 0);
-            else PERI_COLUMN(1, 0, 0);
+            if (linear) PERI_COLUMN(1, 1);
+            else PERI_COLUMN(1, 0);
         }
 #undef PERI_COLUMN
     }
@@ -221,8 +217,8 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
     }
 }
 
-/* Adds the force of all live bonds of a group of correspondence points to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta); no central bonds. Returns
-   nonzero where a bond comes near its critical stretch, |y| > (1 + s0) |xi| or xi.eta > s0 |xi|^2. */
+/* Adds the force of all live bonds of a group of correspondence points to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta); no central bonds.
+   Returns nonzero where a bond comes near its critical stretch, |y| > (1 + s0) |xi| or xi.eta > s0 |xi|^2. */
 PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;

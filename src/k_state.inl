@@ -69,10 +69,10 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, p
     return dying;
 }
 
-/* The same row where every point is of one ordinary law: constants at hand, one square root and one division per bond. `flagged`,
-   `linear`, `dilates`, `oterkus`, `mirrored` (back is weight) are constants where this is inlined. */
+/* The same row where every point is of one ordinary law: constants at hand, one square root and one division per bond. `flagged`
+   and `linear` are constants where this is inlined; where nothing dilates p is 0. */
 PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r *f, const int flagged, const int linear,
-                                       const int dilates, const int oterkus, const int mirrored) {
+                                       const int oterkus, const int mirrored) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
     const int64_t stride = m->stride;
@@ -84,7 +84,7 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r
     const uint8_t *cls = b->cls;
     const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
     peri_r here[PERI_D], moved[PERI_D], sum[PERI_D], s0 = (peri_r)pairs->s0;
-    const peri_r qi = q[i], pi = dilates ? p[i] : 0;
+    const peri_r qi = q[i], pi = p[i];
     int32_t dying = 0;
     for (int d = 0; d < PERI_D; ++d) {
         here[d] = x[d * stride + i];
@@ -110,14 +110,8 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r
             /* e = along/reach, force along y: w (p g + q e)/|y| */
             length = linear ? bond : PERI_SQRT(square);
             reach = linear ? bond : length + bond;
-            if (mirrored) {
-                pull = (qi + q[j]) * along;
-                if (dilates) pull += (pi + p[j]) * gauge * reach;
-                pull *= weight;
-            } else {
-                pull = (weight * qi + back * q[j]) * along;
-                if (dilates) pull += (weight * pi + back * p[j]) * gauge * reach;
-            }
+            if (mirrored) pull = weight * ((qi + q[j]) * along + (pi + p[j]) * gauge * reach);
+            else pull = (weight * qi + back * q[j]) * along + (weight * pi + back * p[j]) * gauge * reach;
             pull /= reach * length + PERI_TINY;
             for (int d = 0; d < PERI_D; ++d) sum[d] += pull * y[d];
             if (flagged && step->breaking) {
@@ -139,24 +133,11 @@ static int32_t PERI_FN(share_force)(const peri__step *step, int64_t i, peri_r *f
     const peri_body *b = step->body;
     const peri__model *m = b->model;
     const int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->works || m->nodes;
-    const int32_t law = m->ordinary;
-    if (plain || !law) return PERI_FN(share_row_reference)(step, i, f);
-#define PERI_SHARE(flag, line, theta, one, same)                                                                       \
-    if ((b->alive != NULL) == (flag) && linear == (line) && m->dilates == (theta) && (law == PERI_OTERKUS) == (one)       \
-        && (m->back == m->weight) == (same))                                                                           \
-        return PERI_FN(share_row)(step, i, f, flag, line, theta, one, same);
-#define PERI_SHARES(theta, one, same)                                                                                  \
-    PERI_SHARE(0, 0, theta, one, same)                                                                                 \
-    PERI_SHARE(0, 1, theta, one, same)                                                                                 \
-    PERI_SHARE(1, 0, theta, one, same)                                                                                 \
-    PERI_SHARE(1, 1, theta, one, same)
-    PERI_SHARES(0, 0, 1)
-    PERI_SHARES(1, 0, 1)
-    PERI_SHARES(1, 1, 1)
-    PERI_SHARES(1, 0, 0)
-#undef PERI_SHARES
-#undef PERI_SHARE
-    return PERI_FN(share_row_reference)(step, i, f);
+    const int oterkus = m->ordinary == PERI_OTERKUS, mirrored = m->back == m->weight;
+    if (plain || !m->ordinary) return PERI_FN(share_row_reference)(step, i, f);
+    if (!b->alive)
+        return linear ? PERI_FN(share_row)(step, i, f, 0, 1, oterkus, mirrored) : PERI_FN(share_row)(step, i, f, 0, 0, oterkus, mirrored);
+    return linear ? PERI_FN(share_row)(step, i, f, 1, 1, oterkus, mirrored) : PERI_FN(share_row)(step, i, f, 1, 0, oterkus, mirrored);
 }
 
 /* Rows [begin, end) by the list. */

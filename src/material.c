@@ -12,7 +12,7 @@ PERI_API void peri_material_init(peri_material *m, int32_t model) {
     m->model = model;
     m->poisson = (double)NAN;
     m->criterion = PERI_CRITERION_STRETCH;
-    m->stabilization = model == PERI_CORRESPONDENCE ? 0.5 : 0.0;
+    m->stabilization = model == PERI_CORRESPONDENCE ? 0.2 : 0.0;
 }
 
 static double peri__bond_poisson(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }

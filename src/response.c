@@ -9,7 +9,7 @@
 #define PERI_SPAN 0.02 /* a shape tensor whose eigenvalues differ by more than this factor counts as singular              */
 
 typedef struct peri__moments { /* sums over the bonds of a family, inner units                                            */
-    double volume, m;    /* w |xi|^2 V                                                                                   */
+    double m;            /* w |xi|^2 V                                                                                   */
     double length;       /* w |xi| V                                                                                     */
     double shear;        /* w xi_a^2 xi_b^2/|xi|^2 V, mean over the planes a < b                                         */
     double shape[6];     /* w xi xi V                                                                                    */
@@ -54,20 +54,6 @@ static double peri__get_constant(const peri_body *b, int64_t i, int plane) {
     return peri__get_real(b->constant, b->f32, b->model->margin + plane * b->model->stride + i);
 }
 
-/* q m of LPS on this family: B; or such that the mean energy of shear over its directions is mu, theta of the shear included, while
-   that of isotropic strain stays exact: X/(D(D+2)) + 1/2 (bulk - X/D^2) R = mu, R = D^2 |dev K|^2/(m^2 N), N deviators. */
-static double peri__lps_spring(const peri_body *b, const peri__law *law, const peri__moments *sum) {
-    int32_t dim = b->dim;
-    double dev = 0.0, deviators = 0.5 * (dim - 1) * (dim + 2);
-    if (b->desc.correction != PERI_ENERGY_CORRECTION) return law->b;
-    for (int a = 0; a < dim; ++a)
-        for (int c = 0; c < dim; ++c)
-            dev += peri__square(sum->shape[peri__packed(dim, a, c)] - (a == c ? sum->m / dim : 0.0));
-    double r = dim * dim * dev / (sum->m * sum->m * deviators), room = 1.0 / (dim * (dim + 2)) - r / (2.0 * dim * dim);
-    double x = room > 0.25 / (dim * (dim + 2)) ? (law->mu - 0.5 * law->bulk * r) / room : 0.0;
-    return x < 0.2 * law->b ? 0.2 * law->b : x > 2.0 * law->b ? 2.0 * law->b : x; /* families too lopsided to calibrate          */
-}
-
 static void peri__set_constants(peri_body *b, int64_t i) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
@@ -76,11 +62,9 @@ static void peri__set_constants(peri_body *b, int64_t i) {
     if (law->model == PERI_BOND_BASED) return;
     peri__moments sum = peri__family_moments(b, i, 1);
     if (sum.m > 0.0 && law->model == PERI_LPS) {
-        double x = peri__lps_spring(b, law, &sum), kappa = law->a / dim;
-        if (x != law->b) kappa = law->bulk - x / (dim * dim);
         dilate = dim / sum.m;
-        press = kappa * dilate;
-        spring = x / sum.m;
+        press = law->a / dim * dilate;
+        spring = law->b / sum.m;
     } else if (sum.m > 0.0 && law->model == PERI_OTERKUS) {
         /* b = mu/(2 S), a = (bulk - 2 b m/D^2)/2 ([C] 16, 17); a family without shear bonds to calibrate on takes that of LPS */
         dilate = dim / sum.length;

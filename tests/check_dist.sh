@@ -19,8 +19,8 @@ grep -n '^#include "' $dir/peri.h > $dir/includes || true
 must_be_empty "not self-contained" $dir/includes
 
 printf '#define PERI_IMPLEMENTATION\n#include "peri.h"\n' > $dir/one.c
-(cd $dir && $cc -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror -O2 -fno-pic -c one.c -o dist.o)
-$cc -std=c99 -O2 -fno-pic -c peri_impl.c -o $dir/tree.o
+(cd $dir && $cc -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror -O1 -fno-pic -c one.c -o dist.o)
+$cc -std=c99 -O1 -fno-pic -c peri_impl.c -o $dir/tree.o
 if command -v objdump > /dev/null; then
     objdump -d $dir/dist.o | sed 1,3d > $dir/dist.s
     objdump -d $dir/tree.o | sed 1,3d > $dir/tree.s

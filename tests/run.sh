@@ -18,13 +18,25 @@ tally() { # one "<program>: N passed, N failed" line, and what came before it
     fi
 }
 
+show() { # show NAME: the log of a test program, and its tally
+    echo "== $1"
+    if [ -n "$long" ]; then cat "build/$1.log"; else grep -v '^  pass ' "build/$1.log"; fi
+    tally "build/$1.log"
+}
+
 program() { # program NAME COMMAND...
     name=$1
     shift
-    echo "== $name"
     "$@" > "build/$name.log" 2>&1
-    if [ -n "$long" ]; then cat "build/$name.log"; else grep -v '^  pass ' "build/$name.log"; fi
-    tally "build/$name.log"
+    show "$name"
+}
+
+programs() { # programs DIRECTORY PREFIX NAME...: two at a time
+    directory=$1
+    prefix=$2
+    shift 2
+    printf '%s\n' "$@" | xargs -P 2 -I % sh -c "$directory/% $long > build/$prefix%.log 2>&1"
+    for name; do show "$prefix$name"; done
 }
 
 check() { # check NAME COMMAND...: passes when the command does
@@ -43,10 +55,7 @@ check() { # check NAME COMMAND...: passes when the command does
 skip() { echo "skip $1: $2"; }
 
 mkdir -p build out
-for source in tests/test_*.c; do
-    name=$(basename "$source" .c)
-    program "$name" "build/tests/$name" $long
-done
+programs build/tests "" $(basename -s .c tests/test_*.c)
 
 if [ -z "$long" ]; then
     . tests/checks.sh

@@ -1,0 +1,134 @@
+/* test_solid.h - a body of any law in a few lines, and the solid that it stands for: its moduli, energy and stress. */
+#ifndef TEST_SOLID_H
+#define TEST_SOLID_H
+
+#include "test_scene.h"
+
+typedef struct solid {
+    int32_t space, model, correction, geometry, precision, influence, quadrature;
+    double  nu, stabilization, ratio, spacing; /* stabilization < 0: the default; ratio = horizon/spacing                   */
+} solid;
+
+static const char *const law_name[] = {"", "bond-based", "LPS", "Oterkus", "correspondence"};
+static const char *const correction_name[] = {"", "none", "volume", "energy", "moment"};
+static const char *const space_name[] = {"", "plane stress", "plane strain", "solid"};
+
+static inline double fixed_nu(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
+static inline int dim_of(int32_t space) { return space == PERI_SOLID ? 3 : 2; }
+static inline int parts_of(int dim) { return dim == 3 ? 6 : 3; }
+
+/* Small strains, double, full volumes, constant influence, horizon 3; Poisson ratio 0.3 where the law lets one choose. */
+static inline solid solid_of(int32_t space, int32_t model, int32_t correction) {
+    solid s;
+    s.space = space;
+    s.model = model;
+    s.correction = correction;
+    s.geometry = PERI_LINEAR;
+    s.precision = PERI_F64;
+    s.influence = PERI_INFLUENCE_CONSTANT;
+    s.quadrature = PERI_FULL_VOLUME;
+    s.nu = model == PERI_BOND_BASED ? fixed_nu(space) : 0.3;
+    s.stabilization = -1;
+    s.ratio = 3;
+    s.spacing = H;
+    return s;
+}
+
+/* Lame's constants such that sigma = lambda tr(eps) + 2 mu eps with the in-plane strains (plane stress: lambda' of E, nu). */
+static inline void lame(int32_t space, double nu, double *lambda, double *mu) {
+    *mu = YOUNG / (2 * (1 + nu));
+    *lambda = space == PERI_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
+}
+
+/* Place of component (a, c) in a field of tensors: xx yy xy, xx yy zz xy yz xz. */
+static inline int packed(int dim, int a, int c) {
+    if (a == c) return a;
+    if (dim == 2) return 2;
+    return a + c == 1 ? 3 : a + c == 3 ? 4 : 5;
+}
+
+/* W = 1/2 lambda (tr eps)^2 + mu eps:eps, and sigma. eps packed. */
+static inline double solid_energy(const solid *s, const double *eps) {
+    double lambda, mu, trace = 0, norm = 0;
+    int dim = dim_of(s->space), k;
+    lame(s->space, s->nu, &lambda, &mu);
+    for (k = 0; k < parts_of(dim); ++k) {
+        if (k < dim) trace += eps[k];
+        norm += (k < dim ? 1 : 2) * eps[k] * eps[k];
+    }
+    return 0.5 * lambda * trace * trace + mu * norm;
+}
+static inline void solid_stress(const solid *s, const double *eps, double *sigma) {
+    double lambda, mu, trace = 0;
+    int dim = dim_of(s->space), k;
+    lame(s->space, s->nu, &lambda, &mu);
+    for (k = 0; k < dim; ++k) trace += eps[k];
+    for (k = 0; k < parts_of(dim); ++k) sigma[k] = 2 * mu * eps[k] + (k < dim ? lambda * trace : 0);
+}
+
+static inline peri_material solid_material(const solid *s) {
+    peri_material m;
+    peri_material_init(&m, s->model);
+    m.young = YOUNG;
+    m.density = DENSITY;
+    if (s->model != PERI_BOND_BASED) m.poisson = s->nu;
+    if (s->model == PERI_CORRESPONDENCE && s->stabilization >= 0) m.stabilization = s->stabilization;
+    return m;
+}
+
+/* A body without points, with material 0. */
+static inline peri_body *solid_new(const solid *s) {
+    peri_body_desc d;
+    peri_material m = solid_material(s);
+    peri_body *b = NULL;
+    peri_body_desc_init(&d);
+    d.space = s->space;
+    d.correction = s->correction;
+    d.geometry = s->geometry;
+    d.precision = s->precision;
+    d.influence = s->influence;
+    d.quadrature = s->quadrature;
+    d.horizon = s->ratio * s->spacing;
+    d.threads = 1;
+    if (s->space != PERI_SOLID) d.thickness = THICK;
+    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
+    (void)MUST(b, peri_add_material(b, &m));
+    return b;
+}
+
+/* A built block of nx x ny (x nz) cells with a corner at the origin. */
+static inline peri_body *solid_block(const solid *s, int nx, int ny, int nz) {
+    const double lo[3] = {0, 0, 0};
+    double hi[3];
+    peri_body *b = solid_new(s);
+    hi[0] = nx * s->spacing;
+    hi[1] = ny * s->spacing;
+    hi[2] = nz * s->spacing;
+    (void)MUST(b, peri_add_box(b, 0, lo, hi, s->spacing));
+    (void)MUST(b, peri_build(b));
+    return b;
+}
+
+/* u = h x with h[dim*dim], row by row. */
+static inline void stretch_by(peri_body *b, const double *h) {
+    double *x = get(b, PERI_POSITION), *u = get(b, PERI_DISPLACEMENT);
+    int64_t i, n = peri_point_count(b);
+    int dim = peri_dimension(b), a, c;
+    for (i = 0; i < n; ++i)
+        for (a = 0; a < dim; ++a) {
+            u[i * dim + a] = 0;
+            for (c = 0; c < dim; ++c) u[i * dim + a] += h[a * dim + c] * x[i * dim + c];
+        }
+    put(b, PERI_DISPLACEMENT, u);
+    free(x);
+    free(u);
+}
+
+/* The symmetric h of a packed strain. */
+static inline void strain_matrix(int dim, const double *eps, double *h) {
+    int a, c;
+    for (a = 0; a < dim; ++a)
+        for (c = 0; c < dim; ++c) h[a * dim + c] = eps[packed(dim, a, c)];
+}
+
+#endif

@@ -1,0 +1,150 @@
+/* test_states.h - bodies of the state-based laws for the tests of their failure, their states and their memory. */
+#ifndef TEST_STATES_H
+#define TEST_STATES_H
+
+#include "test_scene.h"
+
+#define CRITICAL 0.02 /* stretch, where bonds break */
+
+typedef struct kind { /* what is simulated; limit: critical stretch, or fracture energy of the energy criteria; 0 = none */
+    int32_t space, model, criterion;
+    double  poisson, limit;
+} kind;
+
+static const char *const law_name[5] = {"", "bond-based", "LPS", "Oterkus", "corresp."};
+static const char *const criterion_name[4] = {"", "stretch", "bond energy", "node energy"};
+
+static inline int dim_of(int32_t space) { return space == PERI_SOLID ? 3 : 2; }
+
+/* G0 whose bond-based critical stretch for w = 1 is CRITICAL: limits of all criteria are then of the same size. */
+static inline double toughness(int32_t space) {
+    const double h = 3 * H;
+    if (space == PERI_PLANE_STRESS) return CRITICAL * CRITICAL * 9 * YOUNG * h / (4 * PI);
+    if (space == PERI_PLANE_STRAIN) return CRITICAL * CRITICAL * 12 * YOUNG * h / (5 * PI);
+    return CRITICAL * CRITICAL * 6 * YOUNG * h / 5;
+}
+static inline kind kind_of(int32_t space, int32_t model, int32_t criterion, double nu) {
+    kind k = {0, 0, 0, 0, 0};
+    k.space = space;
+    k.model = model;
+    k.criterion = criterion;
+    k.poisson = nu;
+    k.limit = criterion == PERI_CRITERION_STRETCH ? CRITICAL : toughness(space);
+    return k;
+}
+
+static inline peri_material stuff(kind k) {
+    peri_material m;
+    peri_material_init(&m, k.model);
+    m.young = YOUNG;
+    m.density = DENSITY;
+    if (k.model != PERI_BOND_BASED) m.poisson = k.poisson;
+    m.criterion = k.criterion;
+    if (k.criterion == PERI_CRITERION_STRETCH) m.critical_stretch = k.limit;
+    else m.fracture_energy = k.limit;
+    return m;
+}
+
+/* Serial, horizon 3 H, thickness THICK. */
+static inline peri_body_desc plan(int32_t space) {
+    peri_body_desc d;
+    peri_body_desc_init(&d);
+    d.space = space;
+    d.horizon = 3 * H;
+    d.threads = 1;
+    if (space != PERI_SOLID) d.thickness = THICK;
+    return d;
+}
+
+/* A box of nx x ny (x nz) cells of size H with one corner at the origin, of one material, built. */
+static inline peri_body *make(const peri_body_desc *d, kind k, int nx, int ny, int nz) {
+    const double lo[3] = {0, 0, 0}, hi[3] = {nx * H, ny * H, nz * H};
+    peri_material m = stuff(k);
+    peri_body *b = NULL;
+    (void)MUST(NULL, peri_body_create(d, &b, NULL));
+    (void)MUST(b, peri_add_box(b, (int32_t)MUST(b, peri_add_material(b, &m)), lo, hi, H));
+    (void)MUST(b, peri_build(b));
+    return b;
+}
+
+static inline peri_body *box(kind k, int32_t geometry, int nx, int ny, int nz) {
+    peri_body_desc d = plan(k.space);
+    d.geometry = geometry;
+    return make(&d, k, nx, ny, nz);
+}
+
+/* lambda (of the plane), mu; D^2 times `bulk` is the energy density of twice the isotropic unit strain: W = bulk (D s)^2/2. */
+typedef struct moduli {
+    double lambda, mu, bulk, a, b; /* A, B of LPS */
+} moduli;
+
+static inline moduli moduli_of(int32_t space, double nu) {
+    moduli m;
+    int dim = dim_of(space);
+    m.mu = YOUNG / (2 * (1 + nu));
+    m.lambda = space == PERI_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
+    m.bulk = m.lambda + 2 * m.mu / dim;
+    m.a = dim == 3 ? 3 * m.bulk - 5 * m.mu : 2 * m.lambda - 2 * m.mu;
+    m.b = dim == 3 ? 15 * m.mu : 8 * m.mu;
+    return m;
+}
+
+/* Points between the planes x = from and x = to. */
+static inline int32_t slab(peri_body *b, double from, double to) {
+    const double lo[3] = {from, -1e3, -1e3}, hi[3] = {to, 1e3, 1e3};
+    return (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi));
+}
+
+static inline int32_t *rows_of(peri_body *b) {
+    int64_t n = peri_point_count(b) * peri_family_width(b);
+    int32_t *rows = (int32_t *)calloc((size_t)n + 1, sizeof *rows);
+    (void)MUST(b, peri_read_families(b, 0, peri_point_count(b), rows, n));
+    return rows;
+}
+
+static inline double far(const double *x, int dim, int64_t i, int64_t j) {
+    double sum = 0;
+    int d;
+    for (d = 0; d < dim; ++d) sum += (x[j * dim + d] - x[i * dim + d]) * (x[j * dim + d] - x[i * dim + d]);
+    return sqrt(sum);
+}
+
+/* ---- an allocator that counts and can fail ------------------------------------------------------------------------- */
+
+typedef struct pool {
+    int64_t blocks, bytes, peak, calls, fail_at; /* fail_at: number of the call that fails, from 0; -1 = none */
+    int     wrong;
+} pool;
+
+static inline void *pool_take(void *user, uint64_t bytes) {
+    pool *p = (pool *)user;
+    unsigned char *raw;
+    if (p->calls++ == p->fail_at) return NULL;
+    raw = (unsigned char *)malloc((size_t)bytes + 16);
+    if (!raw) return NULL;
+    memset(raw, 0xAA, (size_t)bytes + 16);
+    memcpy(raw, &bytes, 8);
+    p->blocks++;
+    p->bytes += (int64_t)bytes;
+    if (p->bytes > p->peak) p->peak = p->bytes;
+    return raw + 16;
+}
+static inline void pool_give(void *user, void *pointer, uint64_t bytes) {
+    pool *p = (pool *)user;
+    unsigned char *raw = (unsigned char *)pointer - 16;
+    uint64_t size;
+    if (!pointer) return;
+    memcpy(&size, raw, 8);
+    if (size != bytes) p->wrong++;
+    p->blocks--;
+    p->bytes -= (int64_t)size;
+    memset(raw, 0x55, (size_t)size + 16);
+    free(raw);
+}
+static inline void hook(peri_body_desc *d, pool *p) {
+    d->allocate = pool_take;
+    d->release = pool_give;
+    d->memory_user = p;
+}
+
+#endif
