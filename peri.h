@@ -638,7 +638,7 @@ PERI_API int32_t peri_read_momentum(peri_body *body, double *linear, double *ang
 typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 
 /* VTK XML unstructured grid for ParaView: points at reference positions, fields displacement, velocity, damage, energy density,
-   material, volume; binary. ParaView's "Warp By Vector" shows the deformed body. */
+   material, volume, stress (a symmetric tensor); binary. ParaView's "Warp By Vector" shows the deformed body. */
 PERI_API int32_t peri_write_vtu(peri_body *body, peri_write_fn write, void *user);
 
 /* One CSV line: step, time, the ledger in the order of peri_energy, broken and cut bonds; with header = 1 the names first. */

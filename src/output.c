@@ -48,13 +48,14 @@ static int32_t peri__finish(peri_body *b, peri__writer *w) {
 
 typedef struct peri__vtu_array {
     const char *name;
-    int32_t     field, components; /* 3: a vector, with z = 0 in 2D                                                      */
+    int32_t     field, components; /* 3: a vector, with z = 0 in 2D; 6: a symmetric tensor, xx yy zz xy yz xz            */
 } peri__vtu_array;
 
 static const peri__vtu_array peri__vtu_arrays[] = {
     { "displacement", PERI_DISPLACEMENT, 3 },     { "velocity", PERI_VELOCITY, 3 },
     { "damage", PERI_DAMAGE, 1 },                 { "energy_density", PERI_ENERGY_DENSITY, 1 },
     { "material", PERI_MATERIAL, 1 },             { "volume", PERI_VOLUME, 1 },
+    { "stress", PERI_STRESS, 6 },
 };
 #define PERI_VTU_ARRAYS (sizeof peri__vtu_arrays / sizeof peri__vtu_arrays[0])
 
@@ -80,12 +81,16 @@ static void peri__emit_length(peri__writer *w, int64_t bytes) {
 
 /* `values` is scratch for one field. */
 static void peri__emit_field(peri_body *b, peri__writer *w, int32_t field, int32_t components, double *values) {
+    static const int32_t plane[6] = { 0, 1, 3, 2, 3, 3 }; /* of a tensor xx yy xy; 3: none                                */
     int32_t have = peri__components(field, b->dim);
     const double zero = 0.0;
     peri__compute(b, field, values);
     peri__emit_length(w, b->model->points * components * 8);
     for (int64_t i = 0; i < b->model->points; ++i)
-        for (int32_t d = 0; d < components; ++d) peri__emit(w, d < have ? &values[i * have + d] : &zero, sizeof zero);
+        for (int32_t d = 0; d < components; ++d) {
+            int32_t from = components == 6 && b->dim == 2 ? plane[d] : d;
+            peri__emit(w, from < have ? &values[i * have + from] : &zero, sizeof zero);
+        }
 }
 
 PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
@@ -95,7 +100,7 @@ PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
     PERI_NEED_BUILT(b);
     PERI_NEED(b, write, "write");
     n = b->model->points;
-    double *values = (double *)peri__new(&b->memory, n * b->dim, sizeof(double));
+    double *values = (double *)peri__new(&b->memory, n * PERI_PACKED(b->dim), sizeof(double));
     if (!values) return peri__fail(b, PERI_ERROR_MEMORY, "vtu", -1, 0.0);
     w.body = b;
     w.write = write;
@@ -137,7 +142,7 @@ PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
         peri__emit(&w, &vertex, 1);
     }
     peri__emit_text(&w, "\n</AppendedData>\n</VTKFile>\n");
-    peri__delete(&b->memory, values, n * b->dim, sizeof(double));
+    peri__delete(&b->memory, values, n * PERI_PACKED(b->dim), sizeof(double));
     return peri__finish(b, &w);
 }
 

@@ -302,6 +302,16 @@ static void vtu(int32_t space, int32_t precision) {
         compare(find(a, count, fields[k].name), x, n, k < 2 ? dim : 1, fields[k].name);
         free(x);
     }
+    x = get(b, PERI_STRESS); /* ParaView's order of a symmetric tensor is xx yy zz xy yz xz */
+    for (i = 0; i < n; ++i)
+        for (k = 0; k < 6; ++k) {
+            static const int plane[6] = {0, 1, -1, 2, -1, -1};
+            int from = dim == 3 ? k : plane[k];
+            const array *stress = find(a, count, "tress");
+            CHECK(stress && stress->components == 6);
+            if (stress) CHECK_NEAR(number(stress, 6 * i + k), from < 0 ? 0 : x[i * (dim == 3 ? 6 : 3) + from], 0, 0);
+        }
+    free(x);
     for (k = 0; k < count; ++k) /* the array inside <Points>: three components, none of the fields */
         if (a[k].components == 3 && !strstr(a[k].name, "isplacement") && !strstr(a[k].name, "elocity")) place = &a[k];
     x = get(b, PERI_POSITION);
