@@ -43,9 +43,9 @@
               A call that fails has changed nothing, unless its text says otherwise. An id that came from a failed call is
               negative and is refused by the next call, so a chain of set-up calls cannot go silently wrong.
      Owner    You own what you pass in: descriptors and arrays are copied. The body owns what views point to.
-     Callbacks may read the body (within a step, forces and velocities are those under way). on_frame may also cut, select, and
-              add or remove loads and obstacles. Any other change to the body that made the call is refused with
-              PERI_ERROR_ORDER; destroying it is ignored.
+     Callbacks may read the body (within a step, forces and velocities are those under way). on_frame may also cut, select,
+              set no-fail zones and break callbacks, and add or remove loads and obstacles. Any other change to the body
+              that made the call is refused with PERI_ERROR_ORDER; destroying it is ignored.
      Threads  One body: one thread at a time. Different bodies, clones included: any threads at once (your hooks, which clones
               share, must then bear it). Callbacks run on the thread that made the call, one at a time (exception: the tasks
               that you are given in parallel_for).
@@ -207,7 +207,7 @@ typedef enum peri_influence {
     PERI_INFLUENCE_POLE_HALF    = 14, /* 1/(2q - 1), also beyond                 [T] asymptote at horizon/2              */
     PERI_INFLUENCE_POLE_QUARTER = 15, /* exp(1/(q - 1/4)), also beyond           [T] asymptote at horizon/4              */
     PERI_INFLUENCE_USER         = 16  /* influence_fn of the descriptor                                                  */
-} peri_influence;                     /* 12, 14, 15 have no finite moments: no bond-based constants exist for them       */
+} peri_influence;                     /* 12, 14, 15 are taken as having no finite moments: no bond-based constants, no s0 from G0       */
 
 /* Quadrature: how much of a neighbour's cell counts, and from where. Cells are boxes or moved quadrilaterals where the
    library made the points, and squares or cubes of the given volume where you gave them. Weights are made mutual (the mean
@@ -232,7 +232,8 @@ typedef enum peri_break_timing {
 /* What makes good for the part of a family that is missing at a surface, and for the coarseness of a sum over few points.
    Without it a bond-based body is soft near its surfaces. State-based laws divide by moments of the family as it is, and so are
    calibrated point by point as they stand: LPS without correction acts like bond-based with PERI_ENERGY_CORRECTION. Costs set-up
-   time only. Measured, plane stress, horizon of 3 spacings:
+   time; and bonds near surfaces then differ one by one, so that fewer bodies can use the fast columns: bond-based 1.5 times the time
+   per step in 2D, ordinary state-based with the moment correction up to 7 times. Measured, plane stress, horizon of 3 spacings:
                                             none   volume  energy  moment   LPS, none  LPS, moment  correspondence
      bulk energy, mean error over strains   3.8 %   2.2 %   1.4 %     0        1.5 %       0            0
      the same at faces                       22 %    17 %    17 %    13 %       12 %       0            0
@@ -251,7 +252,7 @@ typedef enum peri_correction {
                                    energy of the solid (after Trask et al. 2019), bond-based moduli calibrated as above: exact to
                                    rounding in the bulk; near surfaces as far as weights that are not negative allow. Where it would
                                    take factors above 10 (edges; m near 1; steep poles) it is a compromise, and the log says so;
-                                   families with negative w stay as they are. Oterkus's theta has a moment of its own: exact in
+                                   families with negative w keep their shape. Oterkus's theta has a moment of its own: exact in
                                    the bulk of lattices, to 1 % at faces                                                 */
 } peri_correction;
 
@@ -310,7 +311,8 @@ PERI_API int32_t peri_last_error(const peri_body *body, peri_error *error);
 
    A = 3K - 5 mu, B = 15 mu in 3D; 2 lambda - 2 mu, 8 mu in plane strain; the same with lambda' = E nu/(1-nu^2) in plane stress.
    LPS at the Poisson ratio of a bond-based material has A = 0 and skips theta. Oterkus takes the spring of LPS where a family has less
-   than a fifth of the moment that calibrates shear. Oterkus's factor Lambda (cosine of the bond's rotation)
+   than a fifth of the moment that calibrates shear, and never one that could make the energy negative (families of odd shape at low
+   Poisson ratios). Oterkus's factor Lambda (cosine of the bond's rotation)
    is taken as 1: with it the law would not be objective. Bonds that are broken or cut are in none of the sums. A correspondence point
    whose live bonds span too little (K nearly singular) acts by central bonds alone, t = B w e/m0 with m0 of the whole family. */
 typedef enum peri_model {
@@ -325,7 +327,7 @@ typedef enum peri_model {
    either is met, at the lower limit where both have the same. */
 typedef enum peri_criterion {
     PERI_CRITERION_STRETCH     = 1, /* s > s0                                                         ([T] 1.40, 1.41)     */
-    PERI_CRITERION_BOND_ENERGY = 2, /* state-based: the work done on the bond, int (t_i + t_j) M.d eta, passes w0 = 4 G0/(pi h^4) in
+    PERI_CRITERION_BOND_ENERGY = 2, /* state-based: the work done on the bond, int (T_i + T_j).d eta, passes w0 = 4 G0/(pi h^4) in
                                        3D, 3 G0/(2 h^3 thickness) in 2D ([T] 1.100, 1.101), h the horizon; keeps dim + 1 numbers per
                                        bond                                                                              */
     PERI_CRITERION_NODE_ENERGY = 3  /* state-based: the mean over both ends of 2 W/(sum of beta V_j over the whole family) passes w0
@@ -367,7 +369,7 @@ PERI_API int32_t peri_set_interface(peri_body *body, int32_t i, int32_t j, const
    have no c: it must be NULL (else PERI_ERROR_MODEL). */
 PERI_API int32_t peri_read_bond_constants(peri_body *body, int32_t i, int32_t j, double *c, double *s0);
 
-/* Critical bond energy w0 [M L^-5 T^-2: energy per volume squared, in 2D volume = area times thickness] of a material whose criterion
+/* Critical bond energy w0 [M L^-4 T^-2: energy per volume squared, in 2D volume = area times thickness] of a material whose criterion
    is an energy; HUGE_VAL = none. */
 PERI_API int32_t peri_read_critical_energy(peri_body *body, int32_t material, double *w0);
 
@@ -416,7 +418,8 @@ PERI_API double  peri_time(const peri_body *body);           /* [T] since build 
    ([T] 2.11: sqrt(2 rho / sum c V / |xi|)) and of the obstacles. Safe, not sharp: the true limit is up to 1.5 times larger, in
    small or cut bodies up to 3 times.
    Broken bonds only make a bond-based body softer. State-based laws spread the modulus over the bonds that are left, so a point that
-   hangs on a few short ones is stiffer than before: for them this is the value for the bonds as they are. 0 before peri_build. */
+   hangs on a few short ones is stiffer than before: for them this falls as bonds break, and never exceeds that of the whole body.
+   0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
 /* Rows [first, first+count) of the N x M family array ([T] 3.11) to rows[count*width]: ascending ids, padded with the
@@ -572,7 +575,7 @@ typedef enum peri_field {
     PERI_DAMAGE_GROWN   = 9,  /* the same among bonds that were not cut before the first step                   derived  */
     PERI_ENERGY_DENSITY = 10, /* elastic energy density W of the law [M L^-1 T^-2]                ([P] eq. 7)   derived  */
     PERI_CURRENT        = 11, /* [dim] current position [L]                                                     derived  */
-    PERI_DILATATION     = 12, /* theta of the law; bond-based: that of LPS; correspondence: tr(strain)          derived  */
+    PERI_DILATATION     = 12, /* theta of the law; bond-based: of LPS with w/|xi|; correspondence: tr(strain)   derived  */
     PERI_STRAIN         = 13, /* [tensor] F = (sum w Y xi V) K^-1 over live bonds: 1/2(F + F^T) - 1 where the geometry is linear
                                  ([T] 4.14), else Green-Lagrange 1/2(F^T F - 1), zero for rotations             derived  */
     PERI_STRESS         = 14, /* [tensor] Cauchy stress of the material at this F [M L^-1 T^-2]; in 2D per area in the plane, the

@@ -86,37 +86,49 @@ static void peri__release_model(peri__model *m, size_t real) {
     peri__delete(&memory, m, 1, sizeof *m);
 }
 
+/* What a material that is used asks of the body. */
+static void peri__note_law(peri__model *m, const peri__law *law, int32_t criterion) {
+    int ordinary = law->model == PERI_LPS || law->model == PERI_OTERKUS;
+    if (law->model != PERI_BOND_BASED) m->states = 1;
+    if (law->model == PERI_CORRESPONDENCE) m->tensors = 1;
+    if (law->model == PERI_OTERKUS || (law->model == PERI_LPS && law->a != 0.0)) m->dilates = 1;
+    if (criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
+    if (criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
+    if (!ordinary || (m->ordinary && m->ordinary != law->model)) m->mixed = 1;
+    m->ordinary = law->model;
+}
+
 /* Units of stress and density, and the constants of all pairs of materials in them. */
 static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
     int32_t n = b->material_count;
+    peri__pair own[PERI_MATERIAL_LIMIT];
+    uint8_t used[PERI_MATERIAL_LIMIT] = { 0 };
     m->materials = n;
+    for (int64_t i = 0; i < m->points; ++i) used[m->material[i]] = 1;
     m->pairs = (peri__pair *)peri__new(&m->memory, (int64_t)n * n, sizeof *m->pairs);
     if (!m->pairs) return peri__fail(b, PERI_ERROR_MEMORY, "materials", -1, 0.0);
     m->density = b->materials[0].density;
     for (int32_t i = 0; i < n; ++i) {
         double young = peri__young(&b->materials[i], b->desc.space);
-        if (young > m->stress) m->stress = young;
+        if (used[i] && young > m->stress) m->stress = young;
     }
     m->time = m->length * sqrt(m->density / m->stress);
     m->energy = m->stress * m->length * m->length * (b->dim == 3 ? m->length : b->desc.thickness);
     for (int32_t i = 0; i < n; ++i) {
         m->rho[i] = b->materials[i].density / m->density;
         m->laws[i] = peri__law_of(&b->materials[i], b->desc.space, m->stress);
-        if (m->laws[i].model != PERI_BOND_BASED) m->states = 1;
-        if (m->laws[i].model == PERI_CORRESPONDENCE) m->tensors = 1;
-        if (m->laws[i].model == PERI_OTERKUS) m->dilates = 1;
-        if (m->laws[i].model == PERI_LPS && m->laws[i].a != 0.0) m->dilates = 1;
-        if (b->materials[i].criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
-        if (b->materials[i].criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
-        if (i == 0 && m->states && !m->tensors) m->ordinary = m->laws[i].model;
-        if (m->laws[i].model != m->ordinary) m->ordinary = 0;
+        if (used[i]) peri__note_law(m, &m->laws[i], b->materials[i].criterion);
+        int32_t status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
+        if (status < 0) return status;
+    }
+    if (m->mixed) m->ordinary = 0;
+    for (int32_t i = 0; i < n; ++i)
         for (int32_t j = 0; j < n; ++j) {
             peri__pair *pair = &m->pairs[i * n + j];
-            int32_t status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, pair);
+            int32_t status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, own, pair);
             if (status < 0) return status;
             if (pair->s0 < PERI_NEVER || pair->bond_energy < PERI_NEVER || pair->node_energy < PERI_NEVER) m->breakable = 1;
         }
-    }
     return PERI_OK;
 }
 
@@ -277,6 +289,7 @@ static int32_t peri__new_state(peri_body *b) {
     if (status < 0 || !m->states) return status;
     b->stale = 1;
     peri__refresh(b);
+    b->model->rate = b->fastest; /* of the whole body: broken bonds may only raise it */
     return b->fastest > 1e-30 && b->fastest < 1e30 ? PERI_OK : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
 }
 

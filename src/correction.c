@@ -175,8 +175,9 @@ static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     double h = m->horizon, moment = 0.0;
     size_t real = b->f32 ? sizeof(float) : sizeof(double);
     m->back = m->weight;
-    if (b->desc.correction == PERI_NO_CORRECTION || (m->states && b->desc.correction != PERI_MOMENT_CORRECTION && m->materials == 1))
-        return PERI_OK;
+    int32_t bonds = 0;
+    for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].model == PERI_BOND_BASED;
+    if (b->desc.correction == PERI_NO_CORRECTION || (!bonds && b->desc.correction != PERI_MOMENT_CORRECTION)) return PERI_OK;
     if (m->states) m->back = peri__new(&m->memory, entries, real);
     f.cloud = c;
     f.factor = (double *)peri__new(&m->memory, entries, sizeof *f.factor);

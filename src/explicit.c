@@ -30,7 +30,7 @@ PERI_API void peri_run_init(peri_run *r) {
    diagonal and once off it; obstacles once, taken as if all touched the lightest point. */
 static double peri__stable(const peri_body *b) {
     const peri__model *m = b->model;
-    double lambda = m->states ? b->fastest : m->rate, lightest = m->rho[0];
+    double lambda = b->fastest > m->rate ? b->fastest : m->rate, lightest = m->rho[0];
     for (int32_t k = 1; k < m->materials; ++k)
         if (m->rho[k] < lightest) lightest = m->rho[k];
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -213,7 +213,7 @@ static int32_t peri__plan_steps(peri_body *b, const peri_run *r, double left, pe
 
 /* Is a step of `size` too large by now? State-based bonds that broke, or an obstacle that on_frame added, can have made it so. */
 static int peri__outrun(const peri_body *b, const peri_run *r, double size) {
-    return !r->force_step && size > peri__stable(b) * (1.0 + 1e-12);
+    return !(r->force_step && r->time_step > 0.0) && size > peri__stable(b) * (1.0 + 1e-12);
 }
 
 static int32_t peri__march(peri_body *b, const peri_run *r) {
@@ -249,8 +249,8 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
             left_to_frame = r->frame_steps;
             status = peri__show_frame(b, r);
         }
-        if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, plan.dt)) {
-            if (r->time_step > 0.0 || !m->states) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
+        if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, plan.done + 1 == plan.steps ? plan.last : plan.dt)) {
+            if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
             plan.dt = r->safety * peri__stable(b);
             status = peri__plan_steps(b, r, plan.end - b->time, &plan);
         }

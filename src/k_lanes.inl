@@ -218,7 +218,7 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
 }
 
 /* Adds the force of all live bonds of a group of correspondence points to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta); no central bonds.
-   Returns nonzero where a bond comes near its critical stretch, |y| > (1 + s0) |xi| or xi.eta > s0 |xi|^2. */
+   Returns nonzero where a bond comes near its critical stretch, (2 xi + eta).eta > s0 (2 + s0) |xi|^2 or xi.eta > s0 |xi|^2. */
 PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
@@ -228,7 +228,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
     const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *q = (const peri_r *)b->response + m->margin + m->stride + g * PERI_LANES;
     const peri_r *k = (const peri_r *)b->constant + m->margin + PERI__VECTOR * m->stride + g * PERI_LANES;
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const double near_s0 = b->pairs->s0 * (1.0 - PERI_NEAR), stretched = linear ? near_s0 : peri__square(1.0 + near_s0);
+    const double near_s0 = b->pairs->s0 * (1.0 - PERI_NEAR), stretched = linear ? near_s0 : near_s0 * (2.0 + near_s0);
     peri_r ui[PERI_D][PERI_LANES], qi[PERI_D][PERI_D][PERI_LANES], ki[PERI_LANES];
     peri_i hit[PERI_LANES];
     int any = 0;
@@ -252,10 +252,10 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
         for (int l = 0; l < PERI_LANES; ++l) reach[l] = 0;
         for (int a = 0; a < PERI_D; ++a)
             for (int l = 0; l < PERI_LANES; ++l) {
-                const peri_r eta = uj[a * m->stride + l] - ui[a][l], y = xi[a] + eta;
+                const peri_r eta = uj[a * m->stride + l] - ui[a][l];
                 t[a][l] = (ki[l] + kj[l]) * eta;
                 for (int d = 0; d < PERI_D; ++d) t[a][l] += (qi[a][d][l] + qj[(a * PERI_D + d) * m->stride + l]) * xi[d];
-                reach[l] += linear ? xi[a] * eta : y * y;
+                reach[l] += (linear ? xi[a] : 2 * xi[a] + eta) * eta;
             }
         for (int l = 0; l < PERI_LANES; ++l) hit[l] |= (reach[l] > limit) & (mask >> l & 1);
         for (int a = 0; a < PERI_D; ++a)

@@ -341,9 +341,10 @@ static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, per
             PERI_FN(respond_tensor)(b, i, n);
         } else if (law != PERI_BOND_BASED)
             ((peri_r *)b->response)[m->margin + i] =
-                constant[PERI__PRESS * m->stride] == 0 ? 0
-                                                       : constant[PERI__PRESS * m->stride] * constant[PERI__DILATE * m->stride]
-                                                             * (peri_r)PERI_FN(stretched)(b, i, &square);
+                constant[PERI__PRESS * m->stride] == 0
+                    ? 0 /* the product of the two constants alone can leave the range of float */
+                    : constant[PERI__PRESS * m->stride]
+                          * (constant[PERI__DILATE * m->stride] * (peri_r)PERI_FN(stretched)(b, i, &square));
         if (b->node) b->node[i] = 2.0 * PERI_FN(point_energy)(b, i) / peri__family_volume(m, i);
     }
 }
@@ -373,7 +374,7 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
         }
         PERI_ON_LANES(m->lanes.isa, stretched, (b, g, gauged, sum));
         for (int l = 0; l < PERI_LANES; ++l)
-            response[l] = constant[PERI__PRESS * m->stride + l] * constant[PERI__DILATE * m->stride + l] * sum[l];
+            response[l] = constant[PERI__PRESS * m->stride + l] * (constant[PERI__DILATE * m->stride + l] * sum[l]);
     }
 }
 

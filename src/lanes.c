@@ -13,7 +13,7 @@
 
 #define PERI_VECTOR_LIMIT 1024
 #define PERI_VECTOR_SLOTS 4096    /* open addressing                                                                     */
-#define PERI_VECTOR_GRAIN 1.5e-11 /* bond vectors nearer than this, in spacings, are one: far above rounding             */
+#define PERI_VECTOR_GRAIN 1.5e-11 /* bonds nearer than this, in spacings and largest weights, are one: far above rounding */
 
 typedef struct peri__vector { /* a row of the table, and its key in grains                                                */
     int64_t key[4];
@@ -22,6 +22,7 @@ typedef struct peri__vector { /* a row of the table, and its key in grains      
 
 typedef struct peri__vectors {
     int32_t      count;
+    double       heaviest;                /* largest weight: the unit of its grain                                       */
     int32_t      slot[PERI_VECTOR_SLOTS]; /* row + 1; 0: free                                                            */
     peri__vector row[PERI_VECTOR_LIMIT];
 } peri__vectors;
@@ -39,13 +40,12 @@ static int32_t peri__vector_of(peri__vectors *v, const peri_body *b, const doubl
     const peri__model *m = b->model;
     int64_t at = i * m->width + k, j = m->ids[at], key[4] = { 0, 0, 0, 0 };
     double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(m->weight, b->f32, at);
-    if (!(fabs(weight) < 1e6)) return -1;
     for (int32_t d = 0; d < m->dim; ++d) {
         xi[d] = x[j * m->dim + d] - x[i * m->dim + d];
         if (!(fabs(xi[d]) < 1e6)) return -1;
         key[d] = (int64_t)floor(xi[d] / PERI_VECTOR_GRAIN + 0.5);
     }
-    key[3] = (int64_t)floor(weight / PERI_VECTOR_GRAIN + 0.5);
+    key[3] = (int64_t)floor(weight / v->heaviest / PERI_VECTOR_GRAIN + 0.5);
     int32_t *slot = peri__vector_slot(v, key);
     if (*slot == 0) {
         if (v->count == PERI_VECTOR_LIMIT) return -1;
@@ -136,6 +136,10 @@ typedef struct peri__lane_draft { /* what building needs and drops              
 /* Collects the columns of all groups: PERI_OK, PERI_ERROR_FAMILY where the points are no lattice, or PERI_ERROR_MEMORY. */
 static int32_t peri__draft_lanes(const peri_body *b, peri__lane_draft *draft, const double *x) {
     peri__lanes *l = &b->model->lanes;
+    for (int64_t k = 0; k < b->model->points * b->model->width; ++k) {
+        double weight = fabs(peri__get_real(b->model->weight, b->f32, k));
+        if (weight > draft->vectors.heaviest) draft->vectors.heaviest = weight;
+    }
     for (int64_t g = 0; g < l->groups; ++g) {
         int64_t count = peri__group_entries(&draft->vectors, b, x, g, draft->entry);
         if (count < 0) return PERI_ERROR_FAMILY;

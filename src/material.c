@@ -159,24 +159,21 @@ static int32_t peri__constants(peri_body *b, const peri_material *m, double stre
 
 static double peri__lower(double a, double b) { return a < b ? a : b; }
 
-/* The same for the bonds between materials i and j, c as of the end i. */
+/* The same for the bonds between materials i and j, c as of the end i; own: of each material by itself. */
 static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double stress, double length, double edge,
-                                    peri__pair *pair) {
-    peri__pair p, q;
+                                    const peri__pair *own, peri__pair *pair) {
+    const peri__pair *p = &own[i], *q = &own[j];
     for (int64_t k = 0; k < b->interface_count; ++k) {
         const peri__interface *face = &b->interfaces[k];
         if ((face->i == i && face->j == j) || (face->i == j && face->j == i))
             return peri__constants(b, &face->material, stress, length, edge, pair);
     }
-    int32_t status = peri__constants(b, &b->materials[i], stress, length, edge, &p);
-    if (status == PERI_OK) status = peri__constants(b, &b->materials[j], stress, length, edge, &q);
-    if (status < 0) return status;
-    *pair = p;
-    pair->s0 = peri__lower(p.s0, q.s0);
-    pair->bond_energy = peri__lower(p.bond_energy, q.bond_energy);
-    pair->node_energy = peri__lower(p.node_energy, q.node_energy);
+    *pair = *p;
+    pair->s0 = peri__lower(p->s0, q->s0);
+    pair->bond_energy = peri__lower(p->bond_energy, q->bond_energy);
+    pair->node_energy = peri__lower(p->node_energy, q->node_energy);
     if (i != j && b->materials[i].model == PERI_BOND_BASED && b->materials[j].model == PERI_BOND_BASED)
-        pair->c = 2.0 * p.c * q.c / (p.c + q.c);
+        pair->c = 2.0 * p->c * q->c / (p->c + q->c);
     return PERI_OK;
 }
 
@@ -189,14 +186,16 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
         return peri__fail(b, PERI_ERROR_MODEL, "c", -1, 0.0);
     int solid = b->desc.space == PERI_SOLID;
     double edge = 0.0, length = b->desc.horizon, stress = peri__young(&b->materials[i], b->desc.space);
-    peri__pair pair;
+    peri__pair pair, own[PERI_MATERIAL_LIMIT];
     if (b->desc.influence == PERI_INFLUENCE_POLE_EDGE) {
         PERI_NEED_BUILT(b);
         edge = 0.5 * b->model->spacing / b->model->horizon;
     }
     int32_t running = b->running;
     b->running = 2; /* influence_fn may be called */
-    status = peri__pair_constants(b, i, j, stress, length, edge, &pair);
+    status = peri__constants(b, &b->materials[i], stress, length, edge, &own[i]);
+    if (status == PERI_OK) status = peri__constants(b, &b->materials[j], stress, length, edge, &own[j]);
+    if (status == PERI_OK) status = peri__pair_constants(b, i, j, stress, length, edge, own, &pair);
     b->running = running;
     if (status < 0) return status;
     if (c) *c = pair.c * stress / (length * length * length * (solid ? length : b->desc.thickness));

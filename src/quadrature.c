@@ -68,6 +68,11 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             if (m->centroid)
                 for (int32_t d = 0; d < dim; ++d) peri__put_real(m->centroid, b->f32, at * dim + d, centre[d]);
             peri__put_real(m->weight, b->f32, at, w);
+            if (!peri__finite(peri__get_real(m->weight, b->f32, at))) { /* beyond the range of float */
+                sums->bad = i;
+                sums->n = PERI_ERROR_INFLUENCE;
+                return;
+            }
             peri__put_real(m->bond, b->f32, at, length);
             total += fabs(w);
             stiff += w * length * length;

@@ -11,6 +11,7 @@
 typedef struct peri__moments { /* sums over the bonds of a family, inner units                                            */
     double m;            /* w |xi|^2 V                                                                                   */
     double length;       /* w |xi| V                                                                                     */
+    double plain;        /* w V                                                                                          */
     double shear;        /* w xi_a^2 xi_b^2/|xi|^2 V, mean over the planes a < b                                         */
     double shape[6];     /* w xi xi V                                                                                    */
 } peri__moments;
@@ -37,6 +38,7 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, int liv
         peri__bond_of(m, b->f32, i, k, xi);
         sum.m += weight * bond * bond;
         sum.length += weight * bond;
+        sum.plain += weight;
         for (int a = 0; a < m->dim; ++a)
             for (int c = a; c < m->dim; ++c) {
                 sum.shape[peri__packed(m->dim, a, c)] += weight * xi[a] * xi[c];
@@ -66,9 +68,12 @@ static void peri__set_constants(peri_body *b, int64_t i) {
         press = law->a / dim * dilate;
         spring = law->b / sum.m;
     } else if (sum.m > 0.0 && law->model == PERI_OTERKUS) {
-        /* b = mu/(2 S), a = (bulk - 2 b m/D^2)/2 ([C] 16, 17); a family without shear bonds to calibrate on takes that of LPS */
+        /* b = mu/(2 S), a = (bulk - 2 b m/D^2)/2 ([C] 16, 17); a family without shear bonds to calibrate on takes that of LPS. The energy
+           is never negative while q + (bulk - q m/D^2) D^2 sum(w V)/(sum w |xi| V)^2 >= 0 (Cauchy-Schwarz): q stays within that. */
+        double room = sum.m * sum.plain / (sum.length * sum.length) - 1.0;
         dilate = dim / sum.length;
         spring = dim * (dim + 2) * sum.shear > 0.2 * sum.m ? law->mu / sum.shear : law->b / sum.m;
+        if (spring * sum.m * room > law->bulk * dim * dim * (1.0 + room)) spring = law->bulk * dim * dim * (1.0 + room) / (room * sum.m);
         press = (law->bulk - spring * sum.m / (dim * dim)) * dilate;
     } else if (sum.m > 0.0) {
         if (peri__invert(dim, sum.shape, PERI_SPAN, inverse) == dim) {
@@ -181,7 +186,7 @@ static void peri__rates_block(void *context, int64_t begin, int64_t end, peri__s
 static void peri__find_fastest(peri_body *b) {
     b->fastest = 0.0;
     for (int64_t i = 0; i < b->model->points; ++i)
-        if (b->rate[i] > b->fastest) b->fastest = b->rate[i];
+        if (!(b->rate[i] <= b->fastest)) b->fastest = b->rate[i]; /* NaN, too: it is refused */
 }
 
 /* Brings the constants up to date with the bonds that are left. */

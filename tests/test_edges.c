@@ -164,12 +164,16 @@ static void obstacle_in_a_frame(void) {
     run.frame_steps = 5;
     run.on_frame = add_stiff_plane;
     run.user = &plane;
+    run.time_step = 0.9 * before;
     CHECK(peri_advance(b, &run) == PERI_ERROR_STEP && peri_step_count(b) == 5);
     CHECK(peri_last_error(b, &e) == PERI_OK && e.value == peri_stable_step(b) && e.value < 0.2 * before);
     MUST(b, peri_remove_obstacle(b, plane));
     CHECK(peri_stable_step(b) == before);
     CHECK(peri_remove_obstacle(b, plane) == PERI_ERROR_ID);
     MUST(b, run_steps(b, 15, 0));
+    MUST(b, peri_reset(b));
+    run.time_step = 0; /* a step that was not given gets shorter instead */
+    CHECK(peri_advance(b, &run) == PERI_OK && peri_step_count(b) == 20 && peri_stable_step(b) < 0.2 * before);
     peri_body_destroy(b);
 }
 
