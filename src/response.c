@@ -93,7 +93,7 @@ static void peri__set_constants(peri_body *b, int64_t i) {
 
 /* ---- stiffness ---------------------------------------------------------------------------------------------------- */
 
-/* The Hessian of the energy is that of springs, sum q w e^2, and of kappa theta^2 (or C |H|^2). Rows of the first sum to twice the
+/* At rest, the Hessian of the energy is that of springs, sum q w e^2, and of kappa theta^2 (or C |H|^2). Rows of the first sum to twice the
    springs. theta = G u with |G_ij| = d w g V: rows of G^T kappa G sum to sum_i |G_ij| kappa_i R_i with R_i the row sum of |G|. */
 
 /* d g of a bond of point i, or |K^-1 xi|: the size of what the bond adds to theta or H. */

@@ -111,7 +111,8 @@ typedef struct peri__model {
     double  spacing;           /* mean, inner units                                                                      */
     double  extent;            /* largest coordinate, inner units: times the rounding unit, the error of a position      */
     double  energy;            /* unit of energy, thickness included                                                     */
-    double  rate;              /* largest 2 sum(c w V/|xi|)/rho of a point: bounds the square of the highest frequency    */
+    double  rate;              /* bounds the square of the highest frequency, all bonds whole: the largest row sum of the
+                                  stiffness over rho; bond-based, of 2 c w V/|xi|                                         */
 
     void      *x;        /* real [dim][stride] reference positions                                                       */
     double    *volume;   /* [points]                                                                                     */
