@@ -22,7 +22,8 @@ typedef struct expected {
 
 /* Tolerances: 1e-12 for sums of up to 924 terms, more where weights of both signs cancel in m or in sum w|xi| (POLE_HALF); 1e-10 where
    a fit is part of it. The moment correction leaves families with negative weights as they are, and is a compromise where steep
-   poles would take large factors (peri.h): POLE_QUARTER, where only the energy of isotropic strain is exact. */
+   poles would take large factors (peri.h): POLE_QUARTER, where only the energy of isotropic strain is exact. So it is where Oterkus's
+   spring meets the bound of its energy (stiffness_of_law), which is taken of the sums before the fit, hence the 0.8. */
 static expected expect(const scene *s, const sums *o, int32_t model, double nu) {
     expected x;
     scene plain = *s;
@@ -37,6 +38,12 @@ static expected expect(const scene *s, const sums *o, int32_t model, double nu) 
     x.tolerance = 1e-12 * fmax(o->size / o->m, o->span / fabs(o->length));
     if (fitted) x.tolerance = fmax(x.tolerance, 1e-10);
     x.usable = !fitted || s->influence != PERI_INFLUENCE_POLE_QUARTER;
+    if (fitted && model == PERI_OTERKUS) {
+        const moduli e = moduli_of(s->space, nu);
+        const int dim = dim_of(s->space);
+        const double over = o->m * o->plain / (o->length * o->length) - 1;
+        if (dim * (dim + 2) * e.mu * over > 0.8 * e.bulk * dim * dim * (over + 1)) x.usable = 0;
+    }
     return x;
 }
 

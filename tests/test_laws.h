@@ -108,6 +108,7 @@ typedef struct tensor4 {
 typedef struct sums {
     int     bonds;
     double  volume;      /* V                                   */
+    double  plain;       /* w V                                 */
     double  m;           /* w |xi|^2 V                          */
     double  size;        /* |w| |xi|^2 V                        */
     double  length;      /* w |xi| V                            */
@@ -146,6 +147,7 @@ static inline void lattice_sums(const scene *s, sums *o) {
                 for (a = 0; a < 3; ++a) xi[a] = H * n[a];
                 o->bonds++;
                 o->volume += cell;
+                o->plain += w;
                 o->m += w * len * len;
                 o->size += fabs(w) * len * len;
                 o->length += w * len;
@@ -200,7 +202,8 @@ static inline void stiffness_of_sums(int dim, double alpha, double t[3][3], doub
                      changes nothing: sum w e^2 V over the mean of all deviators depends on m alone, which B is divided by
      Oterkus         [C] 8-17: W = a theta^2 + b sum w e^2 V, theta = d sum w e V; d = D/sum w|xi|V ([C] 12), b = mu/(2 shear)
                      ([C] 15, 16: simple shear s has the energy mu s^2/2), a = (bulk - 2 b m/D^2)/2 ([C] 13, 17: isotropic strain);
-                     with next to no bonds for shear (isotropic: shear = m/(D(D+2)); here less than a fifth of it) that of LPS, B/(2m)
+                     with next to no bonds for shear (isotropic: shear = m/(D(D+2)); here less than a fifth of it) that of LPS, B/(2m).
+                     By Cauchy-Schwarz theta^2 <= d^2 sum w V sum w e^2 V, so W >= 0 needs b + a d^2 sum w V >= 0 where a < 0: no larger b
      correspondence  F is exact for any family, and so is W; the stabilization is 0
    With the moment correction: that of the solid, which is what it is for. */
 static inline void stiffness_of_law(const scene *s, const sums *o, int32_t model, double nu, tensor4 *out) {
@@ -215,7 +218,9 @@ static inline void stiffness_of_law(const scene *s, const sums *o, int32_t model
     } else if (model == PERI_OTERKUS) {
         int none_to_shear = dim * (dim + 2) * o->shear < 0.2 * o->m;
         double b = none_to_shear ? dim * (dim + 2) * e.mu / (2 * o->m) : e.mu / (2 * o->shear);
-        double d = dim / o->length, a = 0.5 * (e.bulk - 2 * b * o->m / d2);
+        double d = dim / o->length, a, over = o->m * o->plain / (o->length * o->length) - 1;
+        if (2 * b * o->m * over > e.bulk * d2 * (over + 1)) b = 0.5 * e.bulk * d2 * (over + 1) / (over * o->m);
+        a = 0.5 * (e.bulk - 2 * b * o->m / d2);
         stiffness_of_sums(dim, 2 * a * d * d, (double(*)[3])o->l, 2 * b, &o->q, out);
     } else {
         double h = s->reach * H, whole = dim == 3 ? 4.0 / 3 * PI * h * h * h : PI * h * h, c = 2 * d2 * e.bulk / o->full;
