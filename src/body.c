@@ -94,8 +94,7 @@ static void peri__note_law(peri__model *m, const peri__law *law, int32_t criteri
     if (law->model == PERI_OTERKUS || (law->model == PERI_LPS && law->a != 0.0)) m->dilates = 1;
     if (criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
     if (criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
-    if (!ordinary || (m->ordinary && m->ordinary != law->model)) m->mixed = 1;
-    m->ordinary = law->model;
+    m->ordinary = ordinary && (m->ordinary == 0 || m->ordinary == law->model) ? law->model : -1; /* -1: they differ            */
 }
 
 /* Units of stress and density, and the constants of all pairs of materials in them. */
@@ -121,7 +120,7 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
         int32_t status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
         if (status < 0) return status;
     }
-    if (m->mixed) m->ordinary = 0;
+    if (m->ordinary < 0) m->ordinary = 0;
     for (int32_t i = 0; i < n; ++i)
         for (int32_t j = 0; j < n; ++j) {
             peri__pair *pair = &m->pairs[i * n + j];

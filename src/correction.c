@@ -120,7 +120,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
     const peri__model *m = f->cloud->model;
     int64_t fitted = -1;
     for (int64_t i = begin; i < end; ++i) {
-        double n[3], total = 0.0, volume = m->volume[i] + peri__family_volume(m, i), least = 0.0, *x = &f->factor[i * m->width];
+        double n[3], total = 0.0, least = 0.0, *x = &f->factor[i * m->width];
         int bonds = m->laws[m->material[i]].model == PERI_BOND_BASED;
         for (int64_t k = 0; k < m->count[i]; ++k) {
             double stiff = peri__stiff(f, i, k, n);
@@ -129,6 +129,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
             x[k] = 1.0;
         }
         if (b->desc.correction == PERI_VOLUME_CORRECTION) {
+            double volume = m->volume[i] + peri__family_volume(m, i);
             for (int64_t k = 0; bonds && k < m->count[i]; ++k) {
                 int64_t j = m->ids[i * m->width + k];
                 x[k] = 2.0 * f->whole / (volume + m->volume[j] + peri__family_volume(m, j));

@@ -130,7 +130,6 @@ typedef struct peri__model {
     int32_t    materials;
     int32_t    states;  /* 1 where some material is state-based: bodies then have constants and responses                */
     int32_t    ordinary; /* PERI_LPS or PERI_OTERKUS where all materials in use are of that model, else 0                */
-    int32_t    mixed;    /* 1 where they are not                                                                         */
     int32_t    dilates; /* 1 where some of them responds to theta                                                        */
     int32_t    tensors; /* 1 where some of them is of the correspondence model                                           */
     int32_t    works;   /* 1 where some bond breaks by its energy                                                        */
