@@ -33,6 +33,7 @@
 #include "src/quadrature.c" /* families                        -> lengths and weights of bonds             */
 #include "src/correction.c" /* weights                         -> weights that surfaces need               */
 #include "src/lanes.c"      /* families of lattices            -> columns, the compressed Ibond            */
+#include "src/rows.c"       /* the family of a point, wherever it is stored                                */
 
 #define PERI_T_REAL 64
 #define PERI_T_DIM 2

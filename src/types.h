@@ -140,6 +140,12 @@ typedef struct peri__model {
     peri__pair *pairs;    /* [materials][materials]                                                                      */
 } peri__model;
 
+typedef struct peri__row { /* the family of a point, see peri__read_row                                                   */
+    int64_t        count;
+    const int32_t *ids;                   /* ascending                                                                    */
+    const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
+} peri__row;
+
 typedef struct peri__set {
     char    *name;
     int64_t  name_bytes;
