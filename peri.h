@@ -116,7 +116,10 @@ extern "C" {
     X(ERROR_CAPACITY, -24, "the buffer has the wrong size; it needs the value")                                          \
     X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")                       \
     X(ERROR_CRITERION, -26, "the failure criterion cannot act on this model, or lacks its fracture energy")            \
-    X(ERROR_MODEL, -27, "this model has no such constant, or cannot take this quadrature or interface")
+    X(ERROR_MODEL, -27, "this model has no such constant, or cannot take this quadrature, interface or load")                    \
+    X(ERROR_LOOSE, -28, "no support holds this part of the body against some motion")                                  \
+    X(ERROR_INDEFINITE, -29, "the tangent stiffness is not positive: buckling, softening or compression")              \
+    X(ERROR_CONVERGENCE, -30, "no equilibrium within the iterations allowed; the value is the residual over its scale")
 
 #define PERI_STATUS_ENUM_(name, value, text) PERI_##name = value,
 typedef enum peri_status { PERI_STATUS_LIST(PERI_STATUS_ENUM_) PERI_STATUS_END_ = 1000 } peri_status;
@@ -170,6 +173,9 @@ typedef void (*peri_load_fn)(void *user, double time, int64_t count, const int32
 
 /* Where a moving obstacle is: write its reference place (peri_add_ball_obstacle: the centre) at `time` to place[dim]. */
 typedef void (*peri_motion_fn)(void *user, double time, double *place);
+
+/* Takes the next `count` bytes of a file; nonzero = failed. */
+typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 
 /* ---- body --------------------------------------------------------------------------------------------------------- */
 
@@ -560,6 +566,131 @@ PERI_API void peri_run_init(peri_run *run);
    PERI_ERROR_STEP, at a whole step; error.value is what may follow. */
 PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
 
+/* ---- statics ------------------------------------------------------------------------------------------------------ */
+
+/* The equilibrium of the body under its supports and loads. Constant values of loads and supports count times a load factor, that goes from
+   load_from to load_to in steps; callbacks are asked for their values at time = load factor. Prescribed velocities hold a point where
+   it is. At each factor the equations  internal force(u) + loads = 0  on what is not supported are solved by Newton's method: each
+   iteration by conjugate gradients on the tangent, which is applied without being stored, then a line search. Where the geometry is
+   linear and there are no obstacles the first iteration ends it. Converged: |residual| <= tolerance * the larger of |loads| and
+   |reactions|, as vectors of point forces. Then bonds over their limit break, and equilibrium is sought again, until none does.
+   Starts from the present displacements, so a solve that ran out of iterations goes on where it stopped when called again.
+   In single precision the residual cannot fall much below 1e-5. */
+typedef enum peri_method {
+    PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
+    PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */
+    PERI_RELAXATION = 3  /* adaptive dynamic relaxation (Kilic, Madenci 2010): slow, asks for forces only; goes on where a tangent
+                            is not positive                                                                              */
+} peri_method;
+
+typedef enum peri_preconditioner {
+    PERI_MULTILEVEL        = 1, /* blocks of the diagonal, and linear elasticity on a background grid of about a horizon with all its
+                                   coarser grids: iterations hardly grow with the number of points. The default           */
+    PERI_BLOCK_JACOBI      = 2, /* the dim x dim blocks of the diagonal                                                  */
+    PERI_NO_PRECONDITIONER = 3
+} peri_preconditioner;
+
+/* What becomes of parts that no support holds against some rigid motion, and of points whose bonds resist only in some directions. */
+typedef enum peri_loose {
+    PERI_LOOSE_REFUSED  = 1, /* PERI_ERROR_LOOSE, index = the first point. The default                                   */
+    PERI_LOOSE_PINNED   = 2, /* just enough components of points are held to stop the rigid motions                       */
+    PERI_LOOSE_BALANCED = 3  /* the part of the loads that would drive the motion is left out (spread by mass, as inertia would); the
+                                motion itself stays as it was                                                            */
+} peri_loose; /* points whose bonds span less than the space: the force on what is not resisted is left out by the last two */
+
+/* Called after each iteration of the linear solver with the residual over its scale; nonzero stops: PERI_STOPPED. */
+typedef int32_t (*peri_iteration_fn)(void *user, int64_t iteration, double residual);
+
+typedef struct peri_statics {
+    uint64_t          cookie;         /* set by peri_statics_init                                                        */
+    int32_t           method;         /* peri_method. Default PERI_NEWTON                                                */
+    int32_t           preconditioner; /* peri_preconditioner. Default PERI_MULTILEVEL                                    */
+    int32_t           loose;          /* peri_loose. Default PERI_LOOSE_REFUSED                                          */
+    int32_t           fracture;       /* 1 (default) = bonds break by their criterion, 0 = none breaks                   */
+    double            criticality;    /* [0, 1]: of the bonds over their limit those break that are over criticality times the largest
+                                         excess (value/limit): 0 (default) = all, 1 = only the most critical (and its equals)   */
+    double            tolerance;      /* > 0. Default 1e-8 (single precision: 1e-4)                                      */
+    double            energy_tolerance; /* > 0: the linear solver also stops when its residual in the norm of the preconditioner has
+                                         fallen by this factor, an estimate of the error in energy. Default 0: never     */
+    int64_t           iterations;     /* most iterations of the linear solver (of PERI_RELAXATION: steps) for one equilibrium.
+                                         Default 20000                                                                   */
+    int64_t           newton;         /* most Newton iterations for one equilibrium. Default 60                          */
+    int64_t           breaks;         /* most rounds of breaking at one load factor. Default 100000                      */
+    double            load_from;      /* load factor before the first step. Default 0                                    */
+    double            load_to;        /* load factor at the end. Default 1                                               */
+    int64_t           steps;          /* load steps >= 1. A step without equilibrium is halved, then grows again. Default 1 */
+    int64_t           halvings;       /* most halvings of a step, 0..60. Default 8; PERI_ERROR_CONVERGENCE, ... beyond      */
+    int32_t           curve_load;     /* load or support whose curve is recorded. Default -1: none                       */
+    int32_t           reserved;       /* 0                                                                               */
+    double           *curve;          /* [curve_rows][2 + 2*dim]: load factor, mean displacement of its set (dim) [L], force as by
+                                         peri_read_reaction (dim) [M L T^-2], broken bonds. Yours                        */
+    int64_t           curve_rows;     /* rows that fit; those beyond are counted in the report but not written            */
+    peri_iteration_fn on_iteration;   /* default NULL                                                                    */
+    peri_frame_fn     on_step;        /* called at each equilibrium, after breaking; nonzero stops. May do what on_frame may. Default
+                                         NULL                                                                            */
+    void             *user;           /* handed to both                                                                  */
+} peri_statics;
+
+typedef struct peri_statics_report {
+    int64_t iterations;   /* of the linear solver, or relaxation steps, in all                                           */
+    int64_t passes;       /* evaluations of all bonds: forces and products with the tangent                              */
+    int64_t newton;       /* Newton iterations in all                                                                    */
+    int64_t steps;        /* load steps done                                                                             */
+    int64_t broken;       /* bonds (pairs) broken                                                                        */
+    int64_t curve_rows;   /* rows of the curve, written or not                                                           */
+    int64_t loose;        /* rigid motions that were pinned or balanced in the last equilibrium                          */
+    int64_t bytes;        /* most memory that the solver took at a time, beside the body                                 */
+    double  residual;     /* of the last equilibrium, over its scale                                                     */
+    double  load_factor;  /* of the last equilibrium                                                                     */
+} peri_statics_report;
+
+/* Fills every field with its default. NULL is ignored. */
+PERI_API void peri_statics_init(peri_statics *statics);
+
+/* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule over load
+   steps. Steps that fail leave the body at the last equilibrium (unless none was reached: then with what was found so far).
+   PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or softening: the tangent has a negative direction and no equilibrium was found
+   further down), PERI_ERROR_CONVERGENCE (value: residual reached), PERI_ERROR_CALLBACK. Loads stay at the last factor for what reads
+   them; peri_advance takes them at 1 again. */
+PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
+
+/* Tractions that pass the patch test: value[dim] [M L^-1 T^-2] on a face of `area` and outward `normal`, given to all points that feel the
+   face: the set should hold them, to a depth of two horizons, and reach to no other face of opposite normal. Of correspondence, point i
+   gets value (normal.a_i) with the area vector of its live family a_i = sum_j V_j g_ji - V_i sum_j g_ij, g_ij = w K_i^-1 xi V_j: uniform stress is then
+   exact, whatever the horizon and influence function; on clouds, where a_i vanishes nowhere, if the sets of opposite faces together hold all
+   points. Of the other laws, each component along an axis t of the face is shared as the bonds' force along t under the stress t x normal
+   + normal x t, scaled to the total value*area: no exact form is known, and strain is off near edges and by O(horizon) inside.
+   Taken at the call, for small displacements: cracks made later do not change it. Returns a load id or an error; PERI_ERROR_SET where the
+   points feel less than half or more than one and a half of the area; PERI_ERROR_MODEL where the set has several materials. */
+PERI_API int32_t peri_apply_surface_traction(peri_body *body, int32_t set, double area, const double *normal, const double *value,
+                                             peri_load_fn fn, void *user);
+
+/* Pressure [M L^-1 T^-2] on all surfaces of a set, outer faces and faces of cracks alike ([C] 2.6): -pressure a_i. So for a crack select
+   the points within two horizons of it. fn: value[k*dim] is the pressure on point k. Otherwise as above. */
+PERI_API int32_t peri_apply_pressure(peri_body *body, int32_t set, double pressure, peri_load_fn fn, void *user);
+
+/* The same through the cut bonds between neighbouring points, as [C] 2.6 does: each cut bond between two points of the set no further apart
+   than 1.2 spacings gives both `pressure` times the face of a cell, along the bond. For comparison. */
+PERI_API int32_t peri_apply_bond_pressure(peri_body *body, int32_t set, double pressure, peri_load_fn fn, void *user);
+
+/* out = K in, the tangent stiffness at the present displacement times in[count], count = points*dim: forces [M L T^-2] of displacements
+   [L]. Supports and obstacles are not in it. out may be in. */
+PERI_API int32_t peri_multiply_stiffness(peri_body *body, const double *in, double *out, int64_t count);
+
+/* The same stiffness as a matrix ([T] 3.2, 3.3), compressed by rows, rows and columns points*dim, every entry of a coupled pair of points
+   stored: point couples with those two horizons away. Lives on its own; free it with peri_matrix_destroy. */
+typedef struct peri_matrix peri_matrix;
+PERI_API int32_t peri_assemble(peri_body *body, peri_matrix **matrix);
+PERI_API void    peri_matrix_destroy(peri_matrix *matrix);
+PERI_API int64_t peri_matrix_rows(const peri_matrix *matrix);
+PERI_API int64_t peri_matrix_entries(const peri_matrix *matrix);
+
+/* start[rows+1], column[entries] ascending in each row, value[entries] [M T^-2]; any may be NULL. */
+PERI_API int32_t peri_read_matrix(const peri_matrix *matrix, int64_t *start, int32_t *column, double *value);
+
+/* Matrix Market, coordinate real symmetric: the lower triangle. */
+PERI_API int32_t peri_write_matrix(const peri_matrix *matrix, peri_write_fn write, void *user);
+
 /* ---- results ------------------------------------------------------------------------------------------------------ */
 
 typedef enum peri_field {
@@ -636,9 +767,6 @@ PERI_API int32_t peri_read_energy(peri_body *body, peri_energy *energy);
 PERI_API int32_t peri_read_momentum(peri_body *body, double *linear, double *angular);
 
 /* ---- output ------------------------------------------------------------------------------------------------------- */
-
-/* Takes the next `count` bytes of a file; nonzero = failed. */
-typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 
 /* VTK XML unstructured grid for ParaView: points at reference positions, fields displacement, velocity, damage, energy density,
    material, volume, stress (a symmetric tensor); binary. ParaView's "Warp By Vector" shows the deformed body. */

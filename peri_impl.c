@@ -58,6 +58,16 @@
 #include "src/failure.c"    /* state-based bonds that break                                                */
 #include "src/explicit.c"   /* stable step, the step loop                                                  */
 #include "src/strain.c"     /* dilatation, strain and stress of points                                     */
+#include "src/tangent.c"    /* products with the tangent stiffness, its diagonal                           */
+#include "src/loose.c"      /* parts and points that can move without resistance                           */
+#include "src/grids.c"      /* regular grids: smoothing, V-cycle                                           */
+#include "src/multilevel.c" /* elasticity on coarser grids, as a preconditioner                            */
+#include "src/conjugate.c"  /* conjugate gradients                                                         */
+#include "src/matrix.c"     /* the tangent assembled, BiCGSTAB                                             */
+#include "src/equilibrium.c" /* Newton's method                                                             */
+#include "src/relax.c"      /* adaptive dynamic relaxation                                                 */
+#include "src/statics.c"    /* load steps, quasi-static fracture                                           */
+#include "src/surface.c"    /* tractions and pressures that pass the patch test                            */
 #include "src/fields.c"     /* fields by copy and by view, the ledger                                      */
 #include "src/output.c"     /* VTU, CSV                                                                    */
 

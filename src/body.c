@@ -60,6 +60,7 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
     b->memory = memory;
     b->dim = desc->space == PERI_SOLID ? 3 : 2;
     b->f32 = desc->precision == PERI_F32;
+    b->load_factor = 1.0;
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
     *body = b;
     return PERI_OK;
@@ -216,6 +217,7 @@ static void peri__free_state(peri_body *b) {
         peri__delete(memory, b->loads[k].value, b->loads[k].count * m->dim, sizeof(double));
         peri__delete(memory, b->loads[k].force, PERI__HELD_PLANES * b->loads[k].count * m->dim, sizeof(double));
         peri__delete(memory, b->loads[k].all, b->loads[k].count, sizeof(int32_t));
+        peri__delete(memory, b->loads[k].spread, b->loads[k].count * m->dim * m->dim, sizeof(double));
         peri__delete(memory, b->loads[k].owned, b->loads[k].count, 1);
     }
     peri__delete(memory, b->loads, b->load_capacity, sizeof *b->loads);
@@ -404,12 +406,13 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
     }
     for (int64_t k = 0; b->loads && k < from->load_count; ++k) {
         b->loads[k] = from->loads[k];
-        b->loads[k].value = b->loads[k].force = NULL;
+        b->loads[k].value = b->loads[k].force = b->loads[k].spread = NULL;
         b->loads[k].owned = NULL;
         b->loads[k].all = NULL;
         PERI_COPY_(loads[k].all, from->loads[k].count, sizeof(int32_t))
         PERI_COPY_(loads[k].value, from->loads[k].count * m->dim, sizeof(double))
         PERI_COPY_(loads[k].force, PERI__HELD_PLANES * from->loads[k].count * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].spread, from->loads[k].count * m->dim * m->dim, sizeof(double))
         PERI_COPY_(loads[k].owned, from->loads[k].count, 1)
         b->load_count = k + 1;
     }
@@ -444,6 +447,8 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
     b->broken = from->broken;
     b->steps = from->steps;
     b->time = from->time;
+    b->load_factor = from->load_factor;
+    b->still = from->still;
     b->force_current = from->force_current;
     b->ledger = from->ledger;
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
@@ -491,6 +496,8 @@ PERI_API int32_t peri_reset(peri_body *b) {
     for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
     b->broken = b->steps = 0;
     b->time = 0.0;
+    b->load_factor = 1.0;
+    b->still = 0;
     b->force_current = 0;
     memset(&b->ledger, 0, sizeof b->ledger);
     return PERI_OK;

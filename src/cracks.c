@@ -399,7 +399,7 @@ static void peri__report_breaks(peri_body *b) {
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t at = i * m->words + k / 32, j = m->ids[i * m->width + k];
             if (j < i || !((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
-            b->on_break(b->break_user, (int32_t)i, (int32_t)j, b->time, peri__stretch(b, i, k));
+            b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, k));
         }
     }
     b->running = running;

@@ -44,17 +44,17 @@ PERI_API double peri_stable_step(const peri_body *b) {
     return peri__stable(b) * b->model->time;
 }
 
-/* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion. */
+/* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion; counts the work on them
+   where step->working. */
 static void peri__bond_forces(peri_body *b, peri__step *step) {
     const peri__model *m = b->model;
     if (!m->states) {
         peri__for_points(b, m->points, m->width, b->ops->force, step, b->sums);
         return;
     }
-    step->working = m->works;
     if (m->dilates || m->tensors || m->nodes) peri__for_points(b, m->points, m->width, b->ops->respond, step, NULL);
     peri__for_points(b, m->points, m->width, b->ops->share, step, b->sums);
-    if (m->works) memcpy(b->worked, b->u, (size_t)(m->stride * m->dim) * peri__real(b));
+    if (step->working) memcpy(b->worked, b->u, (size_t)(m->stride * m->dim) * peri__real(b));
 }
 
 /* Brings f up to date with u, loads and cracks as they are, without breaking anything. */
@@ -67,9 +67,10 @@ static int32_t peri__update_force(peri_body *b) {
     peri__update_lanes(b);
     peri__refresh(b);
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
-    int32_t status = peri__apply_loads(b, b->time, 0.0);
-    if (status == PERI_OK) status = peri__apply_obstacles(b, b->time, 0.0);
+    int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) {
+        step.working = m->works;
         peri__bond_forces(b, &step);
         status = peri__meet_supports(b);
     }
@@ -135,6 +136,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     }
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
     step.breaking = b->alive != NULL && m->breakable;
+    step.working = m->works;
     step.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
     peri__bond_forces(b, &step);
     if (step.breaking) {
@@ -263,6 +265,8 @@ PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
     int32_t status = peri__check_run(b, r);
     if (status < 0) return status;
     b->running = 2;
+    if (b->still) b->force_current = b->still = 0; /* loads count in full again */
+    b->load_factor = 1.0;
     status = peri__march(b, r);
     b->running = 0;
     return status;
@@ -315,7 +319,7 @@ PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
             double volume = m->volume[peri__set_point(b, load->set, k)];
             if (load->owned && !(load->owned[k] >> d & 1)) continue;
             if (load->owned) total[d] += *peri__held(b, load, PERI__HELD_REACTION, k, d) * volume;
-            else total[d] += peri__load_value(b, load, k, d) * load->per_value / peri__force_unit(m) * volume;
+            else total[d] += peri__load_force(b, load, k, d) * volume;
         }
     for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
     return PERI_OK;

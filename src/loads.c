@@ -35,9 +35,10 @@ static void peri__assign_supports(peri_body *b) {
 static void peri__free_load(const peri_body *b, peri__load *load) {
     peri__delete(&b->memory, load->value, load->count * b->dim, sizeof(double));
     peri__delete(&b->memory, load->force, PERI__HELD_PLANES * load->count * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->spread, load->count * b->dim * b->dim, sizeof(double));
     peri__delete(&b->memory, load->owned, load->count, 1);
     peri__delete(&b->memory, load->all, load->count, sizeof *load->all);
-    load->value = load->force = NULL;
+    load->value = load->force = load->spread = NULL;
     load->owned = NULL;
     load->all = NULL;
 }
@@ -127,7 +128,15 @@ PERI_API int32_t peri_remove_load(peri_body *b, int32_t load) {
 
 /* Component d of the value of point k of a load, user's units. */
 static double peri__load_value(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
-    return load->fn ? load->value[k * b->dim + d] : load->constant[d];
+    return load->fn ? load->value[k * b->dim + d] : b->load_factor * load->constant[d];
+}
+
+/* Component d of the force density that a load gives to its point k, inner units. */
+static double peri__load_force(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
+    double sum = 0.0, unit = load->per_value / peri__force_unit(b->model);
+    if (!load->spread) return unit * peri__load_value(b, load, k, d);
+    for (int32_t c = 0; c < b->dim; ++c) sum += load->spread[(k * b->dim + d) * b->dim + c] * peri__load_value(b, load, k, c);
+    return unit * sum;
 }
 
 /* Asks the callback for its values at a time. */
@@ -146,10 +155,10 @@ static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
 /* sum over the load's points of b.v V, inner units of power */
 static double peri__load_power(const peri_body *b, const peri__load *load) {
     const peri__model *m = b->model;
-    double power = 0.0, unit = load->per_value / peri__force_unit(m);
+    double power = 0.0;
     for (int64_t k = 0; k < load->count; ++k)
         for (int32_t d = 0; d < m->dim; ++d)
-            power += peri__load_value(b, load, k, d) * unit * peri__get_real(b->v, b->f32, peri__dof(b, load, k, d))
+            power += peri__load_force(b, load, k, d) * peri__get_real(b->v, b->f32, peri__dof(b, load, k, d))
                    * m->volume[peri__set_point(b, load->set, k)];
     return power;
 }
@@ -159,7 +168,6 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
     const peri__model *m = b->model;
     for (int64_t s = 0; s < b->load_count; ++s) {
         peri__load *load = &b->loads[s];
-        double unit = load->per_value / peri__force_unit(m);
         if (load->kind != PERI__FORCE) continue;
         if (b->desc.ledger && dt > 0.0) b->ledger.external += 0.5 * dt * peri__load_power(b, load);
         int32_t status = peri__refresh_load(b, load, time);
@@ -168,7 +176,7 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t at = peri__dof(b, load, k, d);
-                peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + peri__load_value(b, load, k, d) * unit);
+                peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d));
             }
     }
     return PERI_OK;

@@ -40,6 +40,9 @@ static void peri__settle(peri_body *b) {
     b->ledger.pending = 0;
 }
 
+/* What callbacks of loads, supports and obstacles are asked for. */
+static double peri__load_time(const peri_body *b) { return b->still ? b->load_factor : b->time; }
+
 static double peri__velocity_unit(const peri__model *m) { return m->length / m->time; }
 
 static double peri__force_unit(const peri__model *m) { return m->stress / m->length; }

@@ -10,49 +10,46 @@ static int peri__packed(int32_t dim, int a, int b) {
     return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
-/* Eigenvalues and orthonormal eigenvectors (columns of v) by Jacobi's rotations: for matrices this small as exact as any way. */
-static void peri__eigen(int32_t dim, const double *packed, double *value, double v[3][3]) {
-    double a[3][3];
-    for (int p = 0; p < dim; ++p)
-        for (int q = 0; q < dim; ++q) {
-            a[p][q] = packed[peri__packed(dim, p, q)];
-            v[p][q] = p == q ? 1.0 : 0.0;
-        }
+/* Eigenvalues (on the diagonal of a) and orthonormal eigenvectors (columns of v) of a symmetric a[n][n], by Jacobi's rotations: for
+   matrices this small as exact as any way. */
+static void peri__jacobi(int n, double *a, double *v) {
+    for (int k = 0; k < n * n; ++k) v[k] = k % (n + 1) == 0 ? 1.0 : 0.0;
     for (int sweep = 0; sweep < 30; ++sweep)
-        for (int p = 0; p < dim; ++p)
-            for (int q = p + 1; q < dim; ++q) {
-                if (!(fabs(a[p][q]) > DBL_MIN)) continue;
-                double phi = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
+        for (int p = 0; p < n; ++p)
+            for (int q = p + 1; q < n; ++q) {
+                if (!(fabs(a[p * n + q]) > DBL_MIN)) continue;
+                double phi = 0.5 * (a[q * n + q] - a[p * n + p]) / a[p * n + q];
                 double t = (phi < 0.0 ? -1.0 : 1.0) / (fabs(phi) + sqrt(phi * phi + 1.0)), c = 1.0 / sqrt(t * t + 1.0), s = t * c;
-                for (int k = 0; k < dim; ++k) {
-                    double x = a[k][p], y = a[k][q];
-                    a[k][p] = c * x - s * y;
-                    a[k][q] = s * x + c * y;
+                for (int k = 0; k < n; ++k) {
+                    double x = a[k * n + p], y = a[k * n + q];
+                    a[k * n + p] = c * x - s * y;
+                    a[k * n + q] = s * x + c * y;
                 }
-                for (int k = 0; k < dim; ++k) {
-                    double x = a[p][k], y = a[q][k], vx = v[k][p], vy = v[k][q];
-                    a[p][k] = c * x - s * y;
-                    a[q][k] = s * x + c * y;
-                    v[k][p] = c * vx - s * vy;
-                    v[k][q] = s * vx + c * vy;
+                for (int k = 0; k < n; ++k) {
+                    double x = a[p * n + k], y = a[q * n + k], vx = v[k * n + p], vy = v[k * n + q];
+                    a[p * n + k] = c * x - s * y;
+                    a[q * n + k] = s * x + c * y;
+                    v[k * n + p] = c * vx - s * vy;
+                    v[k * n + q] = s * vx + c * vy;
                 }
             }
-    for (int p = 0; p < dim; ++p) value[p] = a[p][p];
 }
 
 /* Inverse on the eigenvectors whose eigenvalue exceeds `cut` times the largest, nothing on the others. Returns how many there are. */
 static int peri__invert(int32_t dim, const double *packed, double cut, double *inverse) {
-    double value[3], v[3][3], largest = 0.0;
+    double full[9], v[9], largest = 0.0;
     int kept = 0;
-    peri__eigen(dim, packed, value, v);
     for (int p = 0; p < dim; ++p)
-        if (value[p] > largest) largest = value[p];
+        for (int q = 0; q < dim; ++q) full[p * dim + q] = packed[peri__packed(dim, p, q)];
+    peri__jacobi(dim, full, v);
+    for (int p = 0; p < dim; ++p)
+        if (full[p * (dim + 1)] > largest) largest = full[p * (dim + 1)];
     for (int k = 0; k < PERI_PACKED(dim); ++k) inverse[k] = 0.0;
     for (int p = 0; p < dim; ++p) {
-        if (!(value[p] > cut * largest)) continue;
+        if (!(full[p * (dim + 1)] > cut * largest)) continue;
         kept++;
         for (int a = 0; a < dim; ++a)
-            for (int b = a; b < dim; ++b) inverse[peri__packed(dim, a, b)] += v[a][p] * v[b][p] / value[p];
+            for (int b = a; b < dim; ++b) inverse[peri__packed(dim, a, b)] += v[a * dim + p] * v[b * dim + p] / full[p * (dim + 1)];
     }
     return kept;
 }

@@ -169,6 +169,7 @@ typedef struct peri__load {
     int32_t      kind, set, axes;
     double       constant[3]; /* user's units; for a traction already a force density                                    */
     double       per_value;   /* force density per value: 1, or area/volume of the set for a traction                    */
+    double      *spread;      /* [count][dim][dim] force density per component of the value, over per_value; NULL: each its own */
     peri_load_fn fn;
     void        *user;
     double      *value;       /* [count*dim] buffer for fn, user's units; NULL where fn is NULL                          */
@@ -201,13 +202,70 @@ typedef struct peri__step { /* what a pass over the points needs to know        
     double    *out;               /* energy density per point, or NULL                                                   */
 } peri__step;
 
+typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                          */
+    peri_body  *body;
+    const void *p;      /* real [dim][stride] with margins: the change                                                   */
+    void       *q;      /* real [dim][stride] with margins: the change of the force density                              */
+    void       *change; /* as body->response: that of p and Q; NULL without state-based laws                             */
+} peri__tangent;
+
+typedef struct peri__krylov { /* vectors of conjugate gradients, real [dim][stride], forces times volumes                 */
+    peri_body     *body;
+    void          *d, *r, *p, *q, *z; /* solution, residual, direction, K p, preconditioned residual                     */
+    const void    *blocks;            /* real [packed][stride] inverses of the diagonal blocks, 0 where held; or NULL    */
+    const uint8_t *held;              /* [points] axes that do not move                                                  */
+    double         alpha, beta;
+} peri__krylov;
+
+#define PERI_RIGID 6 /* rigid motions: translations, then turns over the radius of the part                              */
+
+typedef struct peri__fragment { /* connected points that some rigid motions leave without resistance                          */
+    double  centre[3], radius;
+    int32_t modes;
+    double  mode[PERI_RIGID][PERI_RIGID];    /* [modes]: of the rigid motions                                            */
+    double  inverse[PERI_RIGID][PERI_RIGID]; /* of the mass of the modes                                                 */
+    double  sum[PERI_RIGID];                 /* scratch                                                                  */
+} peri__fragment;
+
+typedef struct peri__multilevel peri__multilevel;
+
+#define PERI_HANGING 8 /* in held: the bonds of the point resist only in some of the free directions                    */
+
+typedef struct peri__solver { /* what a static solve takes, and gives back at its end                                     */
+    peri_body          *body;
+    const peri_statics *settings;
+    peri_statics_report report;
+    peri__krylov        k;
+    peri__tangent       t;
+    void               *blocks;   /* real [packed][stride]                                                               */
+    void               *before;   /* real [dim][stride] displacement at the last equilibrium; NULL where it is not needed */
+    void               *from;     /* real [dim][stride] displacement before the last solve; NULL, like the next, without a ledger */
+    void               *load;     /* real [dim][stride] force density of loads and reactions then               */
+    uint8_t            *held;     /* [points] axes, and PERI_HANGING                                                     */
+    int32_t            *part_of;  /* [points] part, or -1                                                                */
+    int32_t            *queue;    /* [points] scratch                                                                    */
+    peri__fragment     *parts;
+    int64_t             part_count, part_capacity;
+    peri__multilevel   *levels;
+    double              stiff;    /* mean of the diagonal of the stiffness                                               */
+    double              scale;    /* the larger of |loads| and |reactions|                                               */
+    double              slope;    /* r.d of the last linear solve, r as it was before                                     */
+    double              start;    /* |r| at the start of this equilibrium where there was neither                         */
+    double              energy0;  /* r.z at the start of this equilibrium                                                */
+    int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
+    int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
+    int64_t             bytes;    /* taken now                                                                           */
+    int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
+    int32_t             stopped;  /* 1: a callback asked to stop                                                         */
+} peri__solver;
+
 typedef struct peri__ledger { /* inner units of energy                                                                    */
     double  external, obstacle, damping, fracture, initial;
     double  before;  /* kinetic + elastic before the first unaccounted change                                            */
     int32_t pending; /* 1 from such a change until it is accounted                                                       */
 } peri__ledger;
 
-struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn on a peri__step                  */
+struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn, on a peri__step unless said       */
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* bond-based                                               */
     void (*respond)(void *, int64_t, int64_t, peri__sums *); /* state-based: what each point makes of its family, then   */
     void (*respond_rows)(void *, int64_t, int64_t, peri__sums *);
@@ -216,6 +274,14 @@ struct peri__ops { /* the kernels of one real type and dimension; all are peri__
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
+    void (*tangent_respond)(void *, int64_t, int64_t, peri__sums *); /* on a peri__tangent                               */
+    void (*tangent_share)(void *, int64_t, int64_t, peri__sums *);
+    void (*krylov_step)(void *, int64_t, int64_t, peri__sums *); /* these on a peri__krylov                              */
+    void (*krylov_turn)(void *, int64_t, int64_t, peri__sums *);
+    void (*krylov_force)(void *, int64_t, int64_t, peri__sums *);
+    void (*krylov_blocks)(void *, int64_t, int64_t, peri__sums *);
+    void (*krylov_norm)(void *, int64_t, int64_t, peri__sums *);
+    void (*krylov_dot)(void *, int64_t, int64_t, peri__sums *);
 };
 
 struct peri_body {
@@ -272,6 +338,8 @@ struct peri_body {
 
     int64_t cut, broken, steps; /* cut, broken: directed                                                                 */
     double  time;               /* [T], the caller's unit: a run ends at its duration to the last bit                    */
+    double  load_factor;        /* of constant loads and supports; the time of callbacks where `still`                   */
+    int32_t still;              /* 1: the last motion was a static one                                                   */
     int32_t force_current;      /* 1: f belongs to u, loads and cracks as they are                                       */
     int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback: nothing may change   */
     peri__ledger ledger;

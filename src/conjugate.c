@@ -1,0 +1,114 @@
+/* conjugate.c - the preconditioned conjugate gradients of the static solver, and the memory that it takes.
+
+   K is symmetric because forces are taken per point, V_i times the density. Supports are a projection: directions and residuals have no part
+   on held components, and what K does there is kept in r all the same: it is minus the reaction. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+static void *peri__take(peri__solver *s, int64_t count, size_t size) {
+    void *taken = peri__new(&s->body->memory, count, size);
+    if (taken) s->bytes += count * (int64_t)size;
+    return taken;
+}
+
+static void *peri__take_vector(peri__solver *s) {
+    void *taken = peri__new_vector(s->body);
+    if (taken) s->bytes += peri__vector_reals(s->body->model) * (int64_t)peri__real(s->body);
+    return taken;
+}
+
+static size_t peri__vector_bytes(const peri_body *b) { return (size_t)(b->model->stride * b->model->dim) * peri__real(b); }
+
+static void peri__free_solver(peri__solver *s) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->from, s->load };
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, vectors[k]);
+    peri__delete(&b->memory, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
+    peri__delete(&b->memory, s->t.change, peri__response_reals(m), peri__real(b));
+    peri__delete(&b->memory, s->held, m->points, 1);
+    peri__delete(&b->memory, s->part_of, m->points, sizeof *s->part_of);
+    peri__delete(&b->memory, s->queue, m->points, sizeof *s->queue);
+    peri__delete(&b->memory, s->parts, s->part_capacity, sizeof *s->parts);
+    peri__free_levels(s->levels);
+}
+
+/* Runs one of the vector kernels over the body, and sums. */
+static peri__sums peri__krylov_pass(peri__solver *s, peri__block_fn kernel) {
+    peri__for_points(s->body, s->body->model->points, 4, kernel, &s->k, s->body->sums);
+    return peri__total(s->body->sums, s->body->model->points);
+}
+
+/* q = K p, as forces; returns p.K p, and p.p to *square. */
+static double peri__stiffness_times(peri__solver *s, int at_rest, double *square) {
+    s->t.body = s->body;
+    s->t.p = s->k.p;
+    s->t.q = s->k.q;
+    peri__apply_tangent(&s->t, at_rest);
+    peri__apply_contact(&s->t);
+    s->report.passes++;
+    peri__sums sums = peri__krylov_pass(s, s->body->ops->krylov_force);
+    *square = sums.b;
+    return sums.a;
+}
+
+/* z = preconditioner times r; returns r.z. */
+static double peri__precondition(peri__solver *s) {
+    s->k.blocks = s->settings->preconditioner == PERI_NO_PRECONDITIONER ? NULL : s->blocks;
+    (void)peri__krylov_pass(s, s->body->ops->krylov_blocks);
+    if (s->levels) peri__correct_coarsely(s);
+    peri__balance(s, s->k.z, 0);
+    return peri__krylov_pass(s, s->body->ops->krylov_dot).a;
+}
+
+/* |r| of what is free; updates the scale by the reactions in r. */
+static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
+    double held = sqrt(sums.b);
+    s->scale = loads > held ? loads : held;
+    return sqrt(sums.a);
+}
+
+/* One more iteration, told to the callback. */
+static int32_t peri__count_iteration(peri__solver *s, double residual) {
+    peri_body *b = s->body;
+    s->report.iterations++;
+    s->left--;
+    if (s->settings->on_iteration && s->settings->on_iteration(s->settings->user, s->report.iterations, residual)) s->stopped = 1;
+    return s->stopped ? PERI_STOPPED : b->running ? PERI_OK : PERI_ERROR_ORDER;
+}
+
+/* Adds to d the solution of K d = r, r becoming what is left, until |r| <= reach*scale. `loads`: that part of the scale which stays. PERI_OK,
+   PERI_STOPPED, PERI_ERROR_CONVERGENCE, or PERI_ERROR_INDEFINITE, PERI_ERROR_LOOSE where a direction has negative or no stiffness; d then is
+   what was found before it, or that way down. */
+static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int at_rest) {
+    peri_body *b = s->body;
+    const double least = s->start, none = b->f32 ? 1e-7 : 1e-14;
+    double rz = 0.0;
+    s->slope = 0.0;
+    memset(s->k.p, 0, peri__vector_bytes(b));
+    double residual = peri__measure(s, peri__krylov_pass(s, b->ops->krylov_norm), loads);
+    for (int64_t k = 0;; ++k) {
+        double before = rz, square, bent;
+        if (s->scale < least) s->scale = least;
+        if (residual <= reach * s->scale || residual == 0.0) return PERI_OK;
+        if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
+        rz = peri__precondition(s);
+        if (s->energy0 == 0.0) s->energy0 = rz;
+        if (rz <= peri__square(s->settings->energy_tolerance) * s->energy0) return PERI_OK;
+        s->k.beta = k == 0 ? 0.0 : rz / before;
+        (void)peri__krylov_pass(s, b->ops->krylov_turn);
+        bent = peri__stiffness_times(s, at_rest, &square);
+        if (!(bent > none * square * s->stiff)) {
+            s->k.alpha = k == 0 ? 1.0 : 0.0;
+            s->slope += s->k.alpha * rz;
+            (void)peri__krylov_pass(s, b->ops->krylov_step);
+            return bent < -none * square * s->stiff ? PERI_ERROR_INDEFINITE : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
+        }
+        s->k.alpha = rz / bent;
+        s->slope += s->k.alpha * rz;
+        residual = peri__measure(s, peri__krylov_pass(s, b->ops->krylov_step), loads);
+        int32_t status = peri__count_iteration(s, s->scale > 0.0 ? residual / s->scale : residual);
+        if (status != PERI_OK) return status;
+    }
+}

@@ -1,0 +1,239 @@
+/* equilibrium.c - the equilibrium at one load factor, by Newton's method.
+
+   Find u with r(u) = bonds(u) + loads = 0 where nothing is held, u given where something is. Each iteration solves K(u) d = r, with d on
+   supports the way that they still have to go; then u += alpha d with alpha such that the slope r.d has fallen. All vectors of forces are
+   V times densities. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+static int peri__is_linear(const peri_body *b) {
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        if (b->obstacles[k].kind) return 0;
+    return b->desc.geometry == PERI_LINEAR;
+}
+
+static double peri__solve_tolerance(const peri__solver *s) {
+    return s->settings->tolerance > 0.0 ? s->settings->tolerance : s->body->f32 ? 1e-4 : 1e-8;
+}
+
+static int32_t peri__take_solver(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    int ok = 1;
+    void **vectors[] = { &s->k.d, &s->k.r, &s->k.p, &s->k.q, &s->k.z };
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) ok = ok && (*vectors[k] = peri__take_vector(s)) != NULL;
+    if (!peri__is_linear(b) || s->settings->steps > 1) ok = ok && (s->before = peri__take_vector(s)) != NULL;
+    if (b->desc.ledger) {
+        s->from = peri__take_vector(s);
+        s->load = peri__take_vector(s);
+        ok = ok && s->from && s->load;
+    }
+    if (m->states) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__real(b))) != NULL;
+    s->blocks = peri__take(s, PERI_PACKED(m->dim) * m->stride, peri__real(b));
+    s->held = (uint8_t *)peri__take(s, m->points, 1);
+    s->part_of = (int32_t *)peri__take(s, m->points, sizeof *s->part_of);
+    s->queue = (int32_t *)peri__take(s, m->points, sizeof *s->queue);
+    s->k.body = b;
+    s->k.held = s->held;
+    return ok && s->blocks && s->held && s->part_of && s->queue ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
+}
+
+/* ---- forces ------------------------------------------------------------------------------------------------------- */
+
+/* Sets f and r = V f at the present displacements; the loads alone to z. Returns |loads| of what is free, < 0: a status. */
+static double peri__static_forces(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    peri__step step = peri__no_step(b);
+    double square = 0.0;
+    memset(b->f, 0, peri__vector_bytes(b));
+    int32_t status = peri__apply_loads(b, b->load_factor, 0.0);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, b->load_factor, 0.0);
+    if (status < 0) return status;
+    memcpy(s->k.z, b->f, peri__vector_bytes(b));
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i)
+            if (!(s->held[i] >> d & 1)) square += peri__square(m->volume[i] * peri__get_real(b->f, b->f32, d * m->stride + i));
+    peri__bond_forces(b, &step);
+    s->report.passes++;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            int64_t at = d * m->stride + i;
+            peri__put_real(s->k.r, b->f32, at, m->volume[i] * peri__get_real(b->f, b->f32, at));
+        }
+    if (b->desc.geometry != PERI_LINEAR) peri__weigh_modes(s);
+    peri__balance(s, s->k.r, 1);
+    peri__drop_hanging(s, s->k.r);
+    return sqrt(square);
+}
+
+/* |r| of what is free, with the scale brought up to date. */
+static double peri__static_residual(peri__solver *s, double loads) {
+    return peri__measure(s, peri__krylov_pass(s, s->body->ops->krylov_norm), loads);
+}
+
+/* ---- supports ----------------------------------------------------------------------------------------------------- */
+
+static void peri__mark_supports(peri__solver *s) {
+    const peri_body *b = s->body;
+    memset(s->held, 0, (size_t)b->model->points);
+    for (int64_t l = 0; l < b->load_count; ++l) {
+        const peri__load *load = &b->loads[l];
+        for (int64_t k = 0; load->owned && k < load->count; ++k) s->held[peri__set_point(b, load->set, k)] |= load->owned[k];
+    }
+}
+
+/* Marks what supports hold, then what else must not move, and makes the preconditioner for the body as it is. */
+static int32_t peri__prepare(peri__solver *s) {
+    peri_body *b = s->body;
+    peri__mark_supports(s);
+    peri__update_lanes(b);
+    peri__refresh(b);
+    if (s->levels) s->bytes -= s->levels->bytes;
+    peri__free_levels(s->levels);
+    s->levels = NULL;
+    if (s->settings->method == PERI_RELAXATION) return PERI_OK;
+    int32_t status = peri__find_loose(s);
+    if (status < 0) return status;
+    s->stiff = peri__fill_diagonal(b, s->blocks);
+    if (s->settings->preconditioner == PERI_MULTILEVEL && s->settings->method == PERI_NEWTON) {
+        s->levels = peri__build_levels(s);
+        if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
+        s->bytes += s->levels->bytes;
+    }
+    if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
+    return peri__invert_blocks(s);
+}
+
+/* d = the way that held components still have to go to what their supports prescribe, 0 elsewhere. Returns 1 where there is any. */
+static int peri__gap(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    int gap = 0;
+    memset(s->k.d, 0, peri__vector_bytes(b));
+    for (int64_t l = 0; l < b->load_count; ++l) {
+        const peri__load *load = &b->loads[l];
+        if (load->kind != PERI__DISPLACEMENT) continue;
+        for (int64_t k = 0; k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t at = peri__dof(b, load, k, d);
+                double now = peri__get_real(b->u, b->f32, at), way = peri__load_value(b, load, k, d) / m->length - now;
+                if (!(load->owned[k] >> d & 1) || !(fabs(way) > (b->f32 ? 2e-7 : 1e-15) * fabs(now))) continue;
+                peri__put_real(s->k.d, b->f32, at, way);
+                gap = 1;
+            }
+    }
+    return gap;
+}
+
+static void peri__move(peri__solver *s, double alpha) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            int64_t at = d * m->stride + i;
+            peri__put_real(b->u, b->f32, at, peri__get_real(b->u, b->f32, at) + alpha * peri__get_real(s->k.d, b->f32, at));
+        }
+}
+
+/* ---- Newton's method ---------------------------------------------------------------------------------------------- */
+
+static int peri__at_rest(const peri_body *b) {
+    const peri__model *m = b->model;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i)
+            if (peri__get_real(b->u, b->f32, d * m->stride + i) != 0.0) return 0;
+    return 1;
+}
+
+static double peri__slope(peri__solver *s) {
+    void *z = s->k.z;
+    s->k.z = s->k.d;
+    double slope = peri__krylov_pass(s, s->body->ops->krylov_dot).a;
+    s->k.z = z;
+    return slope;
+}
+
+/* Moves along d until the slope r.d has fallen to less than 0.8 of what it was. Returns |loads| there, < 0: a status. */
+static double peri__search_line(peri__solver *s) {
+    double start = s->slope, alpha = 1.0, low = 0.0, high = 0.0, moved = 0.0, loads = 0.0;
+    for (int k = 0; k < 25; ++k) {
+        peri__move(s, alpha - moved);
+        moved = alpha;
+        loads = peri__static_forces(s);
+        if (loads < 0.0) return loads;
+        double slope = peri__slope(s);
+        if (fabs(slope) <= 0.8 * fabs(start)) break;
+        if (slope > 0.0 && high == 0.0 && k < 8) { /* still downhill: further */
+            low = alpha;
+            alpha *= 2.0;
+            continue;
+        }
+        if (slope > 0.0) low = alpha;
+        else high = alpha; /* past the bottom, or not finite */
+        if (high == 0.0) break;
+        alpha = 0.5 * (low + high);
+    }
+    return loads;
+}
+
+/* How far the next linear solve is worth going, of the scale: all the way where the problem is linear, else as far as the tangent tells. */
+static double peri__newton_reach(const peri__solver *s, double residual, int gap) {
+    double tolerance = 0.5 * peri__solve_tolerance(s), share = s->scale > 0.0 ? residual / s->scale : 1.0, reach = tolerance;
+    if (peri__is_linear(s->body)) return tolerance;
+    if (gap) reach = 1e-3;
+    else reach = share > 0.1 ? 0.1 * (share < 1.0 ? share : 1.0) : share * share;
+    return reach > tolerance ? reach : tolerance;
+}
+
+/* Takes what supports move out of r: d holds it. */
+static void peri__lift(peri__solver *s, int at_rest) {
+    peri_body *b = s->body;
+    void *d = s->k.d;
+    double square;
+    memcpy(s->k.p, s->k.d, peri__vector_bytes(b));
+    (void)peri__stiffness_times(s, at_rest, &square);
+    s->k.alpha = 1.0;
+    s->k.d = s->k.z; /* only r is wanted */
+    (void)peri__krylov_pass(s, b->ops->krylov_step);
+    s->k.d = d;
+}
+
+/* Finds the equilibrium at the present load factor. */
+static int32_t peri__newton(peri__solver *s) {
+    peri_body *b = s->body;
+    const int linear = peri__is_linear(b);
+    double last = HUGE_VAL, loads = peri__static_forces(s);
+    s->negative = s->energy_done = 0;
+    for (int64_t k = 0;; ++k) {
+        int32_t status;
+        if (loads < 0.0) return (int32_t)loads;
+        double residual = peri__static_residual(s, loads);
+        if (k == 0) s->start = residual > s->scale ? residual : 0.0;
+        if (s->scale < s->start) s->scale = s->start;
+        int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
+        s->report.residual = s->scale > 0.0 ? residual / s->scale : 0.0;
+        if (!gap && (residual <= peri__solve_tolerance(s) * s->scale || s->energy_done))
+            return s->negative ? peri__fail(b, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
+        if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))
+            return peri__fail(b, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
+        if (gap) peri__lift(s, at_rest);
+        double reach = peri__newton_reach(s, residual, gap);
+        last = residual;
+        s->report.newton++;
+        s->negative = 0;
+        if (s->settings->method == PERI_BICGSTAB) status = peri__solve_assembled(s, reach, loads);
+        else status = peri__conjugate(s, reach, loads, at_rest);
+        s->negative = status == PERI_ERROR_INDEFINITE;
+        if (status == PERI_ERROR_MEMORY) return status;
+        if (status == PERI_ERROR_LOOSE || (linear && s->negative)) return peri__fail(b, status, "tangent", -1, 0.0);
+        s->energy_done = linear && s->settings->energy_tolerance > 0.0;
+        if (linear || gap) {
+            if (linear || status != PERI_STOPPED) peri__move(s, 1.0);
+            if (status != PERI_STOPPED) loads = peri__static_forces(s);
+        } else if (status != PERI_STOPPED)
+            loads = peri__search_line(s);
+        if (status == PERI_STOPPED) return status;
+    }
+}

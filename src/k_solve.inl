@@ -1,0 +1,224 @@
+/* k_solve.inl - the static solver's work on whole vectors, and the tangent of the force where the geometry is not linear.
+
+   With the halves T = w [(p g + q e) M + Q xi + k eta] of both ends a change d of the displacements changes the force on i by
+       sum_j [dc M + c/|y| (d eta - M de)] + w (dQ xi + k d eta),    de = M.d eta,    dc = w (dp g + q de),
+   c the sum of both w (p g + q e). dp and dQ are what the change makes of theta and F, in the first pass. */
+
+/* dp, or dQ, of points [begin, end): from ->p to ->change, laid out as body->response. */
+static void PERI_FN(tangent_respond)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__tangent *t = (const peri__tangent *)context;
+    const peri_body *b = t->body;
+    const peri__model *m = b->model;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)t->p;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        const peri__law *law = &m->laws[m->material[i]];
+        const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
+        peri_r *change = (peri_r *)t->change + m->margin + i, n[PERI_D][PERI_D] = { { 0 } }, dn[PERI_D][PERI_D] = { { 0 } }, sum = 0;
+        const int tensor = law->model == PERI_CORRESPONDENCE;
+        peri__row row;
+        change[0] = 0;
+        if (law->model == PERI_BOND_BASED || (!tensor && constant[PERI__PRESS * m->stride] == 0)) continue;
+        peri__read_row(m, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            const int64_t j = row.ids[k];
+            const peri_r bond = ((const peri_r *)row.bond)[k], weight = ((const peri_r *)row.weight)[k];
+            peri_r xi[PERI_D], eta[PERI_D], delta[PERI_D], along = 0, square = 0;
+            if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+            for (int d = 0; d < PERI_D; ++d) {
+                xi[d] = x[d * m->stride + j] - x[d * m->stride + i];
+                eta[d] = u[d * m->stride + j] - u[d * m->stride + i];
+                delta[d] = p[d * m->stride + j] - p[d * m->stride + i];
+                along += (xi[d] + eta[d]) * delta[d];
+                square += (xi[d] + eta[d]) * (xi[d] + eta[d]);
+            }
+            if (!tensor) sum += weight * (law->model == PERI_OTERKUS ? 1 : bond) * along / (PERI_SQRT(square) + PERI_TINY);
+            for (int a = 0; tensor && a < PERI_D; ++a)
+                for (int d = 0; d < PERI_D; ++d) {
+                    n[a][d] += weight * eta[a] * xi[d];
+                    dn[a][d] += weight * delta[a] * xi[d];
+                }
+        }
+        if (!tensor) {
+            change[0] = constant[PERI__PRESS * m->stride] * (constant[PERI__DILATE * m->stride] * sum);
+            continue;
+        }
+        peri_r h[PERI_D][PERI_D], dh[PERI_D][PERI_D], s[PERI_D][PERI_D], ds[PERI_D][PERI_D], dp[PERI_D][PERI_D], trace = 0, dtrace = 0;
+        PERI_FN(gradient)(b, i, n, h);
+        PERI_FN(gradient)(b, i, dn, dh);
+        PERI_FN(strain)(0, h, s);
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) {
+                ds[a][d] = (peri_r)0.5 * (dh[a][d] + dh[d][a]);
+                for (int c = 0; c < PERI_D; ++c) ds[a][d] += (peri_r)0.5 * (dh[c][a] * h[c][d] + h[c][a] * dh[c][d]);
+            }
+        for (int a = 0; a < PERI_D; ++a) {
+            trace += s[a][a];
+            dtrace += ds[a][a];
+        }
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) {
+                s[a][d] = (peri_r)(2.0 * law->mu) * s[a][d] + (a == d ? (peri_r)law->lambda * trace : 0);
+                ds[a][d] = (peri_r)(2.0 * law->mu) * ds[a][d] + (a == d ? (peri_r)law->lambda * dtrace : 0);
+            }
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) {
+                dp[a][d] = ds[a][d];
+                for (int c = 0; c < PERI_D; ++c) dp[a][d] += dh[a][c] * s[c][d] + h[a][c] * ds[c][d];
+            }
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) {
+                peri_r q = -constant[PERI__VECTOR * m->stride] * dh[a][d];
+                for (int c = 0; c < PERI_D; ++c) q += dp[a][c] * constant[(PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride];
+                change[(1 + a * PERI_D + d) * m->stride] = q;
+            }
+    }
+}
+
+/* The half of end i: adds w (p g + q e) to c, its change to dc, and what correspondence adds to t. */
+PERI_INLINE void PERI_FN(tangent_half)(const peri__tangent *tangent, int64_t i, int64_t j, peri_r weight, const peri_r *xi,
+                                       const peri_r *delta, peri_r bond, peri_r e, peri_r de, peri_r *c, peri_r *dc, peri_r *t) {
+    const peri_body *b = tangent->body;
+    const peri__model *m = b->model;
+    const int32_t law = m->laws[m->material[i]].model;
+    if (law == PERI_BOND_BASED) {
+        const peri_r spring = weight * (peri_r)(0.5 * PERI_FN(pair)(b, i, j)->c) / bond;
+        *c += spring * e;
+        *dc += spring * de;
+        return;
+    }
+    const peri_r *constant = (const peri_r *)b->constant + m->margin + i, *response = (const peri_r *)b->response + m->margin + i;
+    const peri_r *change = (const peri_r *)tangent->change + m->margin + i, gauge = law == PERI_OTERKUS ? 1 : bond;
+    *c += weight * (response[0] * gauge + constant[PERI__SPRING * m->stride] * e);
+    *dc += weight * (change[0] * gauge + constant[PERI__SPRING * m->stride] * de);
+    if (law != PERI_CORRESPONDENCE) return;
+    for (int a = 0; a < PERI_D; ++a) {
+        peri_r sum = constant[PERI__VECTOR * m->stride] * delta[a];
+        for (int d = 0; d < PERI_D; ++d) sum += change[(1 + a * PERI_D + d) * m->stride] * xi[d];
+        t[a] += weight * sum;
+    }
+}
+
+/* The change of the force density of points [begin, end): to ->q. */
+static void PERI_FN(tangent_share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__tangent *tangent = (const peri__tangent *)context;
+    const peri_body *b = tangent->body;
+    const peri__model *m = b->model;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)tangent->p;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        peri_r sum[PERI_D] = { 0 };
+        peri__row row;
+        peri__read_row(m, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            const int64_t j = row.ids[k];
+            const peri_r bond = ((const peri_r *)row.bond)[k];
+            peri_r xi[PERI_D], eta[PERI_D], delta[PERI_D], y[PERI_D], t[PERI_D], e, length, de = 0, c = 0, dc = 0;
+            if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+            for (int d = 0; d < PERI_D; ++d) {
+                xi[d] = x[d * m->stride + j] - x[d * m->stride + i];
+                eta[d] = u[d * m->stride + j] - u[d * m->stride + i];
+                delta[d] = p[d * m->stride + j] - p[d * m->stride + i];
+                t[d] = 0;
+            }
+            length = PERI_FN(extension)(0, xi, eta, bond, &e, y) + PERI_TINY;
+            for (int d = 0; d < PERI_D; ++d) {
+                y[d] /= length;
+                de += y[d] * delta[d];
+            }
+            PERI_FN(tangent_half)(tangent, i, j, ((const peri_r *)row.weight)[k], xi, delta, bond, e, de, &c, &dc, t);
+            PERI_FN(tangent_half)(tangent, j, i, ((const peri_r *)row.back)[k], xi, delta, bond, e, de, &c, &dc, t);
+            for (int d = 0; d < PERI_D; ++d) sum[d] += t[d] + dc * y[d] + c / length * (delta[d] - y[d] * de);
+        }
+        for (int d = 0; d < PERI_D; ++d) ((peri_r *)tangent->q)[d * m->stride + i] = sum[d];
+    }
+}
+
+/* ---- vectors ------------------------------------------------------------------------------------------------------ */
+
+/* d += alpha p, r -= alpha q. sums: |r|^2 of free dofs to a, of held ones to b. */
+static void PERI_FN(krylov_step)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__krylov *s = (const peri__krylov *)context;
+    const int64_t stride = s->body->model->stride;
+    const peri_r alpha = (peri_r)s->alpha;
+    for (int d = 0; d < PERI_D; ++d) {
+        peri_r *x = (peri_r *)s->d + d * stride, *r = (peri_r *)s->r + d * stride;
+        const peri_r *p = (const peri_r *)s->p + d * stride, *q = (const peri_r *)s->q + d * stride;
+        for (int64_t i = begin; i < end; ++i) {
+            const double held = s->held[i] >> d & 1;
+            x[i] += alpha * p[i];
+            r[i] -= alpha * q[i];
+            const double square = (double)r[i] * (double)r[i];
+            sums->a += (1.0 - held) * square;
+            sums->b += held * square;
+        }
+    }
+}
+
+/* p = z + beta p on free dofs, 0 on held ones. */
+static void PERI_FN(krylov_turn)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__krylov *s = (const peri__krylov *)context;
+    const int64_t stride = s->body->model->stride;
+    const peri_r beta = (peri_r)s->beta;
+    (void)sums;
+    for (int d = 0; d < PERI_D; ++d) {
+        peri_r *p = (peri_r *)s->p + d * stride;
+        const peri_r *z = (const peri_r *)s->z + d * stride;
+        for (int64_t i = begin; i < end; ++i) p[i] = s->held[i] >> d & 1 ? 0 : z[i] + beta * p[i];
+    }
+}
+
+/* q = -V q: the force that the change p of displacements needs. sums: p.q to a, p.p to b. */
+static void PERI_FN(krylov_force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__krylov *s = (const peri__krylov *)context;
+    const peri__model *m = s->body->model;
+    for (int d = 0; d < PERI_D; ++d) {
+        const peri_r *p = (const peri_r *)s->p + d * m->stride;
+        peri_r *q = (peri_r *)s->q + d * m->stride;
+        for (int64_t i = begin; i < end; ++i) {
+            q[i] *= -(peri_r)m->volume[i];
+            sums->a += (double)p[i] * (double)q[i];
+            sums->b += (double)p[i] * (double)p[i];
+        }
+    }
+}
+
+/* z = inverse blocks times r (0 for held dofs, whose rows are 0), or r itself. */
+static void PERI_FN(krylov_blocks)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__krylov *s = (const peri__krylov *)context;
+    const int64_t stride = s->body->model->stride;
+    const peri_r *blocks = (const peri_r *)s->blocks, *r = (const peri_r *)s->r;
+    (void)sums;
+    for (int a = 0; a < PERI_D; ++a) {
+        peri_r *z = (peri_r *)s->z + a * stride;
+        for (int64_t i = begin; i < end; ++i) {
+            peri_r sum = 0;
+            for (int c = 0; blocks && c < PERI_D; ++c) sum += blocks[peri__packed(PERI_D, a, c) * stride + i] * r[c * stride + i];
+            z[i] = blocks ? sum : s->held[i] >> a & 1 ? 0 : r[a * stride + i];
+        }
+    }
+}
+
+/* sums: |r|^2 of free dofs to a, of held ones to b. */
+static void PERI_FN(krylov_norm)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__krylov *s = (const peri__krylov *)context;
+    const int64_t stride = s->body->model->stride;
+    for (int d = 0; d < PERI_D; ++d) {
+        const peri_r *r = (const peri_r *)s->r + d * stride;
+        for (int64_t i = begin; i < end; ++i) {
+            const double held = s->held[i] >> d & 1, square = (double)r[i] * (double)r[i];
+            sums->a += (1.0 - held) * square;
+            sums->b += held * square;
+        }
+    }
+}
+
+/* sums: r.z over free dofs to a. */
+static void PERI_FN(krylov_dot)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__krylov *s = (const peri__krylov *)context;
+    const int64_t stride = s->body->model->stride;
+    for (int d = 0; d < PERI_D; ++d) {
+        const peri_r *r = (const peri_r *)s->r + d * stride, *z = (const peri_r *)s->z + d * stride;
+        for (int64_t i = begin; i < end; ++i) sums->a += s->held[i] >> d & 1 ? 0.0 : (double)r[i] * (double)z[i];
+    }
+}

@@ -1,0 +1,248 @@
+/* loose.c - what can move without resistance: connected parts whose supports leave rigid motions free, and points whose bonds span too little.
+
+   The rigid motions of a part are t + omega x (y - centre)/radius of its present positions y (linear geometry: of x): 3 in 2D, 6 in 3D. Those in which no held
+   component moves are free; they are the null space of the Gram matrix of the held components. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+static double peri__place(const peri_body *b, int64_t i, int32_t d) {
+    int64_t at = d * b->model->stride + i;
+    return peri__get_real(b->model->x, b->f32, at) + (b->desc.geometry == PERI_LINEAR ? 0.0 : peri__get_real(b->u, b->f32, at));
+}
+
+/* Component d of rigid motion r of a part at point i. */
+static double peri__rigid(const peri_body *b, const peri__fragment *part, int64_t i, int r, int32_t d) {
+    const int32_t dim = b->dim;
+    if (r < dim) return r == d ? 1.0 : 0.0;
+    int axis = dim == 2 ? 2 : r - dim, u = (axis + 1) % 3, v = (axis + 2) % 3; /* turns u to v */
+    if (d == u) return -(peri__place(b, i, v) - part->centre[v]) / part->radius;
+    if (d == v) return (peri__place(b, i, u) - part->centre[u]) / part->radius;
+    return 0.0;
+}
+
+/* Component d of free mode k of a part at point i. */
+static double peri__mode(const peri_body *b, const peri__fragment *part, int64_t i, int32_t k, int32_t d) {
+    double sum = 0.0;
+    for (int r = 0; r < b->dim * (b->dim + 1) / 2; ++r)
+        if (part->mode[k][r] != 0.0) sum += part->mode[k][r] * peri__rigid(b, part, i, r, d);
+    return sum;
+}
+
+/* The points that live bonds connect with `first`, to s->queue; their part_of becomes `mark`. Returns their number. */
+static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
+    const peri_body *b = s->body;
+    int64_t count = 1;
+    s->queue[0] = (int32_t)first;
+    s->part_of[first] = mark;
+    for (int64_t n = 0; n < count; ++n) {
+        int64_t i = s->queue[n];
+        peri__row row;
+        peri__read_row(b->model, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k)
+            if (s->part_of[row.ids[k]] < -1 && peri__is_alive(b, i, k)) {
+                s->part_of[row.ids[k]] = mark;
+                s->queue[count++] = row.ids[k];
+            }
+    }
+    return count;
+}
+
+/* Centre, radius and free modes of the part in s->queue. */
+static void peri__free_modes(const peri__solver *s, int64_t count, peri__fragment *part) {
+    const peri_body *b = s->body;
+    const int dim = b->dim, motions = dim * (dim + 1) / 2;
+    double all[PERI_RIGID][PERI_RIGID] = { { 0.0 } }, held[PERI_RIGID * PERI_RIGID] = { 0.0 }, basis[PERI_RIGID * PERI_RIGID];
+    double inner[PERI_RIGID * PERI_RIGID] = { 0.0 }, turned[PERI_RIGID * PERI_RIGID];
+    int free_[PERI_RIGID], frees = 0;
+    memset(part, 0, sizeof *part);
+    for (int64_t n = 0; n < count; ++n)
+        for (int d = 0; d < dim; ++d) part->centre[d] += peri__place(b, s->queue[n], d) / (double)count;
+    for (int64_t n = 0; n < count; ++n) {
+        double square = 0.0;
+        for (int d = 0; d < dim; ++d) square += peri__square(peri__place(b, s->queue[n], d) - part->centre[d]);
+        if (square > part->radius * part->radius) part->radius = sqrt(square);
+    }
+    if (!(part->radius > 0.0)) part->radius = 1.0;
+    for (int64_t n = 0; n < count; ++n)
+        for (int d = 0; d < dim; ++d) {
+            double motion[PERI_RIGID];
+            for (int r = 0; r < motions; ++r) motion[r] = peri__rigid(b, part, s->queue[n], r, d);
+            for (int r = 0; r < motions; ++r)
+                for (int c = 0; c < motions; ++c) {
+                    all[r][c] += motion[r] * motion[c];
+                    if (s->held[s->queue[n]] >> d & 1) held[r * motions + c] += motion[r] * motion[c];
+                }
+        }
+    peri__jacobi(motions, held, basis);
+    for (int r = 0; r < motions; ++r)
+        if (held[r * (motions + 1)] < 1e-10) free_[frees++] = r;
+    /* among them those that move something: not the turn of a line of points about itself */
+    for (int p = 0; p < frees; ++p)
+        for (int q = 0; q < frees; ++q)
+            for (int r = 0; r < motions; ++r)
+                for (int c = 0; c < motions; ++c)
+                    inner[p * frees + q] += basis[r * motions + free_[p]] * all[r][c] * basis[c * motions + free_[q]];
+    peri__jacobi(frees, inner, turned);
+    for (int p = 0; p < frees; ++p) {
+        if (!(inner[p * (frees + 1)] > 1e-12 * (double)count)) continue;
+        for (int r = 0; r < motions; ++r)
+            for (int q = 0; q < frees; ++q) part->mode[part->modes][r] += basis[r * motions + free_[q]] * turned[q * frees + p];
+        part->modes++;
+    }
+}
+
+/* Holds, for each free mode of the part in s->queue, the component that it moves most, and takes the mode out of the others. */
+static void peri__pin(peri__solver *s, int64_t count, peri__fragment *part) {
+    const peri_body *b = s->body;
+    for (int32_t k = 0; k < part->modes; ++k) {
+        double most = 0.0;
+        int64_t at = s->queue[0];
+        int32_t axis = 0;
+        for (int64_t n = 0; n < count; ++n)
+            for (int32_t d = 0; d < b->dim; ++d) {
+                double moved = fabs(peri__mode(b, part, s->queue[n], k, d));
+                if (moved <= most * (1.0 + 1e-9)) continue;
+                most = moved;
+                at = s->queue[n];
+                axis = d;
+            }
+        s->held[at] = (uint8_t)(s->held[at] | 1 << axis);
+        double pivot = peri__mode(b, part, at, k, axis);
+        for (int32_t other = k + 1; other < part->modes; ++other) {
+            double share = peri__mode(b, part, at, other, axis) / pivot;
+            for (int r = 0; r < PERI_RIGID; ++r) part->mode[other][r] -= share * part->mode[k][r];
+        }
+    }
+}
+
+/* The inverse of the mass of the modes of all parts, at the present positions. */
+static void peri__weigh_modes(peri__solver *s) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    for (int64_t p = 0; p < s->part_count; ++p) memset(s->parts[p].inverse, 0, sizeof s->parts[p].inverse);
+    for (int64_t i = 0; i < m->points; ++i) {
+        peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
+        for (int32_t d = 0; part && d < m->dim; ++d) {
+            double moved[PERI_RIGID];
+            for (int32_t k = 0; k < part->modes; ++k) moved[k] = peri__mode(b, part, i, k, d);
+            for (int32_t p = 0; p < part->modes; ++p)
+                for (int32_t q = 0; q < part->modes; ++q) part->inverse[p][q] += m->rho[m->material[i]] * m->volume[i] * moved[p] * moved[q];
+        }
+    }
+    for (int64_t n = 0; n < s->part_count; ++n) {
+        peri__fragment *part = &s->parts[n];
+        double mass[PERI_RIGID][PERI_RIGID], copy[PERI_RIGID][PERI_RIGID];
+        memcpy(mass, part->inverse, sizeof mass);
+        for (int q = 0; q < part->modes; ++q) {
+            double unit[PERI_RIGID] = { 0.0 }, column[PERI_RIGID];
+            unit[q] = 1.0;
+            memcpy(copy, mass, sizeof copy);
+            peri__solve(part->modes, PERI_RIGID, copy[0], unit, column);
+            for (int p = 0; p < part->modes; ++p) part->inverse[p][q] = column[p];
+        }
+    }
+}
+
+/* Finds the loose parts and deals with them as the settings say. s->held holds the supports. */
+static int32_t peri__find_loose(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    s->part_count = 0;
+    s->report.loose = 0;
+    for (int64_t i = 0; i < m->points; ++i) s->part_of[i] = -2;
+    for (int64_t i = 0; i < m->points; ++i) {
+        peri__fragment part;
+        if (s->part_of[i] > -2) continue;
+        int64_t count = peri__connected(s, i, -1);
+        peri__free_modes(s, count, &part);
+        if (part.modes == 0) continue;
+        if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, (double)part.modes);
+        s->report.loose += part.modes;
+        if (s->settings->loose == PERI_LOOSE_PINNED) {
+            peri__pin(s, count, &part);
+            continue;
+        }
+        if (!peri__grow(&b->memory, &s->parts, &s->part_capacity, s->part_count + 1, sizeof *s->parts))
+            return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
+        for (int64_t n = 0; n < count; ++n) s->part_of[s->queue[n]] = (int32_t)s->part_count;
+        s->parts[s->part_count++] = part;
+    }
+    peri__weigh_modes(s);
+    return PERI_OK;
+}
+
+/* Takes the free modes out of a vector of forces (spread by mass, as inertia would) or of displacements. */
+static void peri__balance(peri__solver *s, void *vector, int forces) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    if (s->part_count == 0) return;
+    for (int64_t p = 0; p < s->part_count; ++p) memset(s->parts[p].sum, 0, sizeof s->parts[p].sum);
+    for (int64_t i = 0; i < m->points; ++i) {
+        peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
+        double mass = forces ? 1.0 : m->rho[m->material[i]] * m->volume[i];
+        for (int32_t k = 0; part && k < part->modes; ++k)
+            for (int32_t d = 0; d < m->dim; ++d)
+                part->sum[k] += mass * peri__mode(b, part, i, k, d) * peri__get_real(vector, b->f32, d * m->stride + i);
+    }
+    for (int64_t p = 0; p < s->part_count; ++p) {
+        double share[PERI_RIGID] = { 0.0 };
+        for (int32_t k = 0; k < s->parts[p].modes; ++k)
+            for (int32_t q = 0; q < s->parts[p].modes; ++q) share[k] += s->parts[p].inverse[k][q] * s->parts[p].sum[q];
+        memcpy(s->parts[p].sum, share, sizeof share);
+    }
+    for (int64_t i = 0; i < m->points; ++i) {
+        const peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
+        double mass = forces ? m->rho[m->material[i]] * m->volume[i] : 1.0;
+        for (int32_t d = 0; part && d < m->dim; ++d) {
+            double sum = 0.0;
+            for (int32_t k = 0; k < part->modes; ++k) sum += part->sum[k] * peri__mode(b, part, i, k, d);
+            int64_t at = d * m->stride + i;
+            peri__put_real(vector, b->f32, at, peri__get_real(vector, b->f32, at) - mass * sum);
+        }
+    }
+}
+
+/* Inverts the diagonal blocks on what is free. Points whose bonds do not resist in all free directions are refused, or marked. */
+static int32_t peri__invert_blocks(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    const int packed = PERI_PACKED(m->dim);
+    for (int64_t i = 0; i < m->points; ++i) {
+        double block[6], inverse[6];
+        int frees = 0;
+        for (int k = 0; k < packed; ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
+        for (int d = 0; d < m->dim; ++d) {
+            frees += !(s->held[i] >> d & 1);
+            for (int c = 0; c < m->dim && (s->held[i] >> d & 1); ++c) block[peri__packed(m->dim, d, c)] = 0.0;
+        }
+        if (frees > 0 && peri__invert(m->dim, block, b->f32 ? 1e-5 : 1e-9, inverse) < frees) {
+            if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, 0.0);
+            s->held[i] |= PERI_HANGING;
+        }
+        for (int k = 0; k < packed; ++k) peri__put_real(s->blocks, b->f32, k * m->stride + i, frees > 0 ? inverse[k] : 0.0);
+    }
+    return PERI_OK;
+}
+
+/* Takes out of a vector of forces what the bonds of hanging points do not resist. */
+static void peri__drop_hanging(peri__solver *s, void *vector) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    for (int64_t i = 0; i < m->points; ++i) {
+        double block[6], inverse[6], force[3], range[3], kept[3];
+        if (!(s->held[i] & PERI_HANGING)) continue;
+        for (int k = 0; k < PERI_PACKED(m->dim); ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
+        (void)peri__invert(m->dim, block, 1e-12, inverse);
+        for (int d = 0; d < m->dim; ++d) force[d] = peri__get_real(vector, b->f32, d * m->stride + i);
+        for (int d = 0; d < m->dim; ++d) { /* inverse of the inverse times the inverse: the projector on its range */
+            range[d] = 0.0;
+            for (int c = 0; c < m->dim; ++c) range[d] += block[peri__packed(m->dim, d, c)] * force[c];
+        }
+        for (int d = 0; d < m->dim; ++d) {
+            kept[d] = 0.0;
+            for (int c = 0; c < m->dim; ++c) kept[d] += inverse[peri__packed(m->dim, d, c)] * range[c];
+            if (!(s->held[i] >> d & 1)) peri__put_real(vector, b->f32, d * m->stride + i, kept[d]);
+        }
+    }
+}

@@ -1,0 +1,379 @@
+/* matrix.c - the tangent stiffness assembled by rows (compressed), Matrix Market, and BiCGSTAB on it ([T] 3.2, 3.3).
+
+   The energy of point o is a function of the displacements of o and its family, so the stiffness is a sum over points o of a small dense
+   matrix. With the bonds' directions n, lengths L and y = L n, and d eta_j = du_j - du_o:
+       springs         sum_j w [q n n + (p g + q e)/L (1 - n n)] on d eta_j
+       theta           press dilate l l,      l = sum_j w g n.d eta_j
+       correspondence  dH : A : dH,  dH = sum_j d eta_j (w K^-1 xi_j),  and  k (sum_j w |d eta_j|^2 - tr(dH K dH^T)) */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+struct peri_matrix {
+    peri__memory memory;
+    int32_t  dim;
+    int64_t  points, pairs; /* pairs: coupled points, both directions and own                                            */
+    int64_t *start;         /* [points+1] first pair of a point                                                          */
+    int32_t *column;        /* [pairs] the other point, ascending                                                        */
+    double  *block;         /* [pairs][dim][dim], inner units                                                            */
+    double   unit;
+};
+
+PERI_API void peri_matrix_destroy(peri_matrix *a) {
+    if (!a) return;
+    const peri__memory memory = a->memory;
+    peri__delete(&memory, a->start, a->points + 1, sizeof *a->start);
+    peri__delete(&memory, a->column, a->pairs, sizeof *a->column);
+    peri__delete(&memory, a->block, a->pairs * a->dim * a->dim, sizeof *a->block);
+    peri__delete(&memory, a, 1, sizeof *a);
+}
+
+/* The points that i couples with, ascending: its family, and where theta or F counts the families of that. Returns their number. */
+static int64_t peri__coupled(const peri_body *b, int64_t i, int32_t *mark, int32_t *list) {
+    const peri__model *m = b->model;
+    int64_t count = 1, own;
+    peri__row row;
+    list[0] = (int32_t)i;
+    mark[i] = (int32_t)i + 1;
+    peri__read_row(m, b->f32, i, &row);
+    for (int64_t k = 0; k < row.count; ++k)
+        if (peri__is_alive(b, i, k)) {
+            mark[row.ids[k]] = (int32_t)i + 1;
+            list[count++] = row.ids[k];
+        }
+    own = count;
+    for (int64_t n = 1; n < own && (m->dilates || m->tensors); ++n) {
+        peri__read_row(m, b->f32, list[n], &row);
+        for (int64_t k = 0; k < row.count; ++k)
+            if (mark[row.ids[k]] != (int32_t)i + 1 && peri__is_alive(b, list[n], k)) {
+                mark[row.ids[k]] = (int32_t)i + 1;
+                list[count++] = row.ids[k];
+            }
+    }
+    peri__sort_row(list, count);
+    return count;
+}
+
+/* dP for a change d of H at the deformation f of a correspondence point. */
+static void peri__stress_change(const peri_body *b, int64_t i, const peri__deformation *f, double d[3][3], double out[3][3]) {
+    const peri__law *law = &b->model->laws[b->model->material[i]];
+    const int dim = b->dim, linear = b->desc.geometry == PERI_LINEAR;
+    double s[3][3], ds[3][3], trace = 0.0, dtrace = 0.0;
+    peri__strain_of(b, f, s);
+    for (int p = 0; p < dim; ++p)
+        for (int q = 0; q < dim; ++q) {
+            ds[p][q] = 0.5 * (d[p][q] + d[q][p]);
+            for (int c = 0; !linear && c < dim; ++c) ds[p][q] += 0.5 * (d[c][p] * f->h[c][q] + f->h[c][p] * d[c][q]);
+        }
+    for (int p = 0; p < dim; ++p) {
+        trace += s[p][p];
+        dtrace += ds[p][p];
+    }
+    for (int p = 0; p < dim; ++p)
+        for (int q = 0; q < dim; ++q) {
+            s[p][q] = 2.0 * law->mu * s[p][q] + (p == q ? law->lambda * trace : 0.0);
+            ds[p][q] = 2.0 * law->mu * ds[p][q] + (p == q ? law->lambda * dtrace : 0.0);
+        }
+    for (int p = 0; p < dim; ++p)
+        for (int q = 0; q < dim; ++q) {
+            out[p][q] = ds[p][q];
+            for (int c = 0; !linear && c < dim; ++c) out[p][q] += d[p][c] * s[c][q] + f->h[p][c] * ds[c][q];
+        }
+}
+
+typedef struct peri__element { /* the stiffness of the energy of one point: of its live family and itself, ascending      */
+    int64_t  count, self;
+    int32_t *id;     /* [count]                                                                                          */
+    double  *pull;   /* [count][dim]: w g n of theta, or w K^-1 xi of H; of the point itself minus their sum             */
+    double  *spring; /* [count][dim][dim]; of the point itself their sum                                                 */
+} peri__element;
+
+/* Fills the element of point o; returns what multiplies pull x pull of theta. tensor[a][d][c][e]: V dP_ad/dH_ce less the stabilisation. */
+static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e, double tensor[3][3][3][3], int *tensors) {
+    const peri__model *m = b->model;
+    const int dim = m->dim, linear = b->desc.geometry == PERI_LINEAR, law = m->laws[m->material[o]].model;
+    const double volume = m->volume[o];
+    double vector = 0.0, press = 0.0, dilate = 0.0, p = 0.0, self[3] = { 0.0 }, springs[9] = { 0.0 };
+    peri__deformation f;
+    peri__row row;
+    peri__read_row(m, b->f32, o, &row);
+    e->count = 0;
+    e->self = -1;
+    *tensors = 0;
+    if (law != PERI_BOND_BASED) {
+        press = peri__get_constant(b, o, PERI__PRESS);
+        dilate = peri__get_constant(b, o, PERI__DILATE);
+        if (press != 0.0) p = press * peri__dilatation(b, o);
+    }
+    if (law == PERI_CORRESPONDENCE) {
+        vector = peri__get_constant(b, o, PERI__VECTOR);
+        *tensors = peri__get_constant(b, o, PERI__INVERSE) != 0.0;
+        peri__deform(b, o, &f);
+    }
+    for (int64_t k = 0; k < row.count; ++k) {
+        if (!peri__is_alive(b, o, k)) continue;
+        if (row.ids[k] > o && e->self < 0) e->self = e->count++;
+        double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->f32, k), bond = peri__get_real(row.bond, b->f32, k);
+        double gauge = law == PERI_OTERKUS ? 1.0 : bond, *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
+        double stretched = bond * peri__stretch(b, o, k), q;
+        peri__pull_of(b, o, k, xi, eta);
+        for (int d = 0; d < dim; ++d) length += peri__square(n[d] = xi[d] + (linear ? 0.0 : eta[d]));
+        length = sqrt(length) + DBL_MIN;
+        for (int d = 0; d < dim; ++d) n[d] /= length;
+        if (law == PERI_BOND_BASED) q = 0.5 * m->pairs[m->material[o] * m->materials + m->material[row.ids[k]]].c / bond;
+        else q = peri__get_constant(b, o, PERI__SPRING);
+        double along = volume * w * q, across = linear ? 0.0 : volume * w * (p * gauge + q * stretched) / length;
+        for (int a = 0; a < dim; ++a) {
+            pull[a] = w * gauge * n[a];
+            for (int c = 0; c < dim; ++c)
+                spring[a * dim + c] = (along - across) * n[a] * n[c] + (a == c ? across + volume * w * vector : 0.0);
+        }
+        if (*tensors) {
+            (void)peri__by_inverse(b, o, xi, pull);
+            for (int a = 0; a < dim; ++a) pull[a] *= w;
+        }
+        for (int a = 0; a < dim; ++a) self[a] -= pull[a];
+        for (int a = 0; a < dim * dim; ++a) springs[a] += spring[a];
+        e->id[e->count++] = row.ids[k];
+    }
+    if (e->self < 0) e->self = e->count++;
+    e->id[e->self] = (int32_t)o;
+    memcpy(&e->pull[e->self * dim], self, (size_t)dim * sizeof *self);
+    memcpy(&e->spring[e->self * dim * dim], springs, (size_t)(dim * dim) * sizeof *springs);
+    for (int c = 0; *tensors && c < dim; ++c)
+        for (int q = 0; q < dim; ++q) {
+            double unit[3][3] = { { 0.0 } }, out[3][3];
+            unit[c][q] = 1.0;
+            peri__stress_change(b, o, &f, unit, out);
+            for (int a = 0; a < dim; ++a)
+                for (int d = 0; d < dim; ++d) tensor[a][d][c][q] = volume * out[a][d];
+        }
+    return *tensors || law == PERI_BOND_BASED ? 0.0 : volume * press * dilate;
+}
+
+/* K of the shape tensor of point o: what the stabilisation takes back. */
+static void peri__shape_of(const peri_body *b, int64_t o, double shape[3][3]) {
+    peri__moments sum = peri__family_moments(b, o, 1);
+    for (int a = 0; a < b->dim; ++a)
+        for (int c = 0; c < b->dim; ++c) shape[a][c] = sum.shape[peri__packed(b->dim, a, c)];
+}
+
+static void peri__add_element(peri_matrix *a, const peri_body *b, int64_t o, const peri__element *e, double theta,
+                              double tensor[3][3][3][3], int tensors) {
+    const int dim = a->dim;
+    const double vector = tensors ? b->model->volume[o] * peri__get_constant(b, o, PERI__VECTOR) : 0.0;
+    double shape[3][3] = { { 0.0 } };
+    if (vector != 0.0) peri__shape_of(b, o, shape);
+    for (int64_t p = 0; p < e->count; ++p) {
+        int64_t at = a->start[e->id[p]];
+        for (int64_t q = 0; q < e->count; ++q) {
+            const double *left = &e->pull[p * dim], *right = &e->pull[q * dim];
+            const double *spring = p == q || q == e->self ? &e->spring[p * dim * dim] : p == e->self ? &e->spring[q * dim * dim] : NULL;
+            if (!spring && theta == 0.0 && !tensors) continue;
+            while (a->column[at] != e->id[q]) ++at;
+            for (int r = 0; r < dim; ++r)
+                for (int c = 0; c < dim; ++c) {
+                    double sum = theta * left[r] * right[c];
+                    for (int d = 0; tensors && d < dim; ++d)
+                        for (int s = 0; s < dim; ++s) {
+                            sum += left[d] * tensor[r][d][c][s] * right[s];
+                            if (r == c) sum -= vector * left[d] * shape[d][s] * right[s];
+                        }
+                    if (spring) sum += p == q ? spring[r * dim + c] : -spring[r * dim + c];
+                    a->block[(at * dim + r) * dim + c] += sum;
+                }
+        }
+    }
+}
+
+/* Which points couple: start and column. */
+static int32_t peri__couple(peri_body *b, peri_matrix *a, int32_t *mark, int32_t *list) {
+    for (int64_t i = 0; i < a->points; ++i) a->start[i + 1] = a->start[i] + peri__coupled(b, i, mark, list);
+    a->pairs = a->start[a->points];
+    if (a->pairs > INT32_MAX) return peri__fail(b, PERI_ERROR_TOO_LARGE, "matrix", -1, (double)a->pairs);
+    a->column = (int32_t *)peri__new(&b->memory, a->pairs, sizeof *a->column);
+    a->block = (double *)peri__new(&b->memory, a->pairs * a->dim * a->dim, sizeof *a->block);
+    if (!a->column || !a->block) return peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
+    memset(mark, 0, (size_t)a->points * sizeof *mark);
+    for (int64_t i = 0; i < a->points; ++i) {
+        int64_t count = peri__coupled(b, i, mark, list);
+        memcpy(&a->column[a->start[i]], list, (size_t)count * sizeof *list);
+    }
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_assemble(peri_body *b, peri_matrix **matrix) {
+    if (matrix) *matrix = NULL;
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, matrix, "matrix");
+    const peri__model *m = b->model;
+    if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    peri__element e;
+    peri_matrix *a = (peri_matrix *)peri__new(&b->memory, 1, sizeof *a);
+    int32_t *mark = (int32_t *)peri__new(&b->memory, m->points, sizeof *mark), status = PERI_ERROR_MEMORY;
+    int32_t *list = (int32_t *)peri__new(&b->memory, m->points, sizeof *list);
+    const int64_t room = m->width + 1;
+    e.id = (int32_t *)peri__new(&b->memory, room, sizeof *e.id);
+    e.pull = (double *)peri__new(&b->memory, room * m->dim, sizeof *e.pull);
+    e.spring = (double *)peri__new(&b->memory, room * m->dim * m->dim, sizeof *e.spring);
+    if (a) {
+        a->memory = b->memory;
+        a->dim = m->dim;
+        a->points = m->points;
+        a->unit = m->energy / peri__square(m->length);
+        a->start = (int64_t *)peri__new(&b->memory, a->points + 1, sizeof *a->start);
+    }
+    peri__refresh(b);
+    if (a && a->start && mark && list && e.id && e.pull && e.spring) status = peri__couple(b, a, mark, list);
+    else status = peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
+    for (int64_t o = 0; status == PERI_OK && o < m->points; ++o) {
+        double tensor[3][3][3][3];
+        int tensors;
+        double theta = peri__fill_element(b, o, &e, tensor, &tensors);
+        peri__add_element(a, b, o, &e, theta, tensor, tensors);
+    }
+    peri__delete(&b->memory, mark, m->points, sizeof *mark);
+    peri__delete(&b->memory, list, m->points, sizeof *list);
+    peri__delete(&b->memory, e.id, room, sizeof *e.id);
+    peri__delete(&b->memory, e.pull, room * m->dim, sizeof *e.pull);
+    peri__delete(&b->memory, e.spring, room * m->dim * m->dim, sizeof *e.spring);
+    if (status == PERI_OK) *matrix = a;
+    else peri_matrix_destroy(a);
+    return status;
+}
+
+PERI_API int64_t peri_matrix_rows(const peri_matrix *a) { return a ? a->points * a->dim : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_matrix_entries(const peri_matrix *a) { return a ? a->pairs * a->dim * a->dim : PERI_ERROR_ARGUMENT; }
+
+PERI_API int32_t peri_read_matrix(const peri_matrix *a, int64_t *start, int32_t *column, double *value) {
+    int64_t at = 0;
+    if (!a) return PERI_ERROR_ARGUMENT;
+    for (int64_t row = 0; row < a->points * a->dim; ++row) {
+        if (start) start[row] = at;
+        for (int64_t k = a->start[row / a->dim]; k < a->start[row / a->dim + 1]; ++k)
+            for (int32_t d = 0; d < a->dim; ++d, ++at) {
+                if (column) column[at] = a->column[k] * a->dim + d;
+                if (value) value[at] = a->unit * a->block[(k * a->dim + row % a->dim) * a->dim + d];
+            }
+    }
+    if (start) start[a->points * a->dim] = at;
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_write_matrix(const peri_matrix *a, peri_write_fn write, void *user) {
+    char line[160], *end;
+    const int64_t rows = peri_matrix_rows(a);
+    static const char head[] = "%%MatrixMarket matrix coordinate real symmetric\n";
+    if (!a || !write) return PERI_ERROR_ARGUMENT;
+    end = peri__put_text(peri__put_integer(peri__put_text(peri__put_integer(line, rows), " "), rows), " ");
+    int64_t lower = (peri_matrix_entries(a) - rows) / 2 + rows;
+    end = peri__put_text(peri__put_integer(end, lower), "\n");
+    if (write(user, head, (int64_t)sizeof head - 1) || write(user, line, end - line)) return PERI_ERROR_WRITE;
+    for (int64_t row = 0; row < rows; ++row)
+        for (int64_t k = a->start[row / a->dim]; k < a->start[row / a->dim + 1]; ++k)
+            for (int32_t d = 0; d < a->dim; ++d) {
+                int64_t column = (int64_t)a->column[k] * a->dim + d;
+                if (column > row) continue;
+                end = peri__put_text(peri__put_integer(peri__put_text(peri__put_integer(line, row + 1), " "), column + 1), " ");
+                end = peri__put_text(peri__put_double(end, a->unit * a->block[(k * a->dim + row % a->dim) * a->dim + d]), "\n");
+                if (write(user, line, end - line)) return PERI_ERROR_WRITE;
+            }
+    return PERI_OK;
+}
+
+/* ---- BiCGSTAB ----------------------------------------------------------------------------------------------------- */
+
+/* out = A in. */
+static void peri__multiply_matrix(const peri_matrix *a, const double *in, double *out) {
+    for (int64_t i = 0; i < a->points; ++i)
+        for (int32_t r = 0; r < a->dim; ++r) {
+            double row = 0.0;
+            for (int64_t k = a->start[i]; k < a->start[i + 1]; ++k)
+                for (int32_t c = 0; c < a->dim; ++c) row += a->block[(k * a->dim + r) * a->dim + c] * in[a->column[k] * a->dim + c];
+            out[i * a->dim + r] = row;
+        }
+}
+
+/* x.y over free dofs: those whose `scale` is not 0. */
+static double peri__free_dot(const double *scale, const double *x, const double *y, int64_t n) {
+    double sum = 0.0;
+    for (int64_t k = 0; k < n; ++k) sum += scale[k] != 0.0 ? x[k] * y[k] : 0.0;
+    return sum;
+}
+
+/* BiCGSTAB with the diagonal as preconditioner (van der Vorst 1992). work: [8][n]: [0] is the right-hand side and becomes what is left of
+   it, on held dofs minus the reaction; [1] the solution. */
+static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *work, int64_t n, double reach, double loads) {
+    double *r = work, *x = work + n, *shadow = work + 2 * n, *p = work + 3 * n, *v = work + 4 * n, *t = work + 5 * n, *y = work + 6 * n;
+    double *scale = work + 7 * n, rho = 1.0, alpha = 1.0, omega = 1.0;
+    for (int64_t i = 0; i < a->points; ++i)
+        for (int64_t k = a->start[i]; k < a->start[i + 1]; ++k)
+            for (int32_t d = 0; a->column[k] == i && d < a->dim; ++d) {
+                double diagonal = a->block[(k * a->dim + d) * a->dim + d];
+                scale[i * a->dim + d] = diagonal > 0.0 && !(s->held[i] >> d & 1) ? 1.0 / diagonal : 0.0;
+            }
+    memcpy(shadow, r, (size_t)n * sizeof *r);
+    for (;;) {
+        peri__sums sums = { peri__free_dot(scale, r, r, n), 0.0, 0, -1 };
+        for (int64_t k = 0; k < n; ++k) sums.b += scale[k] == 0.0 ? r[k] * r[k] : 0.0;
+        double residual = peri__measure(s, sums, loads), next = peri__free_dot(scale, shadow, r, n);
+        if (residual <= reach * s->scale || residual == 0.0) return PERI_OK;
+        if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
+        double beta = omega != 0.0 ? next / rho * alpha / omega : 0.0;
+        if (next == 0.0 || beta == 0.0) { /* broken down: again from here */
+            memcpy(shadow, r, (size_t)n * sizeof *r);
+            next = peri__free_dot(scale, r, r, n);
+            beta = 0.0;
+        }
+        rho = next;
+        for (int64_t k = 0; k < n; ++k) {
+            p[k] = r[k] + beta * (p[k] - omega * v[k]);
+            y[k] = scale[k] * p[k];
+        }
+        peri__multiply_matrix(a, y, v);
+        alpha = rho / peri__free_dot(scale, shadow, v, n);
+        for (int64_t k = 0; k < n; ++k) {
+            x[k] += alpha * y[k];
+            r[k] -= alpha * v[k];
+            y[k] = scale[k] * r[k];
+        }
+        peri__multiply_matrix(a, y, t);
+        double norm = peri__free_dot(scale, t, t, n);
+        omega = norm > 0.0 ? peri__free_dot(scale, t, r, n) / norm : 0.0;
+        for (int64_t k = 0; k < n; ++k) {
+            x[k] += omega * y[k];
+            r[k] -= omega * t[k];
+        }
+        int32_t status = peri__count_iteration(s, residual / (s->scale > 0.0 ? s->scale : residual));
+        if (status != PERI_OK) return status;
+    }
+}
+
+/* As peri__conjugate, by BiCGSTAB on the assembled tangent. */
+static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    const int64_t n = m->points * m->dim;
+    peri_matrix *a = NULL;
+    int32_t status = peri_assemble(b, &a);
+    if (status < 0) return status;
+    double *work = (double *)peri__new(&b->memory, 8 * n, sizeof *work);
+    int64_t bytes = s->bytes + 8 * n * (int64_t)sizeof *work + a->pairs * (m->dim * m->dim * 8 + 4);
+    if (bytes > s->report.bytes) s->report.bytes = bytes;
+    if (work) {
+        for (int64_t k = 0; k < n; ++k)
+            work[k] = peri__get_real(s->k.r, b->f32, k % m->dim * m->stride + k / m->dim);
+        status = peri__bicgstab(s, a, work, n, reach, loads);
+        s->slope = 0.0;
+        for (int64_t k = 0; k < n; ++k) s->slope += work[n + k] * peri__get_real(s->k.r, b->f32, k % m->dim * m->stride + k / m->dim);
+        for (int64_t k = 0; k < n; ++k) {
+            int64_t at = k % m->dim * m->stride + k / m->dim;
+            peri__put_real(s->k.d, b->f32, at, peri__get_real(s->k.d, b->f32, at) + work[n + k]);
+        }
+    } else
+        status = peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
+    peri__delete(&b->memory, work, 8 * n, sizeof *work);
+    peri_matrix_destroy(a);
+    return status;
+}

@@ -1,0 +1,57 @@
+/* relax.c - adaptive dynamic relaxation (Underwood 1983; Kilic, Madenci 2010): the body moves with a made-up mass that makes a step of 1
+   stable, under a damping that follows the lowest frequency in the present motion, c = 2 sqrt(u.K u/u.u) with the diagonal K = change of
+   force over change of place. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* One step of what is free: p is the velocity, q the force before, d unused. Returns whether anything may move. */
+static void peri__relax_step(peri__solver *s, double unit, int64_t k) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    double bent = 0.0, square = 0.0, damping = 0.0;
+    for (int32_t d = 0; k > 0 && d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            int64_t at = d * m->stride + i;
+            double v = peri__get_real(s->k.p, b->f32, at), u = peri__get_real(b->u, b->f32, at);
+            if ((s->held[i] >> d & 1) || v == 0.0) continue;
+            double stiff = (peri__get_real(s->k.q, b->f32, at) - peri__get_real(s->k.r, b->f32, at)) / v;
+            if (stiff > 0.0) bent += stiff * u * u;
+            square += m->rho[m->material[i]] * m->volume[i] * unit * u * u;
+        }
+    if (square > 0.0) damping = 2.0 * sqrt(bent / square);
+    if (damping > 1.9) damping = 1.9;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            int64_t at = d * m->stride + i;
+            double push = peri__get_real(s->k.r, b->f32, at) / (m->rho[m->material[i]] * m->volume[i] * unit);
+            double v = peri__get_real(s->k.p, b->f32, at);
+            if (s->held[i] >> d & 1) continue;
+            v = k == 0 ? 0.5 * push : ((2.0 - damping) * v + 2.0 * push) / (2.0 + damping);
+            peri__put_real(s->k.p, b->f32, at, v);
+            peri__put_real(b->u, b->f32, at, peri__get_real(b->u, b->f32, at) + v);
+        }
+}
+
+static int32_t peri__relax(peri__solver *s) {
+    peri_body *b = s->body;
+    double unit = 1.1 / peri__square(peri__stable(b));
+    if (peri__gap(s)) peri__move(s, 1.0);
+    memset(s->k.p, 0, peri__vector_bytes(b));
+    for (int64_t k = 0;; ++k) {
+        void *r = s->k.r;
+        s->k.r = s->k.q;
+        s->k.q = r;
+        double loads = peri__static_forces(s);
+        if (loads < 0.0) return (int32_t)loads;
+        double residual = peri__static_residual(s, loads);
+        if (k == 0) s->start = residual > s->scale ? residual : 0.0;
+        if (s->scale < s->start) s->scale = s->start;
+        s->report.residual = s->scale > 0.0 ? residual / s->scale : 0.0;
+        if (residual <= peri__solve_tolerance(s) * s->scale) return PERI_OK;
+        if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
+        peri__relax_step(s, unit, k);
+        int32_t status = peri__count_iteration(s, s->report.residual);
+        if (status != PERI_OK) return status;
+    }
+}

@@ -1,0 +1,291 @@
+/* statics.c - load steps and quasi-static fracture: equilibrium at a load factor, bonds over their limit broken, equilibrium again, until
+   none is; then the next load factor. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_COOKIE_STATICS (UINT64_C(0x7065726900040000) + sizeof(peri_statics))
+
+PERI_API void peri_statics_init(peri_statics *st) {
+    if (!st) return;
+    memset(st, 0, sizeof *st);
+    st->cookie = PERI_COOKIE_STATICS;
+    st->method = PERI_NEWTON;
+    st->preconditioner = PERI_MULTILEVEL;
+    st->loose = PERI_LOOSE_REFUSED;
+    st->fracture = 1;
+    st->iterations = 20000;
+    st->newton = 60;
+    st->breaks = 100000;
+    st->load_to = 1.0;
+    st->steps = 1;
+    st->halvings = 8;
+    st->curve_load = -1;
+}
+
+static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
+    PERI_NEED(b, st, "statics");
+    if (st->cookie != PERI_COOKIE_STATICS) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "statics", -1, 0.0);
+    PERI_NEED(b, st->method >= PERI_NEWTON && st->method <= PERI_RELAXATION, "method");
+    PERI_NEED(b, st->preconditioner >= PERI_MULTILEVEL && st->preconditioner <= PERI_NO_PRECONDITIONER, "preconditioner");
+    PERI_NEED(b, st->loose >= PERI_LOOSE_REFUSED && st->loose <= PERI_LOOSE_BALANCED, "loose");
+    PERI_NEED_NUMBER(b, st->criticality >= 0.0 && st->criticality <= 1.0, st->criticality);
+    PERI_NEED_NUMBER(b, st->tolerance >= 0.0 && st->tolerance < 1.0, st->tolerance);
+    PERI_NEED_NUMBER(b, st->energy_tolerance >= 0.0 && st->energy_tolerance < 1.0, st->energy_tolerance);
+    PERI_NEED_NUMBER(b, 1, st->load_from);
+    PERI_NEED_NUMBER(b, 1, st->load_to);
+    PERI_NEED(b, st->iterations > 0, "iterations");
+    PERI_NEED(b, st->newton > 0, "newton");
+    PERI_NEED(b, st->breaks >= 0, "breaks");
+    PERI_NEED(b, st->steps > 0, "steps");
+    PERI_NEED(b, st->halvings >= 0 && st->halvings <= 60, "halvings");
+    PERI_NEED(b, st->curve_rows >= 0 && (st->curve || st->curve_rows == 0), "curve");
+    if (st->curve_load != -1 || st->curve_rows > 0) {
+        int32_t status = peri__check_load(b, st->curve_load);
+        if (status < 0) return status;
+    }
+    if (b->model->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    return PERI_OK;
+}
+
+/* ---- fracture ----------------------------------------------------------------------------------------------------- */
+
+/* By how much the criterion of bond k of row i is passed: its value over its limit, 0 where it is not longer than at rest. */
+static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, int64_t k) {
+    const peri__model *m = b->model;
+    const int64_t j = row->ids[k];
+    const peri__pair *pair = b->cls ? &b->pairs[b->cls[i] * b->classes + b->cls[j]] : b->pairs;
+    double stretch = peri__stretch(b, i, k), excess = 0.0;
+    if (!(stretch > 0.0)) return 0.0;
+    if (pair->s0 < PERI_NEVER) excess = stretch / pair->s0;
+    if (b->work && pair->bond_energy < PERI_NEVER) {
+        double share = m->part ? (double)m->part[i * m->width + k] : m->volume[j];
+        excess = fmax(excess, peri__get_real(b->work, b->f32, i * m->width + k) / (pair->bond_energy * share));
+    }
+    if (b->node && pair->node_energy < PERI_NEVER) excess = fmax(excess, 0.5 * (b->node[i] + b->node[j]) / pair->node_energy);
+    return excess;
+}
+
+typedef struct peri__breaker {
+    peri_body *body;
+    double     limit; /* excess from which bonds break; 0: only the largest is looked for                                */
+} peri__breaker;
+
+/* Rows of bonds with j > i; sums->a: minus the largest excess. Both directions of a bond are decided by the row of its lower id. */
+static void peri__excess_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri_body *b = ((const peri__breaker *)context)->body;
+    for (int64_t i = begin; i < end; ++i) {
+        peri__row row;
+        peri__read_row(b->model, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k)
+            if (row.ids[k] > i && peri__is_alive(b, i, k)) sums->a = fmax(sums->a, peri__excess(b, &row, i, k));
+    }
+}
+
+/* Breaks the bonds over their limit; returns their number. */
+static int64_t peri__break_static(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    peri__breaker breaker;
+    double most = 0.0, limit = 1.0;
+    int64_t count = 0;
+    breaker.body = b;
+    if (!b->alive || !m->breakable || !s->settings->fracture) return 0;
+    peri__for_points(b, m->points, 2 * m->width, peri__excess_block, &breaker, b->sums);
+    for (int64_t k = 0; k < m->blocks; ++k) most = fmax(most, b->sums[k].a);
+    if (!(most > 1.0)) return 0;
+    if (s->settings->criticality * most * (1.0 - 1e-6) > limit) limit = s->settings->criticality * most * (1.0 - 1e-6);
+    double energy = b->desc.ledger ? peri__elastic_energy(b, NULL) : 0.0;
+    if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
+    for (int64_t i = 0; i < m->points; ++i) {
+        peri__row row;
+        peri__read_row(m, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            int64_t j = row.ids[k], back;
+            if (j < i || !peri__is_alive(b, i, k)) continue;
+            double excess = peri__excess(b, &row, i, k);
+            if (!(excess > 1.0 && excess >= limit)) continue;
+            back = peri__find_bond(m, j, i);
+            b->alive[i * m->words + k / 32] &= ~((uint32_t)1 << (k % 32));
+            b->alive[j * m->words + back / 32] &= ~((uint32_t)1 << (back % 32));
+            count++;
+        }
+    }
+    b->broken += 2 * count;
+    s->report.broken += count;
+    peri__cuts_made(b);
+    if (b->desc.ledger) b->ledger.fracture += energy - peri__elastic_energy(b, NULL);
+    if (b->before) peri__report_breaks(b);
+    return count;
+}
+
+/* ---- the ledger --------------------------------------------------------------------------------------------------- */
+
+/* The force density of loads and supports at this equilibrium, to `load`; with the one before and the way since then, their work. */
+static void peri__count_work(peri__solver *s, const void *from) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    double work = 0.0;
+    for (int32_t d = 0; s->load && d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            int64_t at = d * m->stride + i;
+            double outer = peri__get_real(s->k.z, b->f32, at), way;
+            if (s->held[i] >> d & 1) outer -= peri__get_real(b->f, b->f32, at);
+            way = from ? peri__get_real(b->u, b->f32, at) - peri__get_real(from, b->f32, at) : 0.0;
+            work += 0.5 * (outer + peri__get_real(s->load, b->f32, at)) * way * m->volume[i];
+            peri__put_real(s->load, b->f32, at, outer);
+        }
+    b->ledger.external += work;
+}
+
+/* ---- load steps --------------------------------------------------------------------------------------------------- */
+
+static int32_t peri__static_values(peri_body *b) {
+    for (int64_t l = 0; l < b->load_count; ++l)
+        if (b->loads[l].kind == PERI__DISPLACEMENT) {
+            int32_t status = peri__refresh_load(b, &b->loads[l], b->load_factor);
+            if (status < 0) return status;
+        }
+    return PERI_OK;
+}
+
+/* Equilibrium at a load factor, with all that breaks there. */
+static int32_t peri__static_step(peri__solver *s, double factor) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    b->load_factor = factor;
+    int32_t status = peri__static_values(b);
+    for (int64_t round = 0; status == PERI_OK; ++round) {
+        status = peri__prepare(s);
+        s->left = s->settings->iterations;
+        s->energy0 = 0.0;
+        if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
+        if (status == PERI_OK) status = s->settings->method == PERI_RELAXATION ? peri__relax(s) : peri__newton(s);
+        if (status != PERI_OK) break;
+        if (m->works) {
+            peri__step step = peri__no_step(b);
+            step.working = 1;
+            memcpy(b->f, s->k.z, peri__vector_bytes(b));
+            peri__bond_forces(b, &step);
+        }
+        peri__count_work(s, s->from);
+        if (round == s->settings->breaks || peri__break_static(s) == 0) break;
+    }
+    return status;
+}
+
+static int32_t peri__record(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri_statics *st = s->settings;
+    const int32_t dim = b->dim;
+    double force[3];
+    if (st->curve_load < 0) return PERI_OK;
+    int32_t status = peri_read_reaction(b, st->curve_load, force);
+    if (status < 0) return status;
+    if (s->report.curve_rows < st->curve_rows) {
+        double *row = &st->curve[s->report.curve_rows * (2 + 2 * dim)];
+        const peri__load *load = &b->loads[st->curve_load];
+        row[0] = b->load_factor;
+        for (int32_t d = 0; d < dim; ++d) {
+            row[1 + d] = 0.0;
+            for (int64_t k = 0; k < load->count; ++k) row[1 + d] += peri__get_real(b->u, b->f32, peri__dof(b, load, k, d));
+            row[1 + d] *= b->model->length / (double)load->count;
+            row[1 + dim + d] = force[d];
+        }
+        row[1 + 2 * dim] = (double)(b->broken / 2);
+    }
+    s->report.curve_rows++;
+    return PERI_OK;
+}
+
+/* Reactions, the record and the callback at an equilibrium. */
+static int32_t peri__show_step(peri__solver *s) {
+    peri_body *b = s->body;
+    b->steps++;
+    s->report.steps++;
+    s->report.load_factor = b->load_factor;
+    for (int64_t l = 0; l < b->load_count; ++l) b->loads[l].stepped = 0;
+    int32_t status = peri__meet_supports(b);
+    b->force_current = status == PERI_OK;
+    if (status == PERI_OK) status = peri__record(s);
+    if (status != PERI_OK || !s->settings->on_step) return status;
+    b->running = 1;
+    int32_t stop = s->settings->on_step(s->settings->user, b);
+    b->running = 2;
+    if (b->desc.ledger) peri__settle(b);
+    return stop ? PERI_STOPPED : PERI_OK;
+}
+
+/* From one planned load factor to the next, in as many steps as it takes. */
+static int32_t peri__load_step(peri__solver *s, double from, double to) {
+    peri_body *b = s->body;
+    double at = 0.0, part = 1.0, least = ldexp(1.0, -(int)s->settings->halvings);
+    int32_t status = PERI_OK;
+    while (at < 1.0 && status == PERI_OK) {
+        int64_t broken = s->report.broken;
+        double next = at + part < 1.0 ? at + part : 1.0;
+        if (s->before) memcpy(s->before, b->u, peri__vector_bytes(b));
+        status = peri__static_step(s, next < 1.0 ? from + next * (to - from) : to);
+        if (status == PERI_OK) {
+            status = peri__show_step(s);
+            at = next;
+            part *= 2.0;
+            continue;
+        }
+        if (status != PERI_ERROR_CONVERGENCE && status != PERI_ERROR_INDEFINITE) break;
+        if (!s->before || peri__is_linear(b) || s->settings->halvings == 0 || s->report.broken > broken) break;
+        memcpy(b->u, s->before, peri__vector_bytes(b));
+        part *= 0.5;
+        if (part >= least) status = PERI_OK;
+    }
+    return status;
+}
+
+static int32_t peri__load_steps(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri_statics *st = s->settings;
+    int32_t status = peri__take_solver(s);
+    if (status < 0) return status;
+    double kinetic = peri__kinetic_energy(b), from = st->load_from;
+    if (b->desc.ledger) peri__settle(b);
+    b->ledger.damping += b->desc.ledger ? kinetic : 0.0;
+    memset(b->v, 0, peri__vector_bytes(b));
+    b->still = 1;
+    b->force_current = 0;
+    if (s->load) { /* what acts before the first step, at its load factor */
+        b->load_factor = from;
+        status = peri__static_values(b);
+        memset(s->held, 0, (size_t)b->model->points);
+        peri__update_lanes(b);
+        peri__refresh(b);
+        if (status == PERI_OK) {
+            double loads = peri__static_forces(s);
+            if (loads < 0.0) status = (int32_t)loads;
+            else peri__mark_supports(s);
+        }
+        if (status == PERI_OK) peri__count_work(s, NULL);
+    }
+    for (int64_t k = 1; k <= st->steps && status == PERI_OK; ++k) {
+        double to = k < st->steps ? st->load_from + (st->load_to - st->load_from) * (double)k / (double)st->steps : st->load_to;
+        status = peri__load_step(s, from, to);
+        from = to;
+    }
+    return status;
+}
+
+PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_report *report) {
+    PERI_NEED_IDLE(b);
+    peri__solver s;
+    int32_t status = peri__check_statics(b, st);
+    if (report) memset(report, 0, sizeof *report);
+    if (status < 0) return status;
+    memset(&s, 0, sizeof s);
+    s.body = b;
+    s.settings = st;
+    b->running = 2;
+    status = peri__load_steps(&s);
+    b->running = 0;
+    peri__free_solver(&s);
+    if (report) *report = s.report;
+    return status;
+}

@@ -1,0 +1,198 @@
+/* surface.c - tractions and pressures spread over a horizon, so that they pass the patch test.
+
+   Under a uniform strain the bonds give each point a force that vanishes inside and not near a surface: -sigma a_i for correspondence, with
+   a_i the point's share of the surface's area vector. The traction that holds this stress in place is the opposite of it. It is found by
+   applying the stiffness at rest to the displacements eps x. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* The force density of all bonds to t->q, under the strain that makes the uniform stress sigma in a law; inner units. */
+static void peri__stress_force(const peri__tangent *t, const peri__law *law, double sigma[3][3]) {
+    peri_body *b = t->body;
+    const peri__model *m = b->model;
+    double trace = 0.0, strain[3][3];
+    for (int d = 0; d < m->dim; ++d) trace += sigma[d][d];
+    for (int a = 0; a < m->dim; ++a)
+        for (int c = 0; c < m->dim; ++c)
+            strain[a][c] = (sigma[a][c] - (a == c ? law->lambda * trace / (m->dim * law->lambda + 2.0 * law->mu) : 0.0)) / (2.0 * law->mu);
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int a = 0; a < m->dim; ++a) {
+            double u = 0.0;
+            for (int c = 0; c < m->dim; ++c) u += strain[a][c] * peri__get_real(m->x, b->f32, c * m->stride + i);
+            peri__put_real((void *)t->p, b->f32, a * m->stride + i, u);
+        }
+    peri__apply_tangent(t, 1);
+}
+
+/* The set, its one law, and the scratch for products; spread is filled by `fill`. Adds the load. */
+typedef struct peri__surface {
+    int32_t       set;
+    const double *normal; /* unit; NULL: pressure                                                                        */
+    double        area;   /* inner units                                                                                 */
+    peri__tangent t;
+    double       *spread;
+} peri__surface;
+
+/* An orthonormal frame whose first axis is n. */
+static void peri__frame(int dim, const double *n, double frame[3][3]) {
+    int least = 0;
+    memset(frame, 0, 9 * sizeof **frame);
+    for (int d = 0; d < dim; ++d) {
+        frame[0][d] = n[d];
+        if (fabs(n[d]) < fabs(n[least])) least = d;
+    }
+    if (dim == 2) {
+        frame[1][0] = -n[1];
+        frame[1][1] = n[0];
+        return;
+    }
+    double along[3] = { 0.0, 0.0, 0.0 }, length;
+    along[least] = 1.0;
+    peri__cross(n, along, frame[1]);
+    length = sqrt(peri__dot(frame[1], frame[1], 3));
+    for (int d = 0; d < 3; ++d) frame[1][d] /= length;
+    peri__cross(n, frame[1], frame[2]);
+}
+
+/* For each axis t of the frame of n: the stress t n + n t (n n for n itself), and the share of a point in what holds it, along t. */
+static int32_t peri__fill_traction(peri_body *b, peri__surface *f, const peri__law *law) {
+    const peri__model *m = b->model;
+    const int dim = m->dim;
+    double frame[3][3];
+    const double *n = frame[0];
+    peri__frame(dim, f->normal, frame);
+    for (int c = 0; c < dim; ++c) {
+        double sigma[3][3] = { { 0.0 } }, total = 0.0, scale;
+        for (int p = 0; p < dim; ++p)
+            for (int q = 0; q < dim; ++q) sigma[p][q] = c == 0 ? n[p] * n[q] : frame[c][p] * n[q] + n[p] * frame[c][q];
+        peri__stress_force(&f->t, law, sigma);
+        for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
+            int64_t i = peri__set_point(b, f->set, k);
+            for (int d = 0; d < dim; ++d) total -= m->volume[i] * frame[c][d] * peri__get_real(f->t.q, b->f32, d * m->stride + i);
+        }
+        if (!(fabs(total / f->area - 1.0) < 0.5)) return peri__fail(b, PERI_ERROR_SET, "set, area, normal", f->set, total);
+        scale = law->model == PERI_CORRESPONDENCE ? -1.0 : -f->area / total;
+        for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
+            double share = 0.0;
+            for (int d = 0; d < dim; ++d)
+                share += scale * frame[c][d] * peri__get_real(f->t.q, b->f32, d * m->stride + peri__set_point(b, f->set, k));
+            for (int p = 0; p < dim; ++p)
+                for (int q = 0; q < dim; ++q) f->spread[(k * dim + p) * dim + q] += share * frame[c][p] * frame[c][q];
+        }
+    }
+    return PERI_OK;
+}
+
+static void peri__fill_pressure(peri_body *b, peri__surface *f, const peri__law *law) {
+    const peri__model *m = b->model;
+    double sigma[3][3] = { { 0.0 } };
+    for (int d = 0; d < m->dim; ++d) sigma[d][d] = 1.0;
+    peri__stress_force(&f->t, law, sigma);
+    for (int64_t k = 0; k < peri__set_count(b, f->set); ++k)
+        for (int d = 0; d < m->dim; ++d)
+            f->spread[(k * m->dim + d) * m->dim] = peri__get_real(f->t.q, b->f32, d * m->stride + peri__set_point(b, f->set, k));
+}
+
+/* Adds the load whose force density per value, inner units, is `spread`; takes it over, or frees it. */
+static int32_t peri__add_spread(peri_body *b, int32_t set, double *spread, const double *value, peri_load_fn fn, void *user) {
+    const int64_t count = peri__set_count(b, set) * b->dim * b->dim;
+    int32_t load = peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
+    if (load < 0) {
+        peri__delete(&b->memory, spread, count, sizeof *spread);
+        return load;
+    }
+    for (int64_t k = 0; k < count; ++k) spread[k] /= b->model->length;
+    b->loads[load].spread = spread;
+    return load;
+}
+
+static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double *value, peri_load_fn fn, void *user) {
+    const peri__model *m = b->model;
+    const int64_t count = peri__set_count(b, f->set) * b->dim * b->dim;
+    int32_t status = PERI_OK, material = m->material[peri__set_point(b, f->set, 0)];
+    for (int64_t k = 0; k < peri__set_count(b, f->set); ++k)
+        if (m->material[peri__set_point(b, f->set, k)] != material) return peri__fail(b, PERI_ERROR_MODEL, "set", peri__set_point(b, f->set, k), 0.0);
+    if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    peri__update_lanes(b);
+    peri__refresh(b);
+    void *p = peri__new_vector(b);
+    f->t.body = b;
+    f->t.p = p;
+    f->t.q = peri__new_vector(b);
+    f->t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__real(b)) : NULL;
+    f->spread = (double *)peri__new(&b->memory, count, sizeof *f->spread);
+    if (!p || !f->t.q || (m->states && !f->t.change) || !f->spread) status = peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    else if (f->normal) status = peri__fill_traction(b, f, &m->laws[material]);
+    else peri__fill_pressure(b, f, &m->laws[material]);
+    peri__delete_vector(b, p);
+    peri__delete_vector(b, f->t.q);
+    peri__delete(&b->memory, f->t.change, peri__response_reals(m), peri__real(b));
+    if (status == PERI_OK) return peri__add_spread(b, f->set, f->spread, value, fn, user);
+    peri__delete(&b->memory, f->spread, count, sizeof *f->spread);
+    return status;
+}
+
+PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double area, const double *normal, const double *value,
+                                             peri_load_fn fn, void *user) {
+    peri__surface f;
+    double unit[3], length;
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_NUMBER(b, area > 0.0, area);
+    PERI_NEED_VECTOR(b, normal);
+    PERI_NEED(b, value || fn, "value");
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    length = sqrt(peri__dot(normal, normal, b->dim));
+    if (!(length > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, length);
+    for (int32_t d = 0; d < b->dim; ++d) unit[d] = normal[d] / length;
+    memset(&f, 0, sizeof f);
+    f.set = set;
+    f.normal = unit;
+    f.area = area / pow(b->model->length, b->dim - 1);
+    return peri__apply_surface(b, &f, value, fn, user);
+}
+
+PERI_API int32_t peri_apply_pressure(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
+    peri__surface f;
+    const double value[3] = { pressure, 0.0, 0.0 };
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_NUMBER(b, 1, pressure);
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    memset(&f, 0, sizeof f);
+    f.set = set;
+    return peri__apply_surface(b, &f, value, fn, user);
+}
+
+PERI_API int32_t peri_apply_bond_pressure(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
+    const double value[3] = { pressure, 0.0, 0.0 };
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_NUMBER(b, 1, pressure);
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    const int64_t count = peri__set_count(b, set), entries = count * m->dim * m->dim;
+    int64_t pairs = 0;
+    uint8_t *inside = (uint8_t *)peri__new(&b->memory, m->points, 1);
+    double *spread = (double *)peri__new(&b->memory, entries, sizeof *spread);
+    if (!inside || !spread) status = peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    for (int64_t k = 0; status == PERI_OK && k < count; ++k) inside[peri__set_point(b, set, k)] = 1;
+    for (int64_t k = 0; status == PERI_OK && k < count; ++k) {
+        int64_t i = peri__set_point(b, set, k);
+        peri__row row;
+        peri__read_row(m, b->f32, i, &row);
+        for (int64_t n = 0; n < row.count; ++n) {
+            double xi[3] = { 0.0 }, bond = peri__get_real(row.bond, b->f32, n);
+            if (peri__is_alive(b, i, n) || !inside[row.ids[n]] || bond > 1.2 * m->spacing) continue;
+            peri__bond_of(m, b->f32, i, n, xi);
+            for (int d = 0; d < m->dim; ++d) spread[(k * m->dim + d) * m->dim] -= xi[d] / (bond * bond); /* face V/|xi|, over V */
+            pairs++;
+        }
+    }
+    peri__delete(&b->memory, inside, m->points, 1);
+    if (status == PERI_OK && pairs == 0) status = peri__fail(b, PERI_ERROR_SET, "set", set, 0.0);
+    if (status == PERI_OK) return peri__add_spread(b, set, spread, value, fn, user);
+    peri__delete(&b->memory, spread, entries, sizeof *spread);
+    return status;
+}

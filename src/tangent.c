@@ -1,0 +1,180 @@
+/* tangent.c - the tangent stiffness: its product with a vector, and the blocks on its diagonal. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* Memory as body->response. */
+static int64_t peri__response_reals(const peri__model *m) { return (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin; }
+
+/* t->q = the change of the force density of all bonds when the displacements change by t->p. at_rest: as if the body were undeformed; there, and
+   where the geometry is linear, the force itself is linear in u and its fast kernels serve. Else body->response must be that of body->u. */
+static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
+    const peri_body *b = t->body;
+    const peri__model *m = b->model;
+    if (at_rest || b->desc.geometry == PERI_LINEAR) {
+        peri_body other = *b; /* the same bonds with other displacements */
+        peri__step step = peri__no_step(&other);
+        other.u = (void *)t->p;
+        other.f = t->q;
+        other.response = t->change;
+        other.node = NULL;
+        other.desc.geometry = PERI_LINEAR;
+        memset(t->q, 0, (size_t)(m->stride * m->dim) * peri__real(b));
+        if (!m->states) {
+            peri__for_points(b, m->points, m->width, b->ops->force, &step, NULL);
+            return;
+        }
+        if (m->dilates || m->tensors) peri__for_points(b, m->points, m->width, b->ops->respond, &step, NULL);
+        peri__for_points(b, m->points, m->width, b->ops->share, &step, NULL);
+        return;
+    }
+    if (m->dilates || m->tensors) peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_respond, (void *)t, NULL);
+    peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_share, (void *)t, NULL);
+}
+
+/* Adds the stiffness of the obstacles that points are in, k n n, to the product: q -= V-free force density. */
+static void peri__apply_contact(const peri__tangent *t) {
+    const peri_body *b = t->body;
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        for (int64_t i = 0; b->obstacles[k].kind && i < m->points; ++i) {
+            double push[3] = { 0.0, 0.0, 0.0 }, size, along = 0.0;
+            peri__push(b, &b->obstacles[k], i, push);
+            size = sqrt(peri__dot(push, push, m->dim));
+            if (!(size > 0.0)) continue;
+            for (int32_t d = 0; d < m->dim; ++d) along += push[d] / size * peri__get_real(t->p, b->f32, d * m->stride + i);
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t at = d * m->stride + i;
+                double pushed = b->obstacles[k].stiffness * along * push[d] / size;
+                peri__put_real(t->q, b->f32, at, peri__get_real(t->q, b->f32, at) - pushed);
+            }
+        }
+}
+
+/* K^-1 of a correspondence point times v; returns v.K^-1 v. */
+static double peri__by_inverse(const peri_body *b, int64_t i, const double *v, double *out) {
+    const int32_t dim = b->model->dim;
+    for (int a = 0; a < dim; ++a) {
+        out[a] = 0.0;
+        for (int c = 0; c < dim; ++c) out[a] += peri__get_constant(b, i, PERI__INVERSE + peri__packed(dim, a, c)) * v[c];
+    }
+    return peri__dot(out, v, dim);
+}
+
+/* block += scale v v + round 1 */
+static void peri__add_dyad(int32_t dim, double scale, const double *v, double round, double *block) {
+    for (int a = 0; a < dim; ++a)
+        for (int c = a; c < dim; ++c) block[peri__packed(dim, a, c)] += scale * v[a] * v[c] + (a == c ? round : 0.0);
+}
+
+/* The diagonal block of point i, force per displacement, packed: of the bonds as they stand, without what their tension adds, so that it is never
+   negative; correspondence as at rest. For a body at rest, or of linear geometry, exactly that of the tangent. */
+static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
+    const peri__model *m = b->model;
+    const int32_t dim = m->dim, own_law = m->laws[m->material[i]].model;
+    const int linear = b->desc.geometry == PERI_LINEAR;
+    double lean[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
+    peri__row row;
+    peri__read_row(m, b->f32, i, &row);
+    for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
+    for (int64_t k = 0; k < row.count; ++k) {
+        const int64_t j = row.ids[k];
+        const int32_t law = m->laws[m->material[j]].model;
+        double own = peri__get_real(row.weight, b->f32, k), back = peri__get_real(row.back, b->f32, k), xi[3] = { 0.0 }, n[3] = { 0.0 };
+        double bond = peri__get_real(row.bond, b->f32, k), length = 0.0, spring = 0.0, round = 0.0, by = back * m->volume[i] / m->volume[j];
+        if (!peri__is_alive(b, i, k)) continue;
+        for (int32_t d = 0; d < dim; ++d) {
+            int64_t from = d * m->stride + i, to = d * m->stride + j;
+            xi[d] = peri__get_real(m->x, b->f32, to) - peri__get_real(m->x, b->f32, from);
+            n[d] = xi[d] + (linear ? 0.0 : peri__get_real(b->u, b->f32, to) - peri__get_real(b->u, b->f32, from));
+            length += n[d] * n[d];
+        }
+        length = sqrt(length) + DBL_MIN;
+        for (int32_t d = 0; d < dim; ++d) n[d] /= length;
+        if (own_law == PERI_BOND_BASED) spring += own * peri__half_stiffness(b, i, j, bond);
+        else spring += own * peri__get_constant(b, i, PERI__SPRING);
+        if (law == PERI_BOND_BASED) spring += back * peri__half_stiffness(b, j, i, bond);
+        else spring += back * peri__get_constant(b, j, PERI__SPRING);
+        if (own_law == PERI_LPS || own_law == PERI_OTERKUS)
+            for (int d = 0; d < dim; ++d) lean[d] += own * (own_law == PERI_LPS ? bond : 1.0) * n[d];
+        if (law == PERI_LPS || law == PERI_OTERKUS) { /* theta of j */
+            double gauge = law == PERI_LPS ? bond : 1.0;
+            spring += peri__get_constant(b, j, PERI__PRESS) * peri__get_constant(b, j, PERI__DILATE) * back * by * gauge * gauge;
+        }
+        if (law == PERI_CORRESPONDENCE) { /* F of j, and its distance from z = 0 */
+            double pulled[3], square = peri__by_inverse(b, j, xi, pulled), size = peri__dot(pulled, pulled, dim);
+            double lambda = m->laws[m->material[j]].lambda, mu = m->laws[m->material[j]].mu;
+            peri__add_dyad(dim, m->volume[i] * back * by * (lambda + mu), pulled, m->volume[i] * back * by * mu * size, block);
+            round += back * peri__get_constant(b, j, PERI__VECTOR) * (1.0 - by * square);
+        }
+        if (own_law == PERI_CORRESPONDENCE) {
+            whole += own;
+            for (int d = 0; d < dim; ++d) lean[d] += own * xi[d];
+        }
+        peri__add_dyad(dim, m->volume[i] * spring, n, m->volume[i] * round, block);
+    }
+    if (own_law == PERI_LPS || own_law == PERI_OTERKUS)
+        peri__add_dyad(dim, m->volume[i] * peri__get_constant(b, i, PERI__PRESS) * peri__get_constant(b, i, PERI__DILATE), lean, 0.0, block);
+    if (own_law == PERI_CORRESPONDENCE) {
+        double square = peri__by_inverse(b, i, lean, h), lambda = m->laws[m->material[i]].lambda, mu = m->laws[m->material[i]].mu;
+        peri__add_dyad(dim, m->volume[i] * (lambda + mu), h,
+                       m->volume[i] * (mu * peri__dot(h, h, dim) + peri__get_constant(b, i, PERI__VECTOR) * (whole - square)), block);
+    }
+}
+
+typedef struct peri__diagonal {
+    peri_body *body;
+    void      *blocks; /* real [packed][stride]                                                                          */
+} peri__diagonal;
+
+static void peri__diagonal_rows(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__diagonal *t = (const peri__diagonal *)context;
+    const peri__model *m = t->body->model;
+    for (int64_t i = begin; i < end; ++i) {
+        double block[6];
+        peri__diagonal_block(t->body, i, block);
+        for (int k = 0; k < PERI_PACKED(m->dim); ++k) peri__put_real(t->blocks, t->body->f32, k * m->stride + i, block[k]);
+        for (int d = 0; d < m->dim; ++d) sums->a += block[d] / m->dim;
+    }
+}
+
+/* Fills ->blocks; returns the mean of the diagonal. */
+static double peri__fill_diagonal(peri_body *b, void *blocks) {
+    peri__diagonal t;
+    t.body = b;
+    t.blocks = blocks;
+    peri__for_points(b, b->model->points, 4 * b->model->width, peri__diagonal_rows, &t, b->sums);
+    return peri__total(b->sums, b->model->points).a / (double)b->model->points;
+}
+
+/* ---- the product in the user's units ------------------------------------------------------------------------------ */
+
+PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
+    PERI_NEED_IDLE(b);
+    const peri__model *m = b->model;
+    peri__tangent t;
+    double unit = m->energy / peri__square(m->length);
+    PERI_NEED(b, in, "in");
+    PERI_NEED(b, out, "out");
+    if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
+    for (int64_t k = 0; k < count; ++k)
+        if (!peri__finite(in[k])) return peri__fail(b, PERI_ERROR_RANGE, "in", k, in[k]);
+    int32_t status = peri__update_force(b);
+    if (status < 0) return status;
+    t.body = b;
+    void *p = peri__new_vector(b);
+    t.p = p;
+    t.q = peri__new_vector(b);
+    t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__real(b)) : NULL;
+    if (p && t.q && (t.change || !m->states)) {
+        for (int64_t k = 0; k < count; ++k) peri__put_real(p, b->f32, k % m->dim * m->stride + k / m->dim, in[k]);
+        peri__apply_tangent(&t, 0);
+        for (int64_t k = 0; k < count; ++k)
+            out[k] = -unit * m->volume[k / m->dim] * peri__get_real(t.q, b->f32, k % m->dim * m->stride + k / m->dim);
+    } else
+        status = peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
+    peri__delete_vector(b, p);
+    peri__delete_vector(b, t.q);
+    peri__delete(&b->memory, t.change, peri__response_reals(m), peri__real(b));
+    return status;
+}

@@ -1,0 +1,380 @@
+/* test_bending.c - a notched beam in three-point bending, broken step by step: [T] 5.1, after Carpinteri.
+
+   THE BEAM  [T] gives 150 mm x 600 mm, E, G0, plane stress, a horizon of 15 mm = 3 spacings and 3720 points: 124 x 30 cells of 5 mm, so
+   600 mm is taken as the span (4 times the depth, as in Carpinteri's beams and in ASTM E399), with two columns more at each end. Thickness
+   and notch are not printed. Taken: 150 mm (his beams are square in section) and half the depth: linear fracture mechanics has no
+   snap-back there (it has below 0.3 of the depth), so that the whole softening can be had under a prescribed displacement.
+
+   SOURCE OF TRUTH
+     network   the same springs put together here and solved by conjugate gradients of this file. Each state of broken springs has one
+               stiffness and one largest stretch, so that by linearity the whole path follows break by break, without load steps.
+     ASTM E399 A3.5.3 (Srawley 1976, after Tada): K = P S/(B W^1.5) f(a/W), to 0.5 % for S = 4 W; Griffith: K^2 = E R in plane stress.
+     lattice   energy of the bonds that cross a unit of a lattice plane, and Young's modulus along the lattice, as finite sums. */
+#include "peri_test.h"
+
+#define YOUNG 35.77e9 /* [Pa]                                                                                             */
+#define G0 9.8        /* [J/m^2]                                                                                          */
+#define DEPTH 0.15    /* [m], and thickness                                                                               */
+#define SPAN 0.6      /* [m] nominal; the supports are points, half a spacing nearer to the middle each                   */
+#define PI 3.14159265358979323846
+
+typedef struct beam {
+    double h;                        /* spacing [m]                                                                       */
+    int    cols, rows, notch, ratio; /* notch: rows cut; ratio: horizon over spacing                                      */
+} beam;
+
+static beam beam_of(double h, int ratio, double notch) {
+    beam b;
+    b.h = h;
+    b.cols = (int)(SPAN / h + 0.5) + 4;
+    b.rows = (int)(DEPTH / h + 0.5);
+    b.notch = (int)(notch * b.rows);
+    b.ratio = ratio;
+    return b;
+}
+
+static double span_of(const beam *b) { return SPAN - b->h; }
+static double micromodulus(const beam *b) { return 9 * YOUNG / (PI * pow(b->ratio * b->h, 3)); }                /* [T] 1.24 */
+static double limit_of(const beam *b) { return sqrt(4 * PI * G0 / (9 * YOUNG * b->ratio * b->h)); }            /* [T] 1.40 */
+static int point_of(const beam *b, int col, int row) { return row * b->cols + col; }
+static int col_of(const beam *b, int point) { return point % b->cols; }
+static int mirror_of(const beam *b, int point) { return point + b->cols - 1 - 2 * col_of(b, point); }
+
+/* The points that are held: two at the top in the middle, one over each support. */
+static void held_points(const beam *b, int32_t *held) {
+    held[0] = point_of(b, b->cols / 2 - 1, b->rows - 1);
+    held[1] = held[0] + 1;
+    held[2] = point_of(b, 2, 0);
+    held[3] = point_of(b, b->cols - 3, 0);
+}
+
+/* ---- linear fracture mechanics ------------------------------------------------------------------------------------ */
+
+/* Load at which a crack of depth alpha W has energy release rate R in a plate of modulus E. */
+static double griffith_load(const beam *b, double alpha, double modulus, double resistance) {
+    double f = 3 * sqrt(alpha) * (1.99 - alpha * (1 - alpha) * (2.15 - 3.93 * alpha + 2.7 * alpha * alpha)) /
+               (2 * (1 + 2 * alpha) * pow(1 - alpha, 1.5));
+    return sqrt(modulus * resistance) * pow(DEPTH, 2.5) / (span_of(b) * f);
+}
+
+/* Of the lattice over that of the solid: Young's modulus along it, and the energy to break all bonds across one of its planes. */
+typedef struct lattice {
+    double modulus, energy;
+    int    bonds; /* that cross the plane, per row                                                                        */
+} lattice;
+
+static lattice lattice_of(int ratio) {
+    lattice l = {0, 0, 0};
+    double c11 = 0, c12 = 0;
+    int p, q;
+    for (p = 1; p <= ratio; ++p) /* the half with p > 0, and p = 0 for c11, c12: p^4 and p^2 q^2 vanish                      */
+        for (q = -ratio; q <= ratio; ++q) {
+            double length = sqrt(p * p + q * q);
+            if (p * p + q * q > ratio * ratio) continue;
+            c11 += 9 / (PI * pow(ratio, 3)) * pow(p, 4) / pow(length, 3);
+            c12 += 9 / (PI * pow(ratio, 3)) * pow(p * q, 2) / pow(length, 3);
+            l.energy += 2 / pow(ratio, 4) * p * length; /* c s0^2/2 = 2 G0/horizon^4                                      */
+            l.bonds += p;
+        }
+    l.modulus = c11 - c12 * c12 / c11;
+    return l;
+}
+
+/* ---- the network -------------------------------------------------------------------------------------------------- */
+
+typedef struct spring {
+    int    i, j, alive, safe;
+    double n[2], k, length; /* direction, force per elongation, length                                                    */
+} spring;
+
+typedef struct network {
+    const beam *b;
+    spring     *s;
+    int64_t     springs, size, broken;
+    double     *u, *r, *p, *q, *d; /* answer to a unit deflection, residual, direction, product, 1/diagonal or 0 where held */
+    double      stiffness;         /* load per deflection                                                                 */
+} network;
+
+static network network_of(const beam *b) {
+    network n;
+    int col, row, p, q, k, half = b->cols / 2;
+    int32_t held[4];
+    memset(&n, 0, sizeof n);
+    n.b = b;
+    n.size = 2 * (int64_t)b->cols * b->rows;
+    n.s = (spring *)calloc((size_t)(n.size * 2 * b->ratio * b->ratio), sizeof *n.s);
+    n.u = (double *)calloc((size_t)n.size * 5, sizeof *n.u);
+    n.r = n.u + n.size;
+    n.p = n.r + n.size;
+    n.q = n.p + n.size;
+    n.d = n.q + n.size;
+    held_points(b, held);
+    for (row = 0; row < b->rows; ++row)
+        for (col = 0; col < b->cols; ++col)
+            for (q = 0; q <= b->ratio; ++q)
+                for (p = q ? -b->ratio : 1; p <= b->ratio; ++p) {
+                    spring *s = &n.s[n.springs];
+                    int other = col + p;
+                    if (p * p + q * q > b->ratio * b->ratio || other < 0 || other >= b->cols || row + q >= b->rows) continue;
+                    s->i = point_of(b, col, row);
+                    s->j = point_of(b, other, row + q);
+                    s->length = b->h * sqrt(p * p + q * q);
+                    s->n[0] = p * b->h / s->length;
+                    s->n[1] = q * b->h / s->length;
+                    s->k = micromodulus(b) * pow(b->h, 4) * DEPTH / s->length;
+                    s->alive = (col < half) == (other < half) || row + 0.5 + q * (half - 0.5 - col) / p > b->notch + 1e-9;
+                    for (k = 0; k < 4; ++k) s->safe |= s->i == held[k] || s->j == held[k];
+                    n.springs++;
+                }
+    return n;
+}
+
+static void network_free(network *n) {
+    free(n->s);
+    free(n->u);
+}
+
+static double elongation(const spring *s, const double *u) {
+    return (u[2 * s->j] - u[2 * s->i]) * s->n[0] + (u[2 * s->j + 1] - u[2 * s->i + 1]) * s->n[1];
+}
+
+static void network_multiply(const network *n, const double *u, double *out) {
+    int64_t k;
+    int a;
+    memset(out, 0, (size_t)n->size * sizeof *out);
+    for (k = 0; k < n->springs; ++k) {
+        const spring *s = &n->s[k];
+        double f = s->alive ? s->k * elongation(s, u) : 0;
+        for (a = 0; a < 2; ++a) {
+            out[2 * s->i + a] -= f * s->n[a];
+            out[2 * s->j + a] += f * s->n[a];
+        }
+    }
+}
+
+static double dot(const double *a, const double *b, int64_t n) {
+    double sum = 0;
+    while (n-- > 0) sum += a[n] * b[n];
+    return sum;
+}
+
+/* Conjugate gradients from the last answer, with the diagonal as preconditioner, to 1e-9 of the load. */
+static void network_solve(network *n) {
+    int32_t held[4];
+    int64_t k;
+    int a, it;
+    double rho = 0, last;
+    held_points(n->b, held);
+    memset(n->d, 0, (size_t)n->size * sizeof *n->d);
+    for (k = 0; k < n->springs; ++k)
+        for (a = 0; a < 2; ++a) {
+            double add = n->s[k].alive ? n->s[k].k * n->s[k].n[a] * n->s[k].n[a] : 0;
+            n->d[2 * n->s[k].i + a] += add;
+            n->d[2 * n->s[k].j + a] += add;
+        }
+    for (k = 0; k < n->size; ++k) n->d[k] = 1 / n->d[k];
+    for (a = 0; a < 4; ++a) n->d[2 * held[a] + 1] = 0;
+    n->d[2 * held[2]] = 0;
+    n->u[2 * held[0] + 1] = n->u[2 * held[1] + 1] = -1;
+    for (it = 0; it < 100000; ++it) {
+        double alpha;
+        if (it % 1000 == 0) {
+            network_multiply(n, n->u, n->q);
+            n->stiffness = -(n->q[2 * held[0] + 1] + n->q[2 * held[1] + 1]);
+            for (k = 0; k < n->size; ++k) n->r[k] = n->d[k] > 0 ? -n->q[k] : 0;
+            memset(n->p, 0, (size_t)n->size * sizeof *n->p);
+        }
+        if (sqrt(dot(n->r, n->r, n->size)) < 1e-9 * n->stiffness) break;
+        last = rho;
+        for (rho = 0, k = 0; k < n->size; ++k) rho += n->r[k] * n->r[k] * n->d[k];
+        for (k = 0; k < n->size; ++k) n->p[k] = n->d[k] * n->r[k] + (it % 1000 ? rho / last : 0) * n->p[k];
+        network_multiply(n, n->p, n->q);
+        alpha = rho / dot(n->p, n->q, n->size);
+        for (k = 0; k < n->size; ++k) {
+            n->u[k] += alpha * n->p[k];
+            if (n->d[k] > 0) n->r[k] -= alpha * n->q[k];
+        }
+    }
+    network_multiply(n, n->u, n->q);
+    n->stiffness = -(n->q[2 * held[0] + 1] + n->q[2 * held[1] + 1]);
+}
+
+/* Stretch over its limit at unit deflection, of the worst spring. */
+static double network_worst(const network *n) {
+    double worst = 0;
+    int64_t k;
+    for (k = 0; k < n->springs; ++k)
+        if (n->s[k].alive && !n->s[k].safe) worst = fmax(worst, elongation(&n->s[k], n->u) / n->s[k].length);
+    return worst / limit_of(n->b);
+}
+
+static void network_break(network *n, double above) {
+    int64_t k;
+    for (k = 0; k < n->springs; ++k)
+        if (n->s[k].alive && !n->s[k].safe && elongation(&n->s[k], n->u) > above * limit_of(n->b) * n->s[k].length) {
+            n->s[k].alive = 0;
+            n->broken++;
+        }
+}
+
+/* Deflection prescribed: the springs that break, and the load. */
+static double network_bend(network *n, double deflection, double criticality) {
+    double worst;
+    if (n->stiffness == 0) network_solve(n);
+    while ((worst = network_worst(n)) * deflection > 1) {
+        network_break(n, fmax(1 / deflection, criticality * worst * (1 - 1e-6)));
+        network_solve(n);
+    }
+    return deflection * n->stiffness;
+}
+
+/* The largest load on the way to a deflection, with infinitely small steps. */
+static double network_peak(network *n, double deflection, double *at) {
+    double peak = 0, reached = 0;
+    for (;;) {
+        double next;
+        network_solve(n);
+        next = 1 / network_worst(n);
+        if (next > reached) {
+            reached = next;
+            if (fmin(next, deflection) * n->stiffness > peak) peak = n->stiffness * (*at = fmin(next, deflection));
+        }
+        if (reached >= deflection) return peak;
+        network_break(n, (1 - 1e-6) / next);
+    }
+}
+
+/* ---- the body ----------------------------------------------------------------------------------------------------- */
+
+typedef struct bending {
+    peri_body *body;
+    int32_t    load;           /* the support that pushes the top down by the deflection                                  */
+    double     energy, excess; /* of the bonds that broke, at the stretch at which they broke; the largest stretch/limit  */
+    int        broken, aside;  /* bonds; those of them that do not cross the middle                                       */
+    beam       b;
+} bending;
+
+static void count_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+    bending *t = (bending *)user;
+    const beam *b = &t->b;
+    int p = col_of(b, j) - col_of(b, i), q = j / b->cols - i / b->cols, half = b->cols / 2;
+    (void)time;
+    t->energy += 0.5 * micromodulus(b) * stretch * stretch * sqrt(p * p + q * q) * pow(b->h, 5) * DEPTH;
+    t->excess = fmax(t->excess, stretch / limit_of(b));
+    t->broken++;
+    t->aside += (col_of(b, i) < half) == (col_of(b, j) < half);
+}
+
+static void bending_free(bending *t) {
+    peri_body_destroy(t->body);
+    free(t);
+}
+
+static bending *bending_of(const beam *b, double deflection) {
+    const double lo[2] = {-0.5 * b->cols * b->h, 0}, hi[2] = {0.5 * b->cols * b->h, b->rows * b->h};
+    double below[2], tip[2], down[2], c, s0;
+    int32_t held[4], set;
+    bending *t = (bending *)calloc(1, sizeof *t);
+    peri_body_desc d;
+    peri_material m;
+    held_points(b, held);
+    below[0] = tip[0] = down[0] = 0;
+    below[1] = -b->h;
+    tip[1] = b->notch * b->h;
+    down[1] = -deflection;
+    t->b = *b;
+    peri_body_desc_init(&d);
+    d.space = PERI_PLANE_STRESS;
+    d.geometry = PERI_LINEAR;
+    d.horizon = b->ratio * b->h;
+    d.thickness = DEPTH;
+    d.threads = 1;
+    CHECK(peri_body_create(&d, &t->body, NULL) == PERI_OK);
+    peri_material_init(&m, PERI_BOND_BASED);
+    m.young = YOUNG;
+    m.density = 2400;
+    m.fracture_energy = G0;
+    (void)MUST(t->body, peri_add_material(t->body, &m));
+    CHECK(peri_add_box(t->body, 0, lo, hi, b->h) == (int64_t)b->cols * b->rows);
+    (void)MUST(t->body, peri_build(t->body));
+    (void)MUST(t->body, peri_read_bond_constants(t->body, 0, 0, &c, &s0));
+    CHECK_NEAR(c, micromodulus(b), 1e-12, 0);
+    CHECK_NEAR(s0, limit_of(b), 1e-12, 0);
+    if (b->notch > 0) (void)MUST(t->body, peri_cut_segment(t->body, below, tip));
+    (void)MUST(t->body, peri_on_break(t->body, count_break, t));
+    (void)MUST(t->body, peri_set_no_fail(t->body, peri_select_points(t->body, "held", 4, held), 1));
+    set = peri_select_points(t->body, "left", 1, held + 2);
+    (void)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_X | PERI_Y, NULL, NULL, NULL));
+    set = peri_select_points(t->body, "right", 1, held + 3);
+    (void)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_Y, NULL, NULL, NULL));
+    set = peri_select_points(t->body, "top", 2, held);
+    t->load = (int32_t)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_Y, down, NULL, NULL));
+    return t;
+}
+
+/* Rows of the curve: load factor, mean displacement x y, force x y, broken bonds. */
+enum { FACTOR, MOVE_X, MOVE_Y, FORCE_X, FORCE_Y, BROKEN, WIDE };
+
+/* In `steps` steps; the curve is the caller's to free. Row -1 is the beam at rest: curve - WIDE was allocated. */
+static double *bend(bending *t, int steps, double criticality) {
+    double *curve = (double *)calloc((size_t)(steps + 1) * WIDE, sizeof *curve);
+    peri_statics st;
+    peri_statics_report report;
+    peri_statics_init(&st);
+    st.steps = steps;
+    st.criticality = criticality;
+    st.curve_load = t->load;
+    st.curve = curve + WIDE;
+    st.curve_rows = steps;
+    (void)MUST(t->body, peri_solve(t->body, &st, &report));
+    CHECK(report.curve_rows == steps && report.broken == t->broken && peri_broken_count(t->body) == t->broken);
+    return curve;
+}
+static double load_of(const double *curve, int row) { return -curve[row * WIDE + FORCE_Y]; }
+static double peak_of(const double *curve, int steps) {
+    double peak = 0;
+    for (; steps > 0; --steps) peak = fmax(peak, load_of(curve, steps));
+    return peak;
+}
+
+/* ---- cases -------------------------------------------------------------------------------------------------------- */
+
+/* Load, deflection and broken bonds of each step are those of the network. Load: its error is residual . (displacements under a unit
+   deflection), at most 1e-8 |load| sqrt(points) <= 7e-7 |load| here and for the network. */
+static void network_agrees(const beam *b, double deflection, int steps, double criticality) {
+    bending *t = bending_of(b, deflection);
+    network n = network_of(b);
+    double *curve = bend(t, steps, criticality);
+    int k;
+    for (k = 1; k <= steps; ++k) {
+        double load = network_bend(&n, deflection * k / steps, criticality);
+        CHECK_NEAR(curve[k * WIDE + FACTOR], k / (double)steps, 1e-14, 0);
+        CHECK_NEAR(curve[k * WIDE + MOVE_Y], -deflection * k / steps, 1e-12, 0);
+        CHECK_NEAR(load_of(curve, k), load, 1.5e-6, 0);
+        CHECK(curve[k * WIDE + BROKEN] == (double)n.broken);
+    }
+    CHECK(n.broken > 0 && t->aside < t->broken);
+    printf("    h %.2f mm, criticality %.1f: %ld bonds broken, end %.2f of the peak %.1f N\n", 1e3 * b->h, criticality, (long)n.broken,
+           load_of(curve, steps) / peak_of(curve, steps), peak_of(curve, steps));
+    network_free(&n);
+    free(curve);
+    bending_free(t);
+}
+static void curves_are_those_of_the_network(void) {
+    beam b = beam_of(0.01, 3, 0.5);
+    network_agrees(&b, 68e-6, 20, 0);
+    network_agrees(&b, 68e-6, 20, 0.9);
+    network_agrees(&b, 68e-6, 20, 1);
+}
+static void the_same_for_the_beam_of_the_thesis(void) {
+    beam b = beam_of(0.005, 3, 0.5);
+    network_agrees(&b, 72e-6, 40, 0);
+    network_agrees(&b, 72e-6, 40, 1);
+}
+
+int main(int argc, char **argv) {
+    test_begin(argc, argv);
+    RUN(curves_are_those_of_the_network);
+    LONG_RUN(the_same_for_the_beam_of_the_thesis);
+    return test_end("test_bending");
+}
