@@ -656,12 +656,13 @@ PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_s
 
 /* Tractions that pass the patch test: value[dim] [M L^-1 T^-2] on a face of `area` and outward `normal`, given to all points that feel the
    face: the set should hold them, to a depth of two horizons, and reach to no other face of opposite normal. Of correspondence, point i
-   gets value (normal.a_i) with the area vector of its live family a_i = sum_j V_j g_ji - V_i sum_j g_ij, g_ij = w K_i^-1 xi V_j: uniform stress is then
-   exact, whatever the horizon and influence function; on clouds, where a_i vanishes nowhere, if the sets of opposite faces together hold all
-   points. Of the other laws, each component along an axis t of the face is shared as the bonds' force along t under the stress t x normal
-   + normal x t, scaled to the total value*area: no exact form is known, and strain is off near edges and by O(horizon) inside.
+   gets value (normal.a_i) with the area vector of its live family a_i = sum_j V_j g_ji - V_i sum_j g_ij, g_ij = w K_i^-1 xi V_j: uniform
+   stress is then exact, whatever the horizon and influence function; on clouds, where a_i vanishes nowhere, if the sets of opposite faces
+   together hold all points. Of the other laws, each component along an axis t of the face is shared as the bonds' force along t under
+   the stress t x normal + normal x t, scaled to the total value*area: no exact form is known, and strain is off near edges and by
+   O(horizon) inside.
    Taken at the call, for small displacements: cracks made later do not change it. Returns a load id or an error; PERI_ERROR_SET where the
-   points feel less than half or more than one and a half of the area; PERI_ERROR_MODEL where the set has several materials. */
+   points feel much less or more than the area (value: what they feel), PERI_ERROR_MODEL where the set has several materials. */
 PERI_API int32_t peri_apply_surface_traction(peri_body *body, int32_t set, double area, const double *normal, const double *value,
                                              peri_load_fn fn, void *user);
 

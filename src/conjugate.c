@@ -1,7 +1,7 @@
 /* conjugate.c - the preconditioned conjugate gradients of the static solver, and the memory that it takes.
 
-   K is symmetric because forces are taken per point, V_i times the density. Supports are a projection: directions and residuals have no part
-   on held components, and what K does there is kept in r all the same: it is minus the reaction. */
+   K is symmetric because forces are taken per point, V_i times the density. Supports are a projection: directions have no part on held
+   components, and what K does there is kept in r, out of all scalar products: it is minus the reaction. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -78,9 +78,9 @@ static int32_t peri__count_iteration(peri__solver *s, double residual) {
     return s->stopped ? PERI_STOPPED : b->running ? PERI_OK : PERI_ERROR_ORDER;
 }
 
-/* Adds to d the solution of K d = r, r becoming what is left, until |r| <= reach*scale. `loads`: that part of the scale which stays. PERI_OK,
-   PERI_STOPPED, PERI_ERROR_CONVERGENCE, or PERI_ERROR_INDEFINITE, PERI_ERROR_LOOSE where a direction has negative or no stiffness; d then is
-   what was found before it, or that way down. */
+/* Adds to d the solution of K d = r, r becoming what is left, until |r| <= reach*scale. `loads`: that part of the scale which stays.
+   PERI_OK, PERI_STOPPED, PERI_ERROR_CONVERGENCE, or PERI_ERROR_INDEFINITE, PERI_ERROR_LOOSE where a direction has negative or no stiffness;
+   d then is what was found before it, or that way down. */
 static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int at_rest) {
     peri_body *b = s->body;
     const double least = s->start, none = b->f32 ? 1e-7 : 1e-14;

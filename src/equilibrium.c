@@ -84,20 +84,24 @@ static void peri__mark_supports(peri__solver *s) {
     }
 }
 
-/* Marks what supports hold, then what else must not move, and makes the preconditioner for the body as it is. */
-static int32_t peri__prepare(peri__solver *s) {
+/* Marks what supports hold, then what else must not move, and makes the preconditioner for the body as it is; its coarse grids only where
+   `anew`: bonds that broke since matter little to them. */
+static int32_t peri__prepare(peri__solver *s, int anew) {
     peri_body *b = s->body;
     peri__mark_supports(s);
     peri__update_lanes(b);
     peri__refresh(b);
-    if (s->levels) s->bytes -= s->levels->bytes;
-    peri__free_levels(s->levels);
-    s->levels = NULL;
+    if (anew && s->levels) {
+        s->bytes -= s->levels->bytes;
+        peri__free_levels(s->levels);
+        s->levels = NULL;
+    }
+    if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
     if (s->settings->method == PERI_RELAXATION) return PERI_OK;
     int32_t status = peri__find_loose(s);
     if (status < 0) return status;
     s->stiff = peri__fill_diagonal(b, s->blocks);
-    if (s->settings->preconditioner == PERI_MULTILEVEL && s->settings->method == PERI_NEWTON) {
+    if (!s->levels && s->settings->preconditioner == PERI_MULTILEVEL && s->settings->method == PERI_NEWTON) {
         s->levels = peri__build_levels(s);
         if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
         s->bytes += s->levels->bytes;

@@ -44,8 +44,8 @@ PERI_API double peri_stable_step(const peri_body *b) {
     return peri__stable(b) * b->model->time;
 }
 
-/* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion; counts the work on them
-   where step->working. */
+/* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion; counts the work on
+   them where step->working. */
 static void peri__bond_forces(peri_body *b, peri__step *step) {
     const peri__model *m = b->model;
     if (!m->states) {

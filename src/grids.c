@@ -4,7 +4,7 @@
 #endif
 
 #define PERI_GRIDS     24
-#define PERI_DENSE     500  /* most unknowns of the coarsest grid                                                         */
+#define PERI_DENSE     200  /* most unknowns of the coarsest grid                                                         */
 #define PERI_SMOOTHING 3    /* degree of the polynomials                                                                  */
 #define PERI_SMOOTHED  10.0 /* they cover the eigenvalues above the largest over this                                     */
 
@@ -23,6 +23,8 @@ struct peri__multilevel {
     int64_t  cells[3], cell_count, points;
     int32_t *start;  /* [cell_count+1] first place in order                                                               */
     int32_t *order;  /* [points] by cells                                                                                 */
+    float   *within; /* [points][dim] places in the cell, 0..1, in that order                                            */
+    double  *given;  /* [cell_count][2^dim][dim] scratch                                                                 */
     double  *dense;  /* Cholesky's factor of the coarsest grid                                                            */
     int64_t  dense_rows, bytes;
     peri__grid grid[PERI_GRIDS];
@@ -48,6 +50,8 @@ static void peri__free_levels(peri__multilevel *l) {
     }
     peri__delete(&memory, l->start, l->cell_count + 1, sizeof *l->start);
     peri__delete(&memory, l->order, l->points, sizeof *l->order);
+    peri__delete(&memory, l->within, l->points * l->dim, sizeof *l->within);
+    peri__delete(&memory, l->given, l->cell_count * l->dim << l->dim, sizeof *l->given);
     peri__delete(&memory, l->dense, l->dense_rows * l->dense_rows, sizeof(double));
     peri__delete(&memory, l, 1, sizeof *l);
 }
@@ -94,24 +98,32 @@ static int64_t peri__beside(const peri__grid *g, int32_t dim, const int64_t *at,
     return node;
 }
 
-/* out = stencil in */
+/* out = stencil in, of one node; dim is a constant where this is inlined. */
+PERI_INLINE void peri__node_product(const peri__grid_task *t, int64_t n, const int dim) {
+    const peri__grid *g = t->fine;
+    const int around = dim == 3 ? 27 : 9;
+    const float *block = &g->stencil[n * around * dim * dim];
+    double sum[3] = { 0.0, 0.0, 0.0 };
+    int64_t at[3] = { 0, 0, 0 };
+    int inside = 1;
+    peri__node_place(g, dim, n, at);
+    for (int d = 0; d < dim; ++d) inside &= at[d] > 0 && at[d] < g->nodes[d] - 1;
+    for (int o = 0; o < around; ++o, block += dim * dim) {
+        int64_t other = inside ? n + (o % 3 - 1) + (o / 3 % 3 - 1) * g->nodes[0] : peri__beside(g, dim, at, o);
+        if (inside && dim == 3) other += (o / 9 - 1) * g->nodes[0] * g->nodes[1];
+        if (other < 0) continue;
+        for (int p = 0; p < dim; ++p)
+            for (int q = 0; q < dim; ++q) sum[p] += (double)block[p * dim + q] * t->in[other * dim + q];
+    }
+    for (int p = 0; p < dim; ++p) t->out[n * dim + p] = sum[p];
+}
+
 static void peri__grid_product(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__grid_task *t = (const peri__grid_task *)context;
-    const peri__grid *g = t->fine;
-    const int dim = t->l->dim, around = t->l->around;
     (void)sums;
     for (int64_t n = begin; n < end; ++n) {
-        int64_t at[3] = { 0, 0, 0 };
-        double sum[3] = { 0.0, 0.0, 0.0 };
-        peri__node_place(g, dim, n, at);
-        for (int o = 0; o < around; ++o) {
-            const float *block = &g->stencil[(n * around + o) * dim * dim];
-            int64_t other = peri__beside(g, dim, at, o);
-            if (other < 0) continue;
-            for (int p = 0; p < dim; ++p)
-                for (int q = 0; q < dim; ++q) sum[p] += (double)block[p * dim + q] * t->in[other * dim + q];
-        }
-        for (int p = 0; p < dim; ++p) t->out[n * dim + p] = sum[p];
+        if (t->l->dim == 3) peri__node_product(t, n, 3);
+        else peri__node_product(t, n, 2);
     }
 }
 
@@ -144,7 +156,8 @@ static void peri__prepare_grid(const peri__multilevel *l, const peri_body *b, pe
         const float *block = &g->stencil[(k * l->around + l->around / 2) * dim * dim];
         double diagonal[6] = { 0.0 }, inverse[6];
         for (int p = 0; p < dim; ++p)
-            for (int q = p; q < dim; ++q) diagonal[peri__packed(dim, p, q)] = 0.5 * ((double)block[p * dim + q] + (double)block[q * dim + p]);
+            for (int q = p; q < dim; ++q)
+                diagonal[peri__packed(dim, p, q)] = 0.5 * ((double)block[p * dim + q] + (double)block[q * dim + p]);
         for (int p = 0; p < packed; ++p) inverse[p] = 0.0;
         if (diagonal[0] > 0.0) (void)peri__invert(dim, diagonal, 1e-5, inverse);
         for (int p = 0; p < dim; ++p)

@@ -1,7 +1,8 @@
-/* loose.c - what can move without resistance: connected parts whose supports leave rigid motions free, and points whose bonds span too little.
+/* loose.c - what can move without resistance: connected parts whose supports leave rigid motions free, and points whose bonds span too
+   little.
 
-   The rigid motions of a part are t + omega x (y - centre)/radius of its present positions y (linear geometry: of x): 3 in 2D, 6 in 3D. Those in which no held
-   component moves are free; they are the null space of the Gram matrix of the held components. */
+   The rigid motions of a part are t + omega x (y - centre)/radius of its present positions y (linear geometry: of x): 3 in 2D, 6 in 3D.
+   Those in which no held component moves are free; they are the null space of the Gram matrix of the held components. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -126,8 +127,9 @@ static void peri__weigh_modes(peri__solver *s) {
         for (int32_t d = 0; part && d < m->dim; ++d) {
             double moved[PERI_RIGID];
             for (int32_t k = 0; k < part->modes; ++k) moved[k] = peri__mode(b, part, i, k, d);
+            const double mass = m->rho[m->material[i]] * m->volume[i];
             for (int32_t p = 0; p < part->modes; ++p)
-                for (int32_t q = 0; q < part->modes; ++q) part->inverse[p][q] += m->rho[m->material[i]] * m->volume[i] * moved[p] * moved[q];
+                for (int32_t q = 0; q < part->modes; ++q) part->inverse[p][q] += mass * moved[p] * moved[q];
         }
     }
     for (int64_t n = 0; n < s->part_count; ++n) {

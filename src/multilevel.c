@@ -3,9 +3,9 @@
    The diagonal blocks alone deal with all motions that vary within a horizon: for them the bonds of a point act like a spring to a still
    neighbourhood. What is left is smooth, and to smooth motions a peridynamic solid is an elastic one. So the preconditioner adds
        z = D^-1 r  +  P B P^T r,
-   P the (bi-, tri-) linear interpolation from the nodes of a regular grid of about a horizon to the points, of a lattice or a cloud, and B a
-   V-cycle for the stiffness of linear elasticity in those shape functions, integrated over the points: V_i grad N:C_i:grad N, C_i of the
-   point's law times what is left of its bonds. Points that are held add D_ii N N, the resistance of their bonds. Coarser grids
+   P the (bi-, tri-) linear interpolation from the nodes of a regular grid of about a horizon to the points, of a lattice or a cloud, and
+   B a V-cycle for the stiffness of linear elasticity in those shape functions, integrated over the points: V_i grad N:C_i:grad N, C_i of
+   the point's law times what is left of its bonds. Points that are held add D_ii N N, the resistance of their bonds. Coarser grids
    have twice the spacing, and stiffness by Galerkin's product; there Chebyshev's polynomials smooth, and the coarsest is solved
    directly. Everything is symmetric and the order of sums fixed. Nodes without points have a zero diagonal and stay 0. */
 #ifndef PERI_IMPL
@@ -42,7 +42,7 @@ static int64_t peri__corner(const peri__multilevel *l, int64_t cell, int c) {
 /* Lays the finest grid over the body and sorts the points by its cells. */
 static int peri__lay_grid(peri__multilevel *l, const peri_body *b) {
     const peri__model *m = b->model;
-    double lo[3], hi[3];
+    double lo[3] = { 0.0 }, hi[3] = { 0.0 };
     for (int32_t d = 0; d < l->dim; ++d) {
         lo[d] = hi[d] = peri__get_real(m->x, b->f32, d * m->stride);
         for (int64_t i = 1; i < m->points; ++i) {
@@ -71,14 +71,17 @@ static int peri__lay_grid(peri__multilevel *l, const peri_body *b) {
     }
     l->start = (int32_t *)peri__take_level(l, l->cell_count + 1, sizeof *l->start);
     l->order = (int32_t *)peri__take_level(l, m->points, sizeof *l->order);
+    l->within = (float *)peri__take_level(l, m->points * l->dim, sizeof *l->within);
+    l->given = (double *)peri__take_level(l, l->cell_count * l->dim << l->dim, sizeof *l->given);
     l->points = m->points;
-    if (!l->start || !l->order) return 0;
-    double within[3];
+    if (!l->start || !l->order || !l->within || !l->given) return 0;
+    double within[3] = { 0.0 };
     for (int64_t i = 0; i < m->points; ++i) l->start[peri__grid_cell(l, b, i, within) + 1]++;
     for (int64_t c = 0; c < l->cell_count; ++c) l->start[c + 1] += l->start[c];
     for (int64_t i = m->points - 1; i >= 0; --i) { /* fills each cell from its end; starts shift down and are put back */
         int64_t c = peri__grid_cell(l, b, i, within);
         l->order[--l->start[c + 1]] = (int32_t)i;
+        for (int32_t d = 0; d < l->dim; ++d) l->within[l->start[c + 1] * l->dim + d] = (float)within[d];
     }
     for (int64_t c = 0; c < l->cell_count; ++c) l->start[c] = l->start[c + 1];
     l->start[l->cell_count] = (int32_t)m->points;
@@ -105,9 +108,10 @@ static void peri__add_point(const peri__solver *s, peri__multilevel *l, int64_t 
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int dim = l->dim, corners = 1 << dim;
-    double within[3], shape[8], gradient[8][3], volume = m->volume[i] * peri__left(b, i);
+    double within[3] = { 0.0 }, shape[8], gradient[8][3], volume = m->volume[i] * peri__left(b, i);
     double lambda = law->lambda, mu = law->mu;
     int64_t cell = peri__grid_cell(l, b, i, within), node[8];
+    float *stencil = l->grid[0].stencil;
     for (int c = 0; c < corners; ++c) {
         node[c] = peri__corner(l, cell, c);
         shape[c] = 1.0;
@@ -122,7 +126,7 @@ static void peri__add_point(const peri__solver *s, peri__multilevel *l, int64_t 
         for (int c = 0; c < corners; ++c) {
             int offset = 0, step = 1;
             for (int d = 0; d < dim; ++d, step *= 3) offset += ((c >> d & 1) - (a >> d & 1) + 1) * step;
-            float *block = &l->grid[0].stencil[(node[a] * l->around + offset) * dim * dim];
+            float *block = stencil + (node[a] * l->around + offset) * dim * dim;
             double dot = volume * mu * peri__dot(gradient[a], gradient[c], dim);
             for (int p = 0; p < dim; ++p)
                 for (int q = 0; q < dim; ++q) {
@@ -141,19 +145,50 @@ typedef struct peri__transfer {
     peri__multilevel   *levels;
 } peri__transfer;
 
-/* r of the nodes = P^T r of the points, the held ones left out. */
-static void peri__restrict_points(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+/* Shape functions of the corners of a cell at place o of the order. */
+PERI_INLINE void peri__shapes(const peri__multilevel *l, int64_t o, const int dim, double *shape) {
+    const float *within = &l->within[o * dim];
+    shape[0] = 1.0;
+    for (int d = 0; d < dim; ++d)
+        for (int c = 0; c < 1 << d; ++c) {
+            shape[c | 1 << d] = shape[c] * (double)within[d];
+            shape[c] *= 1.0 - (double)within[d];
+        }
+}
+
+/* out of the nodes = P^T r of the points, the held ones left out: first what each cell gives to its corners, then the sum of cells. */
+static void peri__restrict_cells(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__transfer *t = (const peri__transfer *)context;
     const peri__multilevel *l = t->levels;
     const peri_body *b = t->solver->body;
+    const int dim = l->dim, corners = 1 << dim;
+    (void)sums;
+    for (int64_t cell = begin; cell < end; ++cell) {
+        double sum[24] = { 0.0 }, shape[8];
+        for (int64_t o = l->start[cell]; o < l->start[cell + 1]; ++o) {
+            const int64_t i = l->order[o];
+            peri__shapes(l, o, dim, shape);
+            for (int d = 0; d < dim; ++d) {
+                if (t->solver->held[i] >> d & 1) continue;
+                double r = peri__get_real(t->solver->k.r, b->f32, d * b->model->stride + i);
+                for (int c = 0; c < corners; ++c) sum[c * dim + d] += shape[c] * r;
+            }
+        }
+        memcpy(&l->given[cell * corners * dim], sum, (size_t)(corners * dim) * sizeof *sum);
+    }
+}
+
+static void peri__gather_cells(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__transfer *t = (const peri__transfer *)context;
+    const peri__multilevel *l = t->levels;
     const peri__grid *g = &l->grid[0];
-    const int dim = l->dim;
+    const int dim = l->dim, corners = 1 << dim;
     (void)sums;
     for (int64_t n = begin; n < end; ++n) {
         int64_t at[3] = { 0, 0, 0 };
         double sum[3] = { 0.0, 0.0, 0.0 };
         peri__node_place(g, dim, n, at);
-        for (int c = 0; c < 1 << dim; ++c) { /* the cells of which the node is corner c */
+        for (int c = 0; c < corners; ++c) { /* the cells of which the node is corner c */
             int64_t cell = 0;
             int outside = 0;
             for (int d = dim - 1; d >= 0; --d) {
@@ -161,38 +196,33 @@ static void peri__restrict_points(void *context, int64_t begin, int64_t end, per
                 outside |= k < 0 || k >= l->cells[d];
                 cell = cell * l->cells[d] + k;
             }
-            for (int64_t o = outside ? 0 : l->start[cell]; !outside && o < l->start[cell + 1]; ++o) {
-                const int64_t i = l->order[o];
-                double within[3], shape = 1.0;
-                (void)peri__grid_cell(l, b, i, within);
-                for (int d = 0; d < dim; ++d) shape *= c >> d & 1 ? within[d] : 1.0 - within[d];
-                for (int d = 0; d < dim; ++d)
-                    if (!(t->solver->held[i] >> d & 1)) sum[d] += shape * peri__get_real(t->solver->k.r, b->f32, d * b->model->stride + i);
-            }
+            for (int d = 0; !outside && d < dim; ++d) sum[d] += l->given[(cell * corners + c) * dim + d];
         }
         for (int d = 0; d < dim; ++d) g->r[n * dim + d] = sum[d];
     }
 }
 
-/* z of the points += P x of the nodes, but for what is held. */
-static void peri__prolong_points(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+/* z of the points of cells += P x of the nodes, but for what is held. */
+static void peri__prolong_cells(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__transfer *t = (const peri__transfer *)context;
     const peri__multilevel *l = t->levels;
     const peri_body *b = t->solver->body;
-    const int dim = l->dim;
+    const int dim = l->dim, corners = 1 << dim;
+    void *z = t->solver->k.z;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i) {
-        double within[3], sum[3] = { 0.0, 0.0, 0.0 };
-        int64_t cell = peri__grid_cell(l, b, i, within);
-        for (int c = 0; c < 1 << dim; ++c) {
-            int64_t node = peri__corner(l, cell, c);
-            double shape = 1.0;
-            for (int d = 0; d < dim; ++d) shape *= c >> d & 1 ? within[d] : 1.0 - within[d];
-            for (int d = 0; d < dim; ++d) sum[d] += shape * l->grid[0].x[node * dim + d];
-        }
-        for (int d = 0; d < dim; ++d) {
-            int64_t at = d * b->model->stride + i;
-            if (!(t->solver->held[i] >> d & 1)) peri__put_real(t->solver->k.z, b->f32, at, peri__get_real(t->solver->k.z, b->f32, at) + sum[d]);
+    for (int64_t cell = begin; cell < end; ++cell) {
+        double x[24], shape[8];
+        for (int c = 0; c < corners; ++c) memcpy(&x[c * dim], &l->grid[0].x[peri__corner(l, cell, c) * dim], (size_t)dim * sizeof *x);
+        for (int64_t o = l->start[cell]; o < l->start[cell + 1]; ++o) {
+            const int64_t i = l->order[o];
+            peri__shapes(l, o, dim, shape);
+            for (int d = 0; d < dim; ++d) {
+                const int64_t at = d * b->model->stride + i;
+                double sum = 0.0;
+                if (t->solver->held[i] >> d & 1) continue;
+                for (int c = 0; c < corners; ++c) sum += shape[c] * x[c * dim + d];
+                peri__put_real(z, b->f32, at, peri__get_real(z, b->f32, at) + sum);
+            }
         }
     }
 }
@@ -237,7 +267,8 @@ static void peri__correct_coarsely(const peri__solver *s) {
     peri__transfer t;
     t.solver = s;
     t.levels = s->levels;
-    peri__for_points(s->body, t.levels->grid[0].count, 200, peri__restrict_points, &t, NULL);
+    peri__for_points(s->body, t.levels->cell_count, 100, peri__restrict_cells, &t, NULL);
+    peri__for_points(s->body, t.levels->grid[0].count, 10, peri__gather_cells, &t, NULL);
     peri__cycle(t.levels, s->body, 0);
-    peri__for_points(s->body, t.levels->points, 8, peri__prolong_points, &t, NULL);
+    peri__for_points(s->body, t.levels->cell_count, 100, peri__prolong_cells, &t, NULL);
 }

@@ -36,16 +36,19 @@ static void peri__relax_step(peri__solver *s, double unit, int64_t k) {
 static int32_t peri__relax(peri__solver *s) {
     peri_body *b = s->body;
     double unit = 1.1 / peri__square(peri__stable(b));
+    double loads = peri__static_forces(s), residual; /* the scale of the start is that before supports jump */
+    if (loads < 0.0) return (int32_t)loads;
+    residual = peri__static_residual(s, loads);
+    s->start = residual > s->scale ? residual : 0.0;
     if (peri__gap(s)) peri__move(s, 1.0);
     memset(s->k.p, 0, peri__vector_bytes(b));
     for (int64_t k = 0;; ++k) {
         void *r = s->k.r;
         s->k.r = s->k.q;
         s->k.q = r;
-        double loads = peri__static_forces(s);
+        loads = peri__static_forces(s);
         if (loads < 0.0) return (int32_t)loads;
-        double residual = peri__static_residual(s, loads);
-        if (k == 0) s->start = residual > s->scale ? residual : 0.0;
+        residual = peri__static_residual(s, loads);
         if (s->scale < s->start) s->scale = s->start;
         s->report.residual = s->scale > 0.0 ? residual / s->scale : 0.0;
         if (residual <= peri__solve_tolerance(s) * s->scale) return PERI_OK;

@@ -156,7 +156,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     b->load_factor = factor;
     int32_t status = peri__static_values(b);
     for (int64_t round = 0; status == PERI_OK; ++round) {
-        status = peri__prepare(s);
+        status = peri__prepare(s, round == 0);
         s->left = s->settings->iterations;
         s->energy0 = 0.0;
         if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));

@@ -6,8 +6,9 @@
 /* Memory as body->response. */
 static int64_t peri__response_reals(const peri__model *m) { return (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin; }
 
-/* t->q = the change of the force density of all bonds when the displacements change by t->p. at_rest: as if the body were undeformed; there, and
-   where the geometry is linear, the force itself is linear in u and its fast kernels serve. Else body->response must be that of body->u. */
+/* t->q = the change of the force density of all bonds when the displacements change by t->p. at_rest: as if the body were undeformed;
+   there, and where the geometry is linear, the force itself is linear in u and its fast kernels serve. Else body->response must be that of
+   body->u. */
 static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     const peri_body *b = t->body;
     const peri__model *m = b->model;
@@ -32,7 +33,7 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_share, (void *)t, NULL);
 }
 
-/* Adds the stiffness of the obstacles that points are in, k n n, to the product: q -= V-free force density. */
+/* Adds what obstacles that points are in do: they resist by stiffness n n, per volume. */
 static void peri__apply_contact(const peri__tangent *t) {
     const peri_body *b = t->body;
     const peri__model *m = b->model;
@@ -67,8 +68,8 @@ static void peri__add_dyad(int32_t dim, double scale, const double *v, double ro
         for (int c = a; c < dim; ++c) block[peri__packed(dim, a, c)] += scale * v[a] * v[c] + (a == c ? round : 0.0);
 }
 
-/* The diagonal block of point i, force per displacement, packed: of the bonds as they stand, without what their tension adds, so that it is never
-   negative; correspondence as at rest. For a body at rest, or of linear geometry, exactly that of the tangent. */
+/* The diagonal block of point i, force per displacement, packed: of the bonds as they stand, without what their tension adds, so that it
+   is never negative; correspondence as at rest. For a body at rest, or of linear geometry, exactly that of the tangent. */
 static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const peri__model *m = b->model;
     const int32_t dim = m->dim, own_law = m->laws[m->material[i]].model;
@@ -113,8 +114,10 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
         }
         peri__add_dyad(dim, m->volume[i] * spring, n, m->volume[i] * round, block);
     }
-    if (own_law == PERI_LPS || own_law == PERI_OTERKUS)
-        peri__add_dyad(dim, m->volume[i] * peri__get_constant(b, i, PERI__PRESS) * peri__get_constant(b, i, PERI__DILATE), lean, 0.0, block);
+    if (own_law == PERI_LPS || own_law == PERI_OTERKUS) {
+        const double stiff = peri__get_constant(b, i, PERI__PRESS) * peri__get_constant(b, i, PERI__DILATE);
+        peri__add_dyad(dim, m->volume[i] * stiff, lean, 0.0, block);
+    }
     if (own_law == PERI_CORRESPONDENCE) {
         double square = peri__by_inverse(b, i, lean, h), lambda = m->laws[m->material[i]].lambda, mu = m->laws[m->material[i]].mu;
         peri__add_dyad(dim, m->volume[i] * (lambda + mu), h,
