@@ -525,6 +525,12 @@ PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, 
         return peri__fail(b, PERI_ERROR_ID, "first, count", first, (double)count);
     if (capacity < count * b->model->width)
         return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)(count * b->model->width));
-    memcpy(rows, &b->model->ids[first * b->model->width], (size_t)(count * b->model->width) * sizeof *rows);
+    for (int64_t i = first; i < first + count; ++i) {
+        peri__row row;
+        peri__read_row(b->model, b->f32, i, &row);
+        memcpy(rows, row.ids, (size_t)row.count * sizeof *rows);
+        for (int64_t k = row.count; k < b->model->width; ++k) rows[k] = (int32_t)i;
+        rows += b->model->width;
+    }
     return PERI_OK;
 }

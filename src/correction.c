@@ -161,7 +161,7 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
     for (int64_t i = begin; i < end; ++i)
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t at = i * m->width + k, j = m->ids[at];
-            double own = f->factor[at], other = f->factor[j * m->width + peri__find_bond(m, j, i)];
+            double own = f->factor[at], other = f->factor[j * m->width + peri__find_listed(m, j, i)];
             double weight = peri__get_real(m->weight, b->f32, at);
             if (m->states) peri__put_real(m->back, b->f32, at, weight * other);
             peri__put_real(m->weight, b->f32, at, weight * (m->states ? own : 0.5 * (own + other)));

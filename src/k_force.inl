@@ -6,20 +6,22 @@ static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t e
     const peri__model *m = b->model;
     peri_r *force = (peri_r *)b->f, *v = (peri_r *)b->v;
     int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->centroid != NULL;
+    peri__row row;
     for (int64_t i = begin; i < end; ++i) {
         peri_r f[PERI_D], impulse[PERI_D];
         int32_t broke;
+        peri__read_row(m, b->f32, i, &row);
         for (int d = 0; d < PERI_D; ++d) {
             f[d] = force[d * m->stride + i];
             impulse[d] = 0;
         }
-        if (plain) broke = PERI_FN(bond_row_reference)(step, i, f, impulse, &sums->a);
+        if (plain) broke = PERI_FN(bond_row_reference)(step, i, &row, f, impulse, &sums->a);
         else if (!b->alive)
-            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 1)
-                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 0);
+            broke = linear ? PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 0, 1)
+                           : PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 0, 0);
         else
-            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 1)
-                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 0);
+            broke = linear ? PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 1, 1)
+                           : PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 1, 0);
         for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
         if (broke) {
             peri_r kick = (peri_r)(step->impulse / m->rho[m->material[i]]);

@@ -126,8 +126,8 @@ static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__su
     }
 }
 
-/* Place of j in row i, or -1. */
-static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
+/* Place of j in row i of the list, or -1. */
+static int64_t peri__find_listed(const peri__model *m, int64_t i, int64_t j) {
     const int32_t *row = &m->ids[i * m->width];
     int64_t lo = 0, hi = m->count[i];
     while (lo < hi) {
@@ -176,7 +176,7 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t j = m->ids[i * m->width + k];
             double square = 0.0;
-            if (peri__find_bond(m, j, i) < 0)
+            if (peri__find_listed(m, j, i) < 0)
                 return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, j), (double)j);
             for (int32_t d = 0; d < m->dim; ++d) square += peri__square(c->x[j * m->dim + d] - c->x[i * m->dim + d]);
             if (square < 1e-24) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", i > j ? i : j, (double)(i > j ? j : i));

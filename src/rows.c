@@ -11,4 +11,8 @@ static void peri__read_row(const peri__model *m, int f32, int64_t i, peri__row *
     row->weight = (const char *)m->weight + at;
     row->bond = (const char *)m->bond + at;
     row->back = (const char *)m->back + at;
+    row->part = m->part ? &m->part[i * m->width] : NULL;
 }
+
+/* Place of j in row i, or -1. */
+static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) { return peri__find_listed(m, i, j); }

@@ -144,6 +144,7 @@ typedef struct peri__row { /* the family of a point, see peri__read_row         
     int64_t        count;
     const int32_t *ids;                   /* ascending                                                                    */
     const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
+    const float   *part;                  /* NULL for whole cells                                                         */
 } peri__row;
 
 typedef struct peri__set {
