@@ -1,7 +1,8 @@
 /* bench.c - performance tables: `bench [repeats] [words of a case name]`. One row a case, as CSV too (out/bench.csv).
 
    ns per directed bond per step, minimum of `repeats` timings; bytes per point of everything the body holds (counted by an allocator
-   hook), and the most that it holds during peri_build; and beside it the textbook loop over stored ids, weights and lengths in the same run, so that the ratio holds on a noisy machine.
+   hook), and the most that it holds during peri_build; and beside it the textbook loop over stored ids, weights and lengths in the same
+   run, so that the ratio holds on a noisy machine.
    Figures are for one thread unless the row says otherwise. */
 #include "../peri.h"
 #include <math.h>

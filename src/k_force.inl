@@ -1,6 +1,6 @@
-/* k_force.inl - the pass that adds bond forces and breaks bonds: on columns where there are any, else on the list. */
+/* k_force.inl - the pass that adds bond forces and breaks bonds: on columns where there are any, else by rows. */
 
-/* Rows [begin, end) by the list. */
+/* Rows [begin, end), one by one. */
 static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
@@ -31,7 +31,7 @@ static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t e
     }
 }
 
-/* Group g by columns; by the list where a bond is about to break. */
+/* Group g by columns; by rows where a bond is about to break. */
 static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *sums) {
     peri_body *b = step->body;
     const peri__model *m = b->model;

@@ -39,7 +39,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(column)(const peri_r *xi, peri_
 }
 
 /* Adds the force of all live bonds of group g to f[PERI_D][PERI_LANES]. Returns nonzero where a live bond comes so near its critical
-   stretch that the list must decide; f is then void. */
+   stretch that the rows must decide; f is then void. */
 PERI_LANES_TARGET static int PERI_LANES_FN(lanes)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     const peri_body *b = step->body;
     const peri__model *m = b->model;

@@ -143,7 +143,7 @@ static int32_t PERI_FN(share_force)(const peri__step *step, int64_t i, peri_r *f
                   : PERI_FN(share_row)(step, i, &row, f, 1, 0, oterkus, mirrored);
 }
 
-/* Rows [begin, end) by the list. */
+/* Rows [begin, end), one by one. */
 static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = step->body->model;
     peri_r *force = (peri_r *)step->body->f;
@@ -155,7 +155,7 @@ static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t e
     }
 }
 
-/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion: by columns where there are any; by the list
+/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion: by columns where there are any; by rows
    in groups where a bond is about to break, or where correspondence points act by central bonds. sums: n their (directed) number. */
 static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
@@ -167,12 +167,12 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
     for (int64_t first = begin; first < end; first += PERI_LANES) {
         peri_r *force = (peri_r *)step->body->f + first, f[PERI_D][PERI_LANES];
         const int64_t g = first / PERI_LANES;
-        int by_list = m->tensors && step->body->central[g];
+        int by_rows = m->tensors && step->body->central[g];
         for (int d = 0; d < PERI_D; ++d)
             for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-        if (!by_list)
-            by_list = m->tensors ? PERI_ON_LANES(m->lanes.isa, tensor, (step, g, f)) : PERI_ON_LANES(m->lanes.isa, share, (step, g, f));
-        if (by_list) {
+        if (!by_rows)
+            by_rows = m->tensors ? PERI_ON_LANES(m->lanes.isa, tensor, (step, g, f)) : PERI_ON_LANES(m->lanes.isa, share, (step, g, f));
+        if (by_rows) {
             PERI_FN(share_rows)(step, first, peri__min(first + PERI_LANES, end), sums);
             continue;
         }

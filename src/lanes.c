@@ -17,7 +17,7 @@
 #define PERI_VECTOR_SLOTS 4096    /* open addressing                                                                     */
 #define PERI_VECTOR_GRAIN 1.5e-11 /* bonds nearer than this, in spacings and weights, are one: far above rounding        */
 #define PERI_VECTOR_KEY 5
-#define PERI_BATCH 2048           /* points whose families are searched at once                                          */
+#define PERI_BATCH 2048           /* points whose families are searched at once, at most                                 */
 
 typedef struct peri__vector { /* a row of the table, its key in grains, and the first bond that made it                   */
     int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j                                                              */
@@ -41,8 +41,8 @@ typedef struct peri__draft { /* what building needs and drops                   
     int64_t       columns, capacity;
     int32_t      *seen;           /* [seen_slots] open addressing: a group with such columns + 1; 0: free                */
     int64_t       seen_slots;     /* a power of 2                                                                        */
-    int32_t      *batch;          /* [PERI_BATCH][batch_room] families that were searched                                */
-    int64_t       batch_room, batch_first, batch_points;
+    int32_t      *batch;          /* [batch_rows][batch_room] families that were searched                                */
+    int64_t       batch_rows, batch_room, batch_first, batch_points;
     peri__parts   parts;
 } peri__draft;
 
@@ -101,7 +101,6 @@ static void peri__oppose_vectors(peri__draft *d) {
         int32_t other = *peri__vector_slot(d, key) - 1;
         if (other > a) {
             for (int k = 0; k < 3; ++k) d->row[other].bond.xi[k] = -row->bond.xi[k];
-            d->row[other].length = row->length;
             d->row[other].weight = row->weight;
             d->row[other].bond.share = row->bond.share;
         }
@@ -229,7 +228,7 @@ static int32_t peri__next_batch(peri__draft *d) {
     const peri__model *m = d->cloud->model;
     d->batch_first += d->batch_points;
     /* a cloud shows within the first block */
-    d->batch_points = peri__min(d->batch_first == 0 ? PERI_BLOCK : PERI_BATCH, m->points - d->batch_first);
+    d->batch_points = peri__min(d->batch_first == 0 ? PERI_BLOCK : d->batch_rows, m->points - d->batch_first);
     for (;;) {
         int32_t largest = 0;
         if (d->batch) peri__for_points(b, d->batch_points, 256, peri__batch_block, d, NULL);
@@ -238,9 +237,9 @@ static int32_t peri__next_batch(peri__draft *d) {
             if (m->count[i] > largest) largest = m->count[i];
         }
         if (d->batch && largest <= d->batch_room) return PERI_OK;
-        peri__delete(&b->memory, d->batch, PERI_BATCH * d->batch_room, sizeof *d->batch);
+        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
         while (d->batch_room < largest || d->batch_room < 32) d->batch_room += 32;
-        d->batch = (int32_t *)peri__new(&b->memory, PERI_BATCH * d->batch_room, sizeof *d->batch);
+        d->batch = (int32_t *)peri__new(&b->memory, d->batch_rows * d->batch_room, sizeof *d->batch);
         if (!d->batch) return PERI_ERROR_MEMORY;
     }
 }
@@ -328,12 +327,13 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     l->first = (int64_t *)peri__new(&m->memory, l->groups, sizeof *l->first);
     if (d) {
         d->cloud = c;
+        d->batch_rows = peri__min(PERI_BATCH, m->points);
         d->seen_slots = 16;
         while (d->seen_slots < 2 * l->groups) d->seen_slots *= 2;
         d->seen = (int32_t *)peri__new(&b->memory, d->seen_slots, sizeof *d->seen);
         if (d->seen && l->begin && l->first) status = peri__draft_lanes(d);
         if (status == PERI_OK) status = peri__keep_lanes(d);
-        peri__delete(&b->memory, d->batch, PERI_BATCH * d->batch_room, sizeof *d->batch);
+        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
         peri__delete(&b->memory, d->seen, d->seen_slots, sizeof *d->seen);
         peri__delete(&b->memory, d->column, d->capacity, sizeof *d->column);
         peri__delete(&b->memory, d, 1, sizeof *d);
