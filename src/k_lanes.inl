@@ -61,7 +61,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(lanes)(const peri__step *step, int64_
     for (const peri__column *column = columns; column < end; ++column) {
         const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
         const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = c * (peri_r)row[4], limit = s0 * bond;
-        const peri_i mask = alive ? alive[column - columns] : column->member;
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         for (int d = 0; d < PERI_D; ++d) {
             xi[d] = (peri_r)row[d];
@@ -97,7 +97,7 @@ PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64
     for (const peri__column *column = columns; column < end; ++column) {
         const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
         const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4] * (gauged ? bond : 1);
-        const peri_i mask = alive ? alive[column - columns] : column->member;
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) {
@@ -168,7 +168,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_
         const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
         const int64_t offset = column->offset;
         const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4], limit = s0 * bond, gauge = oterkus ? 1 : bond;
-        const peri_i mask = alive ? alive[column - columns] : column->member;
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) {
@@ -209,7 +209,7 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
     for (const peri__column *column = columns; column < end; ++column) {
         const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
         const peri_r *uj = u + column->offset, weight = (peri_r)row[4];
-        const peri_i mask = alive ? alive[column - columns] : column->member;
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];
@@ -250,7 +250,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
         const int64_t offset = column->offset;
         const peri_r *uj = u + offset, *qj = q + offset, *kj = k + offset, weight = (peri_r)row[4];
         const peri_r limit = step->breaking && b->pairs->s0 < PERI_NEVER ? (peri_r)(stretched * row[3] * row[3]) : (peri_r)PERI_NEVER;
-        const peri_i mask = alive ? alive[column - columns] : column->member;
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D], t[PERI_D][PERI_LANES], reach[PERI_LANES];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];
