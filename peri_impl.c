@@ -32,7 +32,7 @@
 #include "src/neighbors.c"  /* points                          -> families (Ibond)                         */
 #include "src/quadrature.c" /* families                        -> lengths and weights of bonds             */
 #include "src/correction.c" /* weights                         -> weights that surfaces need               */
-#include "src/lanes.c"      /* families of lattices            -> columns, the compressed Ibond            */
+#include "src/lanes.c"      /* points of lattices              -> families by columns, Ibond compressed     */
 #include "src/rows.c"       /* the family of a point, wherever it is stored                                */
 
 #define PERI_T_REAL 64

@@ -68,20 +68,28 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
 
 /* ---- the shared model --------------------------------------------------------------------------------------------- */
 
+/* The list of families; width: of its rows. */
+static void peri__free_list(peri__model *m, int64_t width, size_t real) {
+    const int64_t entries = m->points * width;
+    if (m->back != m->weight) peri__delete(&m->memory, m->back, entries, real);
+    peri__delete(&m->memory, m->ids, entries, sizeof *m->ids);
+    peri__delete(&m->memory, m->weight, entries, real);
+    peri__delete(&m->memory, m->bond, entries, real);
+    peri__delete(&m->memory, m->centroid, entries * m->dim, real);
+    peri__delete(&m->memory, m->part, entries, sizeof *m->part);
+    m->ids = NULL;
+    m->weight = m->bond = m->back = m->centroid = NULL;
+    m->part = NULL;
+}
+
 static void peri__release_model(peri__model *m, size_t real) {
     const peri__memory memory = m->memory;
-    int64_t entries = m->points * m->width;
     if (peri__count_users(&m->users, -1) > 0) return;
     peri__delete(&memory, m->x, m->stride * m->dim, real);
     peri__delete(&memory, m->volume, m->points, sizeof *m->volume);
     peri__delete(&memory, m->material, m->points, sizeof *m->material);
-    peri__delete(&memory, m->ids, entries, sizeof *m->ids);
     peri__delete(&memory, m->count, m->points, sizeof *m->count);
-    if (m->back != m->weight) peri__delete(&memory, m->back, entries, real);
-    peri__delete(&memory, m->weight, entries, real);
-    peri__delete(&memory, m->bond, entries, real);
-    peri__delete(&memory, m->centroid, entries * m->dim, real);
-    peri__delete(&memory, m->part, entries, sizeof *m->part);
+    peri__free_list(m, m->width, real);
     peri__free_lanes(m);
     peri__delete(&memory, m->pairs, (int64_t)m->materials * m->materials, sizeof *m->pairs);
     peri__delete(&memory, m, 1, sizeof *m);
@@ -132,10 +140,37 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
     return PERI_OK;
 }
 
+/* Families and weights by the list. */
+static int32_t peri__fill_list(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
+    int32_t status = b->setup.ibond ? peri__take_families(b, cloud) : peri__find_families(b, cloud, sums);
+    if (status == PERI_OK) status = peri__check_families(b, m);
+    if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
+    if (status == PERI_OK) status = peri__correct(b, cloud, sums);
+    if (status < 0 || m->states) return status;
+    peri__for_points(b, m->points, m->width, peri__rate_block, cloud, sums);
+    for (int64_t k = 0; k < m->blocks; ++k)
+        if (sums[k].a > m->rate) m->rate = sums[k].a;
+    return PERI_OK;
+}
+
+/* Families and weights: by columns from the points, or by the list and, where that pays, columns from it. */
+static int32_t peri__fill_families(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
+    int32_t listed = b->setup.ibond || peri__corrects(b, m), status = PERI_OK, made = 0;
+    if (!b->setup.ibond) status = peri__sort_cloud(b, cloud);
+    if (status == PERI_OK && !listed) status = made = peri__build_lanes(b, cloud);
+    if (status < 0 || made) return status < 0 ? status : PERI_OK;
+    status = peri__fill_list(b, m, cloud, sums);
+    if (status < 0 || !listed) return status;
+    const int64_t width = m->width;
+    made = peri__build_lanes(b, cloud);
+    if (made > 0) peri__free_list(m, width, peri__real(b));
+    return made < 0 ? made : PERI_OK;
+}
+
 /* Points, families, weights: all that clones share. On failure the model is partly filled; the caller releases it. */
 static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
     int32_t dim = b->dim, status;
-    size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    size_t real = peri__real(b);
     m->dim = dim;
     m->points = b->setup.point_count;
     m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
@@ -161,16 +196,12 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     peri__gauss(cloud->gauss_x, cloud->gauss_w);
 
     status = peri__fill_pairs(b, m);
-    if (status == PERI_OK) status = b->setup.ibond ? peri__take_families(b, cloud) : peri__find_families(b, cloud, sums);
-    if (status == PERI_OK) status = peri__check_families(b, m);
-    if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
-    if (status == PERI_OK) status = peri__correct(b, cloud, sums);
-    if (status == PERI_OK && !m->states) {
-        peri__for_points(b, m->points, m->width, peri__rate_block, cloud, sums);
-        for (int64_t k = 0; k < m->blocks; ++k)
-            if (sums[k].a > m->rate) m->rate = sums[k].a;
-        if (!(m->rate > 1e-30 && m->rate < 1e30)) status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
-    }
+    cloud->edge = 0.5 * m->spacing / m->horizon;
+    if (status == PERI_OK) status = peri__fill_families(b, m, cloud, sums);
+    if (status == PERI_OK && !m->states && !(m->rate > 1e-30 && m->rate < 1e30))
+        status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
+    m->lanes.isa = peri__isa();
+    m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
     m->words = (m->width + 31) / 32;
     return status;
 }
@@ -245,12 +276,13 @@ static int peri__need_alive(peri_body *b) {
     if (b->alive) return 1;
     alive = peri__new_flags(b);
     if (b->model->lanes.columns)
-        columns = (uint16_t *)peri__copy(&b->memory, b->model->lanes.member, b->model->lanes.columns, sizeof *columns);
+        columns = (uint16_t *)peri__new(&b->memory, b->model->lanes.columns, sizeof *columns);
     if (!alive || (b->model->lanes.columns && !columns)) {
         peri__delete(&b->memory, alive, b->model->points * b->model->words, sizeof *alive);
         peri__delete(&b->memory, columns, b->model->lanes.columns, sizeof *columns);
         return 0;
     }
+    for (int64_t g = 0; columns && g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, alive, columns);
     b->alive = alive;
     b->lanes_alive = columns;
     return 1;
@@ -294,6 +326,12 @@ static int32_t peri__new_state(peri_body *b) {
     return b->fastest > 1e-30 && b->fastest < 1e30 ? PERI_OK : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
 }
 
+static void peri__free_cloud(const peri_body *b, peri__cloud *cloud, int64_t points) {
+    peri__delete(&b->memory, cloud->x, points * b->dim, sizeof(double));
+    peri__delete(&b->memory, cloud->start, cloud->cell_count + 1, sizeof(int32_t));
+    peri__delete(&b->memory, cloud->order, points, sizeof(int32_t));
+}
+
 PERI_API int32_t peri_build(peri_body *b) {
     PERI_NEED_UNBUILT(b);
     peri__cloud cloud;
@@ -318,20 +356,15 @@ PERI_API int32_t peri_build(peri_body *b) {
     cloud.x = (double *)peri__new(&b->memory, points * b->dim, sizeof(double));
     sums = (peri__sums *)peri__new(&b->memory, blocks, sizeof *sums);
     status = cloud.x && sums ? peri__fill_model(b, m, &cloud, sums) : peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    peri__free_cloud(b, &cloud, points);
     if (status == PERI_OK) {
         b->model = m;
-        status = peri__build_lanes(b, cloud.x);
-        m->lanes.isa = peri__isa();
-        m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
-        if (status == PERI_OK) status = peri__new_state(b);
+        status = peri__new_state(b);
         if (status < 0) {
             peri__free_state(b);
             b->model = NULL;
         }
     }
-    peri__delete(&b->memory, cloud.x, points * b->dim, sizeof(double));
-    peri__delete(&b->memory, cloud.start, cloud.cell_count + 1, sizeof(int32_t));
-    peri__delete(&b->memory, cloud.order, points, sizeof(int32_t));
     peri__delete(&b->memory, sums, blocks, sizeof *sums);
     b->running = 0;
     if (status < 0) {
@@ -532,6 +565,12 @@ PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, 
         return peri__fail(b, PERI_ERROR_ID, "first, count", first, (double)count);
     if (capacity < count * b->model->width)
         return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)(count * b->model->width));
-    memcpy(rows, &b->model->ids[first * b->model->width], (size_t)(count * b->model->width) * sizeof *rows);
+    for (int64_t i = first; i < first + count; ++i) {
+        peri__row row;
+        peri__read_row(b->model, b->f32, i, &row);
+        memcpy(rows, row.ids, (size_t)row.count * sizeof *rows);
+        for (int64_t k = row.count; k < b->model->width; ++k) rows[k] = (int32_t)i;
+        rows += b->model->width;
+    }
     return PERI_OK;
 }

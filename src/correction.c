@@ -161,11 +161,18 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
     for (int64_t i = begin; i < end; ++i)
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t at = i * m->width + k, j = m->ids[at];
-            double own = f->factor[at], other = f->factor[j * m->width + peri__find_bond(m, j, i)];
+            double own = f->factor[at], other = f->factor[j * m->width + peri__find_listed(m, j, i)];
             double weight = peri__get_real(m->weight, b->f32, at);
             if (m->states) peri__put_real(m->back, b->f32, at, weight * other);
             peri__put_real(m->weight, b->f32, at, weight * (m->states ? own : 0.5 * (own + other)));
         }
+}
+
+/* Does the descriptor ask for factors on the weights, and not of state-based points alone that know none? */
+static int peri__corrects(const peri_body *b, const peri__model *m) {
+    int bonds = 0;
+    for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].model == PERI_BOND_BASED;
+    return b->desc.correction == PERI_MOMENT_CORRECTION || (bonds && b->desc.correction != PERI_NO_CORRECTION);
 }
 
 /* Corrects the weights as the descriptor asks. Influence functions were checked to have moments where bond-based materials are. */
@@ -176,9 +183,7 @@ static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     double h = m->horizon, moment = 0.0;
     size_t real = b->f32 ? sizeof(float) : sizeof(double);
     m->back = m->weight;
-    int32_t bonds = 0;
-    for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].model == PERI_BOND_BASED;
-    if (b->desc.correction == PERI_NO_CORRECTION || (!bonds && b->desc.correction != PERI_MOMENT_CORRECTION)) return PERI_OK;
+    if (!peri__corrects(b, m)) return PERI_OK;
     if (m->states) m->back = peri__new(&m->memory, entries, real);
     f.cloud = c;
     f.factor = (double *)peri__new(&m->memory, entries, sizeof *f.factor);

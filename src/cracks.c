@@ -109,11 +109,13 @@ static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sum
     peri_body *b = cutter->body;
     const peri__model *m = b->model;
     int32_t dim = m->dim;
+    peri__row row;
     for (int64_t i = begin; i < end; ++i) {
         double xi[3], xj[3];
+        peri__read_row(m, b->f32, i, &row);
         for (int32_t d = 0; d < dim; ++d) xi[d] = peri__get_real(m->x, b->f32, d * m->stride + i);
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t j = m->ids[i * m->width + k];
+        for (int64_t k = 0; k < row.count; ++k) {
+            int64_t j = row.ids[k];
             uint32_t flag = (uint32_t)1 << (k % 32), *alive = &b->alive[i * m->words + k / 32];
             int near_crack = 1;
             for (int32_t d = 0; d < dim; ++d) {
@@ -312,9 +314,11 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
     peri__touch(b);
     int32_t running = b->running;
     b->running = 2;
-    for (int64_t i = 0; i < m->points; ++i)
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t j = m->ids[i * m->width + k];
+    for (int64_t i = 0; i < m->points; ++i) {
+        peri__row row;
+        peri__read_row(m, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            int64_t j = row.ids[k];
             double xi[3], xj[3];
             if (j < i || !peri__is_alive(b, i, k)) continue;
             for (int32_t d = 0; d < m->dim; ++d) {
@@ -325,6 +329,7 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
             count += peri__cut_one(b, i, k);
             (void)peri__cut_one(b, j, peri__find_bond(m, j, i));
         }
+    }
     b->running = running;
     peri__cuts_made(b);
     return count;
@@ -373,11 +378,11 @@ PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
     return PERI_OK;
 }
 
-/* Stretch of bond k of row i at the present displacement. */
-static double peri__stretch(const peri_body *b, int64_t i, int64_t k) {
+/* Stretch of bond k of point i at the present displacement. */
+static double peri__stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k) {
     const peri__model *m = b->model;
-    int64_t at = i * m->width + k, j = m->ids[at];
-    double along = 0.0, square = 0.0, bond = peri__get_real(m->bond, b->f32, at);
+    int64_t at = i * m->width + k, j = row->ids[k];
+    double along = 0.0, square = 0.0, bond = peri__get_real(row->bond, b->f32, k);
     int linear = b->desc.geometry == PERI_LINEAR;
     for (int32_t d = 0; d < m->dim; ++d) {
         double xi = peri__get_real(m->x, b->f32, d * m->stride + j) - peri__get_real(m->x, b->f32, d * m->stride + i);
@@ -396,10 +401,12 @@ static void peri__report_breaks(peri_body *b) {
     b->running = 2;
     for (int64_t i = 0; i < m->points; ++i) {
         if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t at = i * m->words + k / 32, j = m->ids[i * m->width + k];
+        peri__row row;
+        peri__read_row(m, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            int64_t at = i * m->words + k / 32, j = row.ids[k];
             if (j < i || !((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
-            b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, k));
+            b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, &row, k));
         }
     }
     b->running = running;

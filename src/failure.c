@@ -17,21 +17,25 @@ static void peri__mark(peri_body *b, int64_t i, uint8_t mark, int64_t *count) {
 static int64_t peri__mark_dying(peri_body *b) {
     const peri__model *m = b->model;
     int64_t count = 0;
+    peri__row row;
     for (int64_t block = 0; block < m->blocks; ++block) {
         if (b->sums[block].n == 0) continue;
-        for (int64_t i = block * PERI_BLOCK; i < peri__min((block + 1) * PERI_BLOCK, m->points); ++i)
-            for (int64_t k = 0; k < m->count[i]; ++k) {
+        for (int64_t i = block * PERI_BLOCK; i < peri__min((block + 1) * PERI_BLOCK, m->points); ++i) {
+            peri__read_row(m, b->f32, i, &row);
+            for (int64_t k = 0; k < row.count; ++k) {
                 if (!(b->dying[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-                int64_t j = m->ids[i * m->width + k], back = peri__find_bond(m, j, i);
+                int64_t j = row.ids[k], back = peri__find_bond(m, j, i);
                 b->dying[j * m->words + back / 32] |= (uint32_t)1 << (back % 32);
                 peri__mark(b, i, 1, &count);
                 peri__mark(b, j, 1, &count);
             }
+        }
     }
     for (int64_t n = 0, losing = count; n < losing; ++n) {
         int64_t i = b->near_dying[n];
-        for (int64_t k = 0; k < m->count[i]; ++k)
-            if (peri__is_alive(b, i, k)) peri__mark(b, m->ids[i * m->width + k], 2, &count);
+        peri__read_row(m, b->f32, i, &row);
+        for (int64_t k = 0; k < row.count; ++k)
+            if (peri__is_alive(b, i, k)) peri__mark(b, row.ids[k], 2, &count);
     }
     return count;
 }
@@ -65,8 +69,10 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
         }
         if (b->marked[i] == 1) {
             if (b->lanes_alive) peri__group_masks(m, i / PERI_LANES, b->alive, b->lanes_alive);
-            peri__set_constants(b, i);
-            peri__set_wide(b, i);
+            peri__row row;
+            peri__read_row(m, b->f32, i, &row);
+            peri__set_constants(b, i, &row);
+            peri__set_wide(b, i, &row);
         }
     }
     for (int64_t n = 0; n < count; ++n)

@@ -14,9 +14,10 @@ PERI_API int64_t peri_field_size(const peri_body *b, int32_t field) {
 static double peri__damage(const peri_body *b, int64_t i, int uncut_only) {
     const peri__model *m = b->model;
     double all = 0.0, intact = 0.0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        int64_t at = i * m->width + k;
-        double part = m->part ? (double)m->part[at] : m->volume[m->ids[at]];
+    peri__row row;
+    peri__read_row(m, b->f32, i, &row);
+    for (int64_t k = 0; k < row.count; ++k) {
+        double part = row.part ? (double)row.part[k] : m->volume[row.ids[k]];
         if (uncut_only && b->uncut && !(b->uncut[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         all += part;
         if (peri__is_alive(b, i, k)) intact += part;

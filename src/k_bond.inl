@@ -48,7 +48,7 @@ PERI_INLINE const peri__pair *PERI_FN(pair)(const peri_body *b, int64_t i, int64
 /* Stretch of bond (i, j) as point j sees it. With centroid bonds the two ends differ; the end of lower id decides for both. */
 static peri_r PERI_FN(other_stretch)(const peri_body *b, int64_t i, int64_t j) {
     const peri__model *m = b->model;
-    int64_t at = j * m->width + peri__find_bond(m, j, i);
+    int64_t at = j * m->width + peri__find_bond(m, j, i); /* centroid bonds are only in the list */
     peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, bond = ((const peri_r *)m->bond)[at];
     PERI_FN(bond_vectors)(b, j, at, i, xi, eta);
     (void)PERI_FN(extension)(b->desc.geometry == PERI_LINEAR, xi, eta, bond, &e, y);
@@ -56,17 +56,18 @@ static peri_r PERI_FN(other_stretch)(const peri_body *b, int64_t i, int64_t j) {
 }
 
 /* The textbook kernel of one row: every quantity by its formula. f, impulse: [PERI_D] of row i, see the row below. */
-static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, peri_r *f, peri_r *impulse, double *lost) {
+static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse,
+                                           double *lost) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
     int linear = b->desc.geometry == PERI_LINEAR;
     int32_t broke = 0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        int64_t at = i * m->width + k, j = m->ids[at];
+    for (int64_t k = 0; k < row->count; ++k) {
+        int64_t at = i * m->width + k, j = row->ids[k];
         uint32_t *flags = b->alive ? &b->alive[i * m->words + k / 32] : NULL, flag = (uint32_t)1 << (k % 32);
         const peri__pair *pair = PERI_FN(pair)(b, i, j);
         peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, s, length, force;
-        peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
+        peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
         if (flags && !(*flags & flag)) continue;
         PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
         length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
@@ -87,18 +88,18 @@ static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, pe
 /* The same row, for speed: one square root and one division per bond, the flags of 32 bonds read at once. `flagged` and `linear`
    are constants where this is inlined. f gets the force of the bonds that live on; impulse that of the bonds that break now, which
    still act in the closing half kick of the step (PERI_BREAK_AT_STEP_END). Returns the number of bonds broken. */
-PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, peri_r *f, peri_r *impulse, double *lost,
-                                      const int flagged, const int linear) {
+PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse,
+                                      double *lost, const int flagged, const int linear) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
-    const peri_r *bonds = (const peri_r *)m->bond + i * m->width, *weights = (const peri_r *)m->weight + i * m->width;
-    const int32_t *ids = m->ids + i * m->width;
+    const peri_r *bonds = (const peri_r *)row->bond, *weights = (const peri_r *)row->weight;
+    const int32_t *ids = row->ids;
     const uint8_t *cls = b->cls;
     const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
     const int64_t stride = m->stride;
     peri_r c = (peri_r)pairs->c, s0 = step->breaking ? (peri_r)pairs->s0 : (peri_r)PERI_NEVER;
-    int32_t broke = 0, count = m->count[i];
+    int32_t broke = 0, count = (int32_t)row->count;
     peri_r xi_[PERI_D], ui[PERI_D], sum[PERI_D];
     for (int d = 0; d < PERI_D; ++d) {
         xi_[d] = x[d * stride + i];

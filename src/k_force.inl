@@ -1,25 +1,27 @@
-/* k_force.inl - the pass that adds bond forces and breaks bonds: on columns where there are any, else on the list. */
+/* k_force.inl - the pass that adds bond forces and breaks bonds: on columns where there are any, else by rows. */
 
-/* Rows [begin, end) by the list. */
+/* Rows [begin, end), one by one. */
 static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
     peri_r *force = (peri_r *)b->f, *v = (peri_r *)b->v;
     int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->centroid != NULL;
+    peri__row row;
     for (int64_t i = begin; i < end; ++i) {
         peri_r f[PERI_D], impulse[PERI_D];
         int32_t broke;
+        peri__read_row(m, b->f32, i, &row);
         for (int d = 0; d < PERI_D; ++d) {
             f[d] = force[d * m->stride + i];
             impulse[d] = 0;
         }
-        if (plain) broke = PERI_FN(bond_row_reference)(step, i, f, impulse, &sums->a);
+        if (plain) broke = PERI_FN(bond_row_reference)(step, i, &row, f, impulse, &sums->a);
         else if (!b->alive)
-            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 1)
-                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 0, 0);
+            broke = linear ? PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 0, 1)
+                           : PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 0, 0);
         else
-            broke = linear ? PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 1)
-                           : PERI_FN(bond_row)(step, i, f, impulse, &sums->a, 1, 0);
+            broke = linear ? PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 1, 1)
+                           : PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 1, 0);
         for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
         if (broke) {
             peri_r kick = (peri_r)(step->impulse / m->rho[m->material[i]]);
@@ -29,7 +31,7 @@ static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t e
     }
 }
 
-/* Group g by columns; by the list where a bond is about to break. */
+/* Group g by columns; by rows where a bond is about to break. */
 static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *sums) {
     peri_body *b = step->body;
     const peri__model *m = b->model;

@@ -39,12 +39,13 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(column)(const peri_r *xi, peri_
 }
 
 /* Adds the force of all live bonds of group g to f[PERI_D][PERI_LANES]. Returns nonzero where a live bond comes so near its critical
-   stretch that the list must decide; f is then void. */
+   stretch that the rows must decide; f is then void. */
 PERI_LANES_TARGET static int PERI_LANES_FN(lanes)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     const peri_body *b = step->body;
     const peri__model *m = b->model;
     const peri__lanes *lanes = &m->lanes;
-    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
+    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
     const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
     const peri_r c = (peri_r)b->pairs->c, s0 = (peri_r)(step->breaking ? b->pairs->s0 * (1.0 - PERI_NEAR) : PERI_NEVER);
     const int linear = b->desc.geometry == PERI_LINEAR;
@@ -57,14 +58,14 @@ PERI_LANES_TARGET static int PERI_LANES_FN(lanes)(const peri__step *step, int64_
             ui[d][l] = u[d * m->stride + l];
             sum[d][l] = f[d][l];
         }
-    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
-        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
+    for (const peri__column *column = columns; column < end; ++column) {
+        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
         const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = c * (peri_r)row[4], limit = s0 * bond;
-        const peri_i mask = masks[column];
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         for (int d = 0; d < PERI_D; ++d) {
             xi[d] = (peri_r)row[d];
-            uj[d] = u + d * m->stride + lanes->offset[column];
+            uj[d] = u + d * m->stride + column->offset;
         }
         if (mask == 0xFFFF) {
             if (linear) PERI_LANES_FN(column)(xi, bond, weight, limit, mask, uj, ui, sum, hit, 0, 1);
@@ -85,22 +86,23 @@ PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64
     PERI_NO_CONTRACTION
     const peri__model *m = b->model;
     const peri__lanes *lanes = &m->lanes;
-    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
+    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
     const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
     const int linear = b->desc.geometry == PERI_LINEAR;
     peri_r ui[PERI_D][PERI_LANES], y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
     for (int l = 0; l < PERI_LANES; ++l) sum[l] = 0;
     for (int d = 0; d < PERI_D; ++d)
         for (int l = 0; l < PERI_LANES; ++l) ui[d][l] = u[d * m->stride + l];
-    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
-        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
+    for (const peri__column *column = columns; column < end; ++column) {
+        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
         const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4] * (gauged ? bond : 1);
-        const peri_i mask = masks[column];
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) {
             xi[d] = (peri_r)row[d];
-            uj[d] = u + d * m->stride + lanes->offset[column];
+            uj[d] = u + d * m->stride + column->offset;
         }
 #define PERI_ADD(line, whole)                                                                                          \
     PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, line);                                                   \
@@ -143,7 +145,8 @@ PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_
     const peri_body *b = step->body;
     const peri__model *m = b->model;
     const peri__lanes *lanes = &m->lanes;
-    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
+    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
     const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *p = (const peri_r *)b->response + m->margin + g * PERI_LANES;
     const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * m->stride + g * PERI_LANES;
     const peri_r s0 = (peri_r)(step->breaking ? b->pairs->s0 * (1.0 - PERI_NEAR) : PERI_NEVER);
@@ -161,11 +164,11 @@ PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_
             ui[d][l] = u[d * m->stride + l];
             sum[d][l] = f[d][l];
         }
-    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
-        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
-        const int64_t offset = lanes->offset[column];
+    for (const peri__column *column = columns; column < end; ++column) {
+        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
+        const int64_t offset = column->offset;
         const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4], limit = s0 * bond, gauge = oterkus ? 1 : bond;
-        const peri_i mask = masks[column];
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) {
@@ -194,7 +197,8 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
     PERI_NO_CONTRACTION
     const peri__model *m = b->model;
     const peri__lanes *lanes = &m->lanes;
-    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
+    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
     const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
     peri_r ui[PERI_D][PERI_LANES];
     for (int a = 0; a < PERI_D; ++a)
@@ -202,10 +206,10 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
             ui[a][l] = u[a * m->stride + l];
             for (int d = 0; d < PERI_D; ++d) n[a][d][l] = 0;
         }
-    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
-        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
-        const peri_r *uj = u + lanes->offset[column], weight = (peri_r)row[4];
-        const peri_i mask = masks[column];
+    for (const peri__column *column = columns; column < end; ++column) {
+        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
+        const peri_r *uj = u + column->offset, weight = (peri_r)row[4];
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];
@@ -224,7 +228,8 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
     const peri_body *b = step->body;
     const peri__model *m = b->model;
     const peri__lanes *lanes = &m->lanes;
-    const uint16_t *masks = b->lanes_alive ? b->lanes_alive : lanes->member;
+    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
+    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
     const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *q = (const peri_r *)b->response + m->margin + m->stride + g * PERI_LANES;
     const peri_r *k = (const peri_r *)b->constant + m->margin + PERI__VECTOR * m->stride + g * PERI_LANES;
     const int linear = b->desc.geometry == PERI_LINEAR;
@@ -240,12 +245,12 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
             for (int d = 0; d < PERI_D; ++d) qi[a][d][l] = q[(a * PERI_D + d) * m->stride + l];
         }
     }
-    for (int64_t column = lanes->begin[g]; column < lanes->begin[g + 1]; ++column) {
-        const double *row = &lanes->table[lanes->vector[column] * PERI_TABLE_ROW];
-        const int64_t offset = lanes->offset[column];
+    for (const peri__column *column = columns; column < end; ++column) {
+        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
+        const int64_t offset = column->offset;
         const peri_r *uj = u + offset, *qj = q + offset, *kj = k + offset, weight = (peri_r)row[4];
         const peri_r limit = step->breaking && b->pairs->s0 < PERI_NEVER ? (peri_r)(stretched * row[3] * row[3]) : (peri_r)PERI_NEVER;
-        const peri_i mask = masks[column];
+        const peri_i mask = alive ? *alive++ : column->member;
         peri_r xi[PERI_D], t[PERI_D][PERI_LANES], reach[PERI_LANES];
         if (mask == 0) continue;
         for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];

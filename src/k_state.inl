@@ -26,23 +26,23 @@ PERI_INLINE void PERI_FN(half_bond)(const peri_body *b, int64_t i, int64_t j, pe
 }
 
 /* Row i, every quantity by its formula: adds to f, and notes what the criteria need. Returns the number of bonds that meet one. */
-static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, peri_r *f) {
+static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, const peri__row *row, peri_r *f) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
     const int linear = b->desc.geometry == PERI_LINEAR;
     int32_t dying = 0;
     if (step->breaking)
         for (int32_t k = 0; k < m->words; ++k) b->dying[i * m->words + k] = 0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        const int64_t at = i * m->width + k, j = m->ids[at];
+    for (int64_t k = 0; k < row->count; ++k) {
+        const int64_t at = i * m->width + k, j = row->ids[k];
         peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], t[PERI_D], e, central = 0, length;
-        const peri_r bond = ((const peri_r *)m->bond)[at];
+        const peri_r bond = ((const peri_r *)row->bond)[k];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
         length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         for (int d = 0; d < PERI_D; ++d) t[d] = 0;
-        PERI_FN(half_bond)(b, i, j, ((const peri_r *)m->weight)[at], xi, eta, bond, e, &central, t);
-        PERI_FN(half_bond)(b, j, i, ((const peri_r *)m->back)[at], xi, eta, bond, e, &central, t);
+        PERI_FN(half_bond)(b, i, j, ((const peri_r *)row->weight)[k], xi, eta, bond, e, &central, t);
+        PERI_FN(half_bond)(b, j, i, ((const peri_r *)row->back)[k], xi, eta, bond, e, &central, t);
         for (int d = 0; d < PERI_D; ++d) {
             t[d] += central * y[d] / (length + PERI_TINY);
             f[d] += t[d];
@@ -58,7 +58,7 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, p
         }
         if (step->breaking && e > 0) {
             const peri__pair *pair = PERI_FN(pair)(b, i, j);
-            const double share = m->part ? (double)m->part[at] : m->volume[j];
+            const double share = row->part ? (double)row->part[k] : m->volume[j];
             int dies = e / bond > (peri_r)pair->s0;
             if (b->work) dies |= (double)((const peri_r *)b->work)[at] > pair->bond_energy * share;
             if (b->node) dies |= 0.5 * (b->node[i] + b->node[j]) > pair->node_energy;
@@ -71,16 +71,15 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, p
 
 /* The same row where every point is of one ordinary law: constants at hand, one square root and one division per bond. `flagged`
    and `linear` are constants where this is inlined; where nothing dilates p is 0. */
-PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r *f, const int flagged, const int linear,
-                                       const int oterkus, const int mirrored) {
+PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const peri__row *row, peri_r *f, const int flagged,
+                                       const int linear, const int oterkus, const int mirrored) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
     const int64_t stride = m->stride;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response + m->margin;
     const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * stride;
-    const peri_r *bonds = (const peri_r *)m->bond + i * m->width, *weights = (const peri_r *)m->weight + i * m->width;
-    const peri_r *backs = (const peri_r *)m->back + i * m->width;
-    const int32_t *ids = m->ids + i * m->width;
+    const peri_r *bonds = (const peri_r *)row->bond, *weights = (const peri_r *)row->weight, *backs = (const peri_r *)row->back;
+    const int32_t *ids = row->ids;
     const uint8_t *cls = b->cls;
     const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
     peri_r here[PERI_D], moved[PERI_D], sum[PERI_D], s0 = (peri_r)pairs->s0;
@@ -91,9 +90,9 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, peri_r
         moved[d] = u[d * stride + i];
         sum[d] = f[d];
     }
-    for (int32_t first = 0; first < m->count[i]; first += 32) {
+    for (int32_t first = 0, count = (int32_t)row->count; first < count; first += 32) {
         const uint32_t live = flagged ? b->alive[i * m->words + first / 32] : 0;
-        const int32_t chunk = m->count[i] - first < 32 ? m->count[i] - first : 32;
+        const int32_t chunk = count - first < 32 ? count - first : 32;
         uint32_t dead = 0;
         for (int32_t k = 0; k < chunk; ++k) {
             const int64_t j = ids[first + k];
@@ -134,13 +133,17 @@ static int32_t PERI_FN(share_force)(const peri__step *step, int64_t i, peri_r *f
     const peri__model *m = b->model;
     const int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->works || m->nodes;
     const int oterkus = m->ordinary == PERI_OTERKUS, mirrored = m->back == m->weight;
-    if (plain || !m->ordinary) return PERI_FN(share_row_reference)(step, i, f);
+    peri__row row;
+    peri__read_row(m, b->f32, i, &row);
+    if (plain || !m->ordinary) return PERI_FN(share_row_reference)(step, i, &row, f);
     if (!b->alive)
-        return linear ? PERI_FN(share_row)(step, i, f, 0, 1, oterkus, mirrored) : PERI_FN(share_row)(step, i, f, 0, 0, oterkus, mirrored);
-    return linear ? PERI_FN(share_row)(step, i, f, 1, 1, oterkus, mirrored) : PERI_FN(share_row)(step, i, f, 1, 0, oterkus, mirrored);
+        return linear ? PERI_FN(share_row)(step, i, &row, f, 0, 1, oterkus, mirrored)
+                      : PERI_FN(share_row)(step, i, &row, f, 0, 0, oterkus, mirrored);
+    return linear ? PERI_FN(share_row)(step, i, &row, f, 1, 1, oterkus, mirrored)
+                  : PERI_FN(share_row)(step, i, &row, f, 1, 0, oterkus, mirrored);
 }
 
-/* Rows [begin, end) by the list. */
+/* Rows [begin, end), one by one. */
 static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = step->body->model;
     peri_r *force = (peri_r *)step->body->f;
@@ -152,7 +155,7 @@ static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t e
     }
 }
 
-/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion: by columns where there are any; by the list
+/* Adds the internal force density to f and notes in `dying` which bonds meet their criterion: by columns where there are any; by rows
    in groups where a bond is about to break, or where correspondence points act by central bonds. sums: n their (directed) number. */
 static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
@@ -164,12 +167,12 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
     for (int64_t first = begin; first < end; first += PERI_LANES) {
         peri_r *force = (peri_r *)step->body->f + first, f[PERI_D][PERI_LANES];
         const int64_t g = first / PERI_LANES;
-        int by_list = m->tensors && step->body->central[g];
+        int by_rows = m->tensors && step->body->central[g];
         for (int d = 0; d < PERI_D; ++d)
             for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-        if (!by_list)
-            by_list = m->tensors ? PERI_ON_LANES(m->lanes.isa, tensor, (step, g, f)) : PERI_ON_LANES(m->lanes.isa, share, (step, g, f));
-        if (by_list) {
+        if (!by_rows)
+            by_rows = m->tensors ? PERI_ON_LANES(m->lanes.isa, tensor, (step, g, f)) : PERI_ON_LANES(m->lanes.isa, share, (step, g, f));
+        if (by_rows) {
             PERI_FN(share_rows)(step, first, peri__min(first + PERI_LANES, end), sums);
             continue;
         }
@@ -197,16 +200,15 @@ static void PERI_FN(exchange)(const peri__step *step, const int32_t *points, int
 }
 
 /* sum w eta xi V of a correspondence point. */
-static void PERI_FN(shape)(const peri_body *b, int64_t i, peri_r n[PERI_D][PERI_D]) {
+static void PERI_FN(shape)(const peri_body *b, int64_t i, const peri__row *row, peri_r n[PERI_D][PERI_D]) {
     const peri__model *m = b->model;
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) n[a][d] = 0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        const int64_t at = i * m->width + k;
-        const peri_r weight = ((const peri_r *)m->weight)[at];
+    for (int64_t k = 0; k < row->count; ++k) {
+        const peri_r weight = ((const peri_r *)row->weight)[k];
         peri_r xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, at, m->ids[at], xi, eta);
+        PERI_FN(bond_vectors)(b, i, i * m->width + k, row->ids[k], xi, eta);
         for (int a = 0; a < PERI_D; ++a)
             for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
     }
@@ -260,17 +262,16 @@ static void PERI_FN(respond_tensor)(peri_body *b, int64_t i, peri_r n[PERI_D][PE
 }
 
 /* sum w g e V of an ordinary point; *square: sum w e^2 V. */
-static double PERI_FN(stretched)(const peri_body *b, int64_t i, double *square) {
+static double PERI_FN(stretched)(const peri_body *b, int64_t i, const peri__row *row, double *square) {
     const peri__model *m = b->model;
     const int linear = b->desc.geometry == PERI_LINEAR, oterkus = m->laws[m->material[i]].model == PERI_OTERKUS;
     peri_r sum = 0;
     double squares = 0.0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        const int64_t at = i * m->width + k;
-        const peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
+    for (int64_t k = 0; k < row->count; ++k) {
+        const peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
         peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, at, m->ids[at], xi, eta);
+        PERI_FN(bond_vectors)(b, i, i * m->width + k, row->ids[k], xi, eta);
         (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         sum += weight * (oterkus ? 1 : bond) * e;
         squares += (double)weight * (double)e * (double)e;
@@ -280,18 +281,19 @@ static double PERI_FN(stretched)(const peri_body *b, int64_t i, double *square) 
 }
 
 /* The same sum w g e V for speed, without that of squares. `flagged` and `linear` are constants where this is inlined. */
-PERI_INLINE peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const int oterkus, const int flagged, const int linear) {
+PERI_INLINE peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const peri__row *row, const int oterkus, const int flagged,
+                                          const int linear) {
     const peri__model *m = b->model;
     const int64_t stride = m->stride;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
-    const peri_r *bonds = (const peri_r *)m->bond + i * m->width, *weights = (const peri_r *)m->weight + i * m->width;
-    const int32_t *ids = m->ids + i * m->width;
+    const peri_r *bonds = (const peri_r *)row->bond, *weights = (const peri_r *)row->weight;
+    const int32_t *ids = row->ids;
     peri_r here[PERI_D], moved[PERI_D], sum = 0;
     for (int d = 0; d < PERI_D; ++d) {
         here[d] = x[d * stride + i];
         moved[d] = u[d * stride + i];
     }
-    for (int32_t k = 0; k < m->count[i]; ++k) {
+    for (int64_t k = 0; k < row->count; ++k) {
         const int64_t j = ids[k];
         const peri_r bond = bonds[k];
         peri_r along = 0, square = 0;
@@ -307,26 +309,26 @@ PERI_INLINE peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const i
 }
 
 /* By whichever of the two serves. */
-static peri_r PERI_FN(stretched_sum)(const peri_body *b, int64_t i) {
+static peri_r PERI_FN(stretched_sum)(const peri_body *b, int64_t i, const peri__row *row) {
     const int linear = b->desc.geometry == PERI_LINEAR, oterkus = b->model->laws[b->model->material[i]].model == PERI_OTERKUS;
     double square;
-    if (b->desc.reference) return (peri_r)PERI_FN(stretched)(b, i, &square);
-    if (!b->alive) return linear ? PERI_FN(stretched_row)(b, i, oterkus, 0, 1) : PERI_FN(stretched_row)(b, i, oterkus, 0, 0);
-    return linear ? PERI_FN(stretched_row)(b, i, oterkus, 1, 1) : PERI_FN(stretched_row)(b, i, oterkus, 1, 0);
+    if (b->desc.reference) return (peri_r)PERI_FN(stretched)(b, i, row, &square);
+    if (!b->alive) return linear ? PERI_FN(stretched_row)(b, i, row, oterkus, 0, 1) : PERI_FN(stretched_row)(b, i, row, oterkus, 0, 0);
+    return linear ? PERI_FN(stretched_row)(b, i, row, oterkus, 1, 1) : PERI_FN(stretched_row)(b, i, row, oterkus, 1, 0);
 }
 
 /* Energy density of point i. */
-static double PERI_FN(point_energy)(const peri_body *b, int64_t i) {
+static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
     const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
     double density = 0.0, square = 0.0;
     if (law->model == PERI_BOND_BASED) {
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            const int64_t at = i * m->width + k, j = m->ids[at];
+        for (int64_t k = 0; k < row->count; ++k) {
+            const int64_t at = i * m->width + k, j = row->ids[k];
             peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
-            const peri_r bond = ((const peri_r *)m->bond)[at], weight = ((const peri_r *)m->weight)[at];
+            const peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
             if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
             PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
             (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
@@ -334,28 +336,27 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i) {
         }
         return density;
     }
-    double sum = PERI_FN(stretched)(b, i, &square), dilate = (double)constant[PERI__DILATE * m->stride];
+    double sum = PERI_FN(stretched)(b, i, row, &square), dilate = (double)constant[PERI__DILATE * m->stride];
     density = 0.5 * (double)constant[PERI__SPRING * m->stride] * square;
     if (law->model != PERI_CORRESPONDENCE) return density + 0.5 * (double)constant[PERI__PRESS * m->stride] * dilate * sum * sum;
 
     peri_r n[PERI_D][PERI_D], h[PERI_D][PERI_D], s[PERI_D][PERI_D];
     double trace = 0.0, norm = 0.0, apart = 0.0;
-    PERI_FN(shape)(b, i, n);
+    PERI_FN(shape)(b, i, row, n);
     PERI_FN(gradient)(b, i, n, h);
     PERI_FN(strain)(linear, h, s);
     for (int a = 0; a < PERI_D; ++a) {
         trace += (double)s[a][a];
         for (int d = 0; d < PERI_D; ++d) norm += peri__square((double)s[a][d]);
     }
-    for (int64_t k = 0; k < m->count[i]; ++k) { /* sum w |Y - F xi|^2 V */
-        const int64_t at = i * m->width + k;
+    for (int64_t k = 0; k < row->count; ++k) { /* sum w |Y - F xi|^2 V */
         peri_r xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, at, m->ids[at], xi, eta);
+        PERI_FN(bond_vectors)(b, i, i * m->width + k, row->ids[k], xi, eta);
         for (int a = 0; a < PERI_D; ++a) {
             peri_r z = eta[a];
             for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * xi[d];
-            apart += (double)((const peri_r *)m->weight)[at] * peri__square((double)z);
+            apart += (double)((const peri_r *)row->weight)[k] * peri__square((double)z);
         }
     }
     return density + 0.5 * law->lambda * trace * trace + law->mu * norm + 0.5 * (double)constant[PERI__VECTOR * m->stride] * apart;
@@ -366,21 +367,23 @@ static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, per
     const peri__step *step = (const peri__step *)context;
     peri_body *b = step->body;
     const peri__model *m = b->model;
+    peri__row row;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         const int32_t law = m->laws[m->material[i]].model;
         const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
         peri_r n[PERI_D][PERI_D];
+        peri__read_row(m, b->f32, i, &row);
         if (law == PERI_CORRESPONDENCE) {
-            PERI_FN(shape)(b, i, n);
+            PERI_FN(shape)(b, i, &row, n);
             PERI_FN(respond_tensor)(b, i, n);
         } else if (law != PERI_BOND_BASED)
             ((peri_r *)b->response)[m->margin + i] =
                 constant[PERI__PRESS * m->stride] == 0
                     ? 0 /* the product of the two constants alone can leave the range of float */
                     : constant[PERI__PRESS * m->stride]
-                          * (constant[PERI__DILATE * m->stride] * PERI_FN(stretched_sum)(b, i));
-        if (b->node) b->node[i] = 2.0 * PERI_FN(point_energy)(b, i) / peri__family_volume(m, i);
+                          * (constant[PERI__DILATE * m->stride] * PERI_FN(stretched_sum)(b, i, &row));
+        if (b->node) b->node[i] = 2.0 * PERI_FN(point_energy)(b, i, &row) / peri__family_volume(m, i);
     }
 }
 
@@ -417,8 +420,10 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
 static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     const peri__model *m = step->body->model;
+    peri__row row;
     for (int64_t i = begin; i < end; ++i) {
-        double density = PERI_FN(point_energy)(step->body, i);
+        peri__read_row(m, step->body->f32, i, &row);
+        double density = PERI_FN(point_energy)(step->body, i, &row);
         if (step->out) step->out[i] = density;
         sums->a += density * m->volume[i];
     }

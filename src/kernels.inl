@@ -5,7 +5,7 @@
 #define peri_r double
 #define peri_i int64_t
 #define PERI_SQRT sqrt
-#define PERI_NEAR 1e-12 /* relative; kernels on lanes leave bonds this near their critical stretch to the list            */
+#define PERI_NEAR 1e-12 /* relative; kernels on lanes leave bonds this near their critical stretch to the rows            */
 #define PERI_TINY 1e-290 /* keeps 0/0 out of a bond whose ends meet; far below any length                                */
 #if PERI_T_DIM == 2
 #define PERI_FN(name) peri__##name##_d2

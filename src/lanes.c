@@ -1,213 +1,364 @@
-/* lanes.c - Ibond compressed, for points that come from a lattice.
+/* lanes.c - families by columns, for points that come from a lattice.
 
-   Rows are taken in groups of PERI_LANES. On a lattice the bonds of a group along one lattice vector lead from each point to "own id +
-   offset" with one offset, so a column of them is that offset, one row of a small table of bond vectors, and a mask that says which of the
-   points have the bond. The kernel then runs over the points of a group with unit-stride loads. Columns ascend by offset, so each point
-   meets its bonds in the same order as in the plain list. The list stays: it is the reference, and it decides about breaking.
+   Rows of Ibond are taken in groups of PERI_LANES. On a lattice the bonds of a group along one lattice vector lead from each point to
+   "own id + offset" with one offset, so a column of them is that offset, one row of a small table of bond vectors, and a mask that says
+   which of the points have the bond. The kernel then runs over the points of a group with unit-stride loads. Columns ascend by offset, so
+   each point meets its bonds in the order of the list. Groups with the same columns share them: in a box there are few kinds of groups.
 
-   Not built (columns NULL) where columns would be mostly empty, where bond vectors are too many to tabulate (clouds), where bonds lead to
+   A body on columns keeps no list: peri__read_row expands a row where one is asked for, and rows decide about breaking. The list is not
+   even made on the way, except where the weights of bonds are corrected, or families are the caller's.
+
+   Not built (no columns) where columns would be mostly empty, where bond vectors are too many to tabulate (clouds), where bonds lead to
    centroids, where materials differ, and for state-based laws with unequal halves or energy criteria. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_VECTOR_LIMIT 1024
 #define PERI_VECTOR_SLOTS 4096    /* open addressing                                                                     */
-#define PERI_VECTOR_GRAIN 1.5e-11 /* bonds nearer than this, in spacings and largest weights, are one: far above rounding */
+#define PERI_VECTOR_GRAIN 1.5e-11 /* bonds nearer than this, in spacings and weights, are one: far above rounding        */
+#define PERI_VECTOR_KEY 5
+#define PERI_BATCH 2048           /* points whose families are searched at once, at most                                 */
 
-typedef struct peri__vector { /* a row of the table, and its key in grains                                                */
-    int64_t key[4];
-    double  xi[3], bond, weight;
+typedef struct peri__vector { /* a row of the table, its key in grains, and the first bond that made it                   */
+    int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j                                                              */
+    peri__bond bond;
+    double    length, weight; /* rounded as real                                                                         */
+    double    own, other;     /* V_i, V_j                                                                                */
 } peri__vector;
 
-typedef struct peri__vectors {
-    int32_t      count;
-    double       heaviest;                /* largest weight: the unit of its grain                                       */
-    int32_t      slot[PERI_VECTOR_SLOTS]; /* row + 1; 0: free                                                            */
-    peri__vector row[PERI_VECTOR_LIMIT];
-} peri__vectors;
+typedef struct peri__draft { /* what building needs and drops                                                             */
+    peri__cloud  *cloud;
+    int64_t       bonds, width;
+    double        rate;           /* see peri__rate_block                                                                */
+    double        weight, share;  /* units of the grain of weights: of the order of the largest weight and volume        */
+    int32_t       count;          /* of vectors                                                                          */
+    int32_t       slot[PERI_VECTOR_SLOTS]; /* row + 1; 0: free                                                           */
+    peri__vector  row[PERI_VECTOR_LIMIT];
+    peri__column  group[2][PERI_LANES * PERI_VECTOR_LIMIT]; /* columns of the group at hand, and room for the next state */
+    int64_t       group_count;
+    int           now;            /* which of the two                                                                    */
+    peri__column *column;         /* of all groups that differ                                                           */
+    int64_t       columns, capacity;
+    int32_t      *seen;           /* [seen_slots] open addressing: a group with such columns + 1; 0: free                */
+    int64_t       seen_slots;     /* a power of 2                                                                        */
+    int32_t      *batch;          /* [batch_rows][batch_room] families that were searched                                */
+    int64_t       batch_rows, batch_room, batch_first, batch_points;
+    peri__parts   parts;
+} peri__draft;
 
-/* The slot of a key: where it is, or where it would be. */
-static int32_t *peri__vector_slot(peri__vectors *v, const int64_t *key) {
-    uint64_t hash = 0;
-    for (int d = 0; d < 4; ++d) hash = (hash ^ (uint64_t)key[d]) * UINT64_C(0x9E3779B97F4A7C15);
-    for (size_t slot = (size_t)(hash >> 40) % PERI_VECTOR_SLOTS;; slot = (slot + 1) % PERI_VECTOR_SLOTS)
-        if (v->slot[slot] == 0 || memcmp(v->row[v->slot[slot] - 1].key, key, sizeof v->row[0].key) == 0) return &v->slot[slot];
+/* Both directions of a bond have opposite grains. */
+static int64_t peri__grains(double value, double unit) {
+    double grains = floor(fabs(value) / (unit * PERI_VECTOR_GRAIN) + 0.5);
+    return value < 0.0 ? -(int64_t)grains : (int64_t)grains;
 }
 
-/* Table row of bond k of point i, made where it is new; -1 where the table is full, or the bond is no lattice's. */
-static int32_t peri__vector_of(peri__vectors *v, const peri_body *b, const double *x, int64_t i, int64_t k) {
-    const peri__model *m = b->model;
-    int64_t at = i * m->width + k, j = m->ids[at], key[4] = { 0, 0, 0, 0 };
-    double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(m->weight, b->f32, at);
-    for (int32_t d = 0; d < m->dim; ++d) {
-        xi[d] = x[j * m->dim + d] - x[i * m->dim + d];
-        if (!(fabs(xi[d]) < 1e6)) return -1;
-        key[d] = (int64_t)floor(xi[d] / PERI_VECTOR_GRAIN + 0.5);
+/* The slot of a key: where it is, or where it would be. */
+static int32_t *peri__vector_slot(peri__draft *d, const int64_t *key) {
+    uint64_t hash = 0;
+    for (int k = 0; k < PERI_VECTOR_KEY; ++k) hash = (hash ^ (uint64_t)key[k]) * UINT64_C(0x9E3779B97F4A7C15);
+    for (size_t slot = (size_t)(hash >> 40) % PERI_VECTOR_SLOTS;; slot = (slot + 1) % PERI_VECTOR_SLOTS)
+        if (d->slot[slot] == 0 || memcmp(d->row[d->slot[slot] - 1].key, key, sizeof d->row[0].key) == 0) return &d->slot[slot];
+}
+
+static double peri__rounded(int f32, double value) { return f32 ? (double)(float)value : value; }
+
+/* Table row of bond (i, j), made where it is new; -1 where the table is full, or the bond is no lattice's. */
+static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri__bond *bond) {
+    const peri__model *m = d->cloud->model;
+    const int f32 = d->cloud->body->f32;
+    int64_t key[PERI_VECTOR_KEY] = { 0, 0, 0, 0, 0 };
+    double weight = peri__rounded(f32, bond->weight);
+    for (int32_t k = 0; k < m->dim; ++k) {
+        if (!(fabs(bond->xi[k]) < 1e6)) return -1;
+        key[k] = peri__grains(bond->xi[k], 1.0);
     }
-    key[3] = (int64_t)floor(weight / v->heaviest / PERI_VECTOR_GRAIN + 0.5);
-    int32_t *slot = peri__vector_slot(v, key);
+    if (!(fabs(weight) < 1e6 * d->weight)) return -1;
+    key[3] = peri__grains(weight, d->weight);
+    key[4] = peri__grains(bond->share, d->share);
+    int32_t *slot = peri__vector_slot(d, key);
     if (*slot == 0) {
-        if (v->count == PERI_VECTOR_LIMIT) return -1;
-        peri__vector *row = &v->row[v->count];
+        if (d->count == PERI_VECTOR_LIMIT) return -1;
+        peri__vector *row = &d->row[d->count];
         memcpy(row->key, key, sizeof key);
-        memcpy(row->xi, xi, sizeof xi);
-        row->bond = peri__get_real(m->bond, b->f32, at);
+        row->bond = *bond;
+        row->length = peri__rounded(f32, bond->length);
         row->weight = weight;
-        *slot = ++v->count;
+        row->own = m->volume[i];
+        row->other = m->volume[j];
+        *slot = ++d->count;
     }
     return *slot - 1;
 }
 
-/* Both directions of a bond must have exactly opposite vectors, or momentum drifts by rounding. */
-static void peri__oppose_vectors(peri__vectors *v) {
-    for (int32_t a = 0; a < v->count; ++a) {
-        int64_t key[4];
-        for (int d = 0; d < 4; ++d) key[d] = d < 3 ? -v->row[a].key[d] : v->row[a].key[d];
-        int32_t other = *peri__vector_slot(v, key) - 1;
-        if (other <= a) continue;
-        for (int d = 0; d < 3; ++d) v->row[other].xi[d] = -v->row[a].xi[d];
-        v->row[other].bond = v->row[a].bond;
-        v->row[other].weight = v->row[a].weight;
+/* Both directions of a bond must have exactly opposite vectors, or momentum drifts by rounding; and the same length whatever they weigh,
+   or only one of them breaks. */
+static void peri__oppose_vectors(peri__draft *d) {
+    for (int32_t a = 0; a < d->count; ++a) {
+        peri__vector *row = &d->row[a];
+        int64_t key[PERI_VECTOR_KEY];
+        int32_t first = 0;
+        for (int k = 0; k < PERI_VECTOR_KEY; ++k) key[k] = k < 3 ? -row->key[k] : row->key[k];
+        int32_t other = *peri__vector_slot(d, key) - 1;
+        if (other > a) {
+            for (int k = 0; k < 3; ++k) d->row[other].bond.xi[k] = -row->bond.xi[k];
+            d->row[other].weight = row->weight;
+            d->row[other].bond.share = row->bond.share;
+        }
+        while (memcmp(d->row[first].key, key, 3 * sizeof *key) != 0 && memcmp(d->row[first].key, row->key, 3 * sizeof *key) != 0) ++first;
+        row->length = d->row[first].length;
     }
 }
 
-static void peri__sort_entries(int64_t *entry, int64_t count) {
-    static const int64_t gaps[] = { 1750, 701, 301, 132, 57, 23, 10, 4, 1 };
-    for (int g = 0; g < 9; ++g)
-        for (int64_t a = gaps[g]; a < count; ++a) {
-            int64_t value = entry[a], at = a;
-            for (; at >= gaps[g] && entry[at - gaps[g]] > value; at -= gaps[g]) entry[at] = entry[at - gaps[g]];
-            entry[at] = value;
-        }
+/* Bond k of the list. */
+static void peri__listed_bond(const peri__cloud *c, int64_t i, int64_t k, peri__bond *bond) {
+    const peri__model *m = c->model;
+    const int64_t at = i * m->width + k, j = m->ids[at];
+    peri__bond_vector(c, i, j, bond->xi);
+    bond->length = peri__get_real(m->bond, c->body->f32, at);
+    bond->weight = peri__get_real(m->weight, c->body->f32, at);
+    bond->share = m->part ? (double)m->part[at] : m->volume[j];
 }
 
-/* The bonds of a group as (offset, vector), each once, ascending by offset; their number, or -1 where the table is full. */
-static int64_t peri__group_entries(peri__vectors *v, const peri_body *b, const double *x, int64_t group, int64_t *entry) {
-    const peri__model *m = b->model;
-    int64_t count = 0, kept = 0;
-    for (int64_t i = group * PERI_LANES; i < peri__min((group + 1) * PERI_LANES, m->points); ++i)
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int32_t vector = peri__vector_of(v, b, x, i, k);
-            if (vector < 0) return -1;
-            m->lanes.row[i * m->width + k] = (uint16_t)vector;
-            entry[count++] = (m->ids[i * m->width + k] - i) * 65536 + vector;
-        }
-    peri__sort_entries(entry, count);
-    for (int64_t k = 0; k < count; ++k)
-        if (k == 0 || entry[k] != entry[k - 1]) entry[kept++] = entry[k];
-    return kept;
+/* Is bond (i, j) bit by bit that which made the row? Where its weight is not known yet (whole cells and the ramp) that of the row then
+   is its own. */
+static int peri__is_vector(const peri__draft *d, const peri__vector *row, int64_t i, int64_t j, const peri__bond *bond, int weighed) {
+    const peri__model *m = d->cloud->model;
+    for (int32_t k = 0; k < m->dim; ++k)
+        if (bond->xi[k] != row->bond.xi[k]) return 0;
+    if (!weighed) return m->volume[i] == row->own && m->volume[j] == row->other;
+    return bond->weight == row->bond.weight && bond->share == row->bond.share && bond->length == row->bond.length;
 }
 
-/* Masks of a group from flags[points][words] of the list; all members where flags is NULL. */
-static void peri__group_masks(const peri__model *m, int64_t group, const uint32_t *flags, uint16_t *mask) {
-    const peri__lanes *lanes = &m->lanes;
-    for (int64_t c = lanes->begin[group]; c < lanes->begin[group + 1]; ++c) mask[c] = 0;
-    for (int64_t i = group * PERI_LANES; i < peri__min((group + 1) * PERI_LANES, m->points); ++i) {
-        int64_t c = lanes->begin[group];
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t offset = m->ids[i * m->width + k] - i, at;
-            while (lanes->offset[c] < offset) ++c;
-            /* columns of one offset differ by vector where lines of a shape end */
-            for (at = c; lanes->vector[at] != lanes->row[i * m->width + k];) ++at;
-            if (!flags || (flags[i * m->words + k / 32] >> (k % 32) & 1)) mask[at] = (uint16_t)(mask[at] | 1 << (i % PERI_LANES));
+/* Adds the family of i to the columns of its group. 0 where this is no lattice, or no family. */
+static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_t count) {
+    const peri__cloud *c = d->cloud;
+    const peri__model *m = c->model;
+    const int listed = m->ids != NULL, weighed = listed || c->body->desc.quadrature > PERI_VOLUME_RAMP, f32 = c->body->f32;
+    const uint16_t bit = (uint16_t)(1 << (i % PERI_LANES));
+    const peri__column *old = d->group[d->now], *old_end = old + d->group_count;
+    peri__column *made = d->group[!d->now], *next = made;
+    double total = 0.0, stiff = 0.0, rate = 0.0;
+    peri__bond own;
+    memset(&own, 0, sizeof own);
+    for (int64_t k = 0; k < count; ++k) {
+        const int64_t j = ids[k];
+        const int32_t offset = (int32_t)(j - i);
+        const peri__bond *bond = &own;
+        int32_t vector = -1;
+        if (listed) peri__listed_bond(c, i, k, &own);
+        else if (!weighed) peri__bond_vector(c, i, j, own.xi);
+        else if (!peri__weigh_bond(c, &d->parts, i, j, &own)) return 0;
+        while (old < old_end && old->offset < offset) *next++ = *old++;
+        for (const peri__column *same = old; same < old_end && same->offset == offset && vector < 0; ++same)
+            if (peri__is_vector(d, &d->row[same->vector], i, j, &own, weighed)) vector = same->vector;
+        if (vector >= 0) {
+            bond = &d->row[vector].bond;
+        } else {
+            if (!weighed && !peri__weigh_bond(c, &d->parts, i, j, &own)) return 0;
+            if (!peri__finite(peri__rounded(f32, own.weight))) return 0;
+            vector = peri__vector_of(d, i, j, &own);
+            if (vector < 0) return 0;
         }
+        total += fabs(bond->weight);
+        stiff += bond->weight * bond->length * bond->length;
+        rate += m->pairs[0].c * fabs(peri__rounded(f32, bond->weight)) / peri__rounded(f32, bond->length);
+        while (old < old_end && old->offset == offset && old->vector < vector) *next++ = *old++;
+        if (old < old_end && old->offset == offset && old->vector == vector) {
+            *next = *old++;
+        } else {
+            next->offset = offset;
+            next->vector = (uint16_t)vector;
+            next->member = 0;
+        }
+        next->member = (uint16_t)(next->member | bit);
+        ++next;
     }
+    while (old < old_end) *next++ = *old++;
+    d->now = !d->now;
+    d->group_count = next - made;
+    d->bonds += count;
+    if (count > d->width) d->width = count;
+    rate *= 2.0 / m->rho[0];
+    if (rate > d->rate) d->rate = rate;
+    return total > 0.0 && (m->laws[0].model == PERI_BOND_BASED || stiff > 0.0);
+}
+
+/* Keeps the columns of the group at hand, or finds an earlier group with the same. */
+static int32_t peri__draft_group(peri__draft *d, int64_t g) {
+    const peri__memory *memory = &d->cloud->body->memory;
+    peri__lanes *l = &d->cloud->model->lanes;
+    const peri__column *group = d->group[d->now];
+    const size_t bytes = (size_t)d->group_count * sizeof *group;
+    uint64_t hash = 0;
+    for (int64_t c = 0; c < d->group_count; ++c) {
+        hash = (hash ^ (uint32_t)group[c].offset) * UINT64_C(0x9E3779B97F4A7C15);
+        hash = (hash ^ (hash >> 32) ^ ((uint32_t)group[c].vector << 16 | group[c].member)) * UINT64_C(0x9E3779B97F4A7C15);
+    }
+    l->begin[g + 1] = l->begin[g] + d->group_count;
+    int64_t slot = (int64_t)(hash >> 20) & (d->seen_slots - 1);
+    for (; d->seen[slot] != 0; slot = (slot + 1) & (d->seen_slots - 1)) {
+        const int64_t other = d->seen[slot] - 1;
+        if (l->begin[other + 1] - l->begin[other] != d->group_count) continue;
+        if (memcmp(&d->column[l->first[other]], group, bytes) != 0) continue;
+        l->first[g] = l->first[other];
+        return PERI_OK;
+    }
+    if (!peri__grow(memory, &d->column, &d->capacity, d->columns + d->group_count, sizeof *d->column)) return PERI_ERROR_MEMORY;
+    memcpy(&d->column[d->columns], group, bytes);
+    l->first[g] = d->columns;
+    d->columns += d->group_count;
+    d->seen[slot] = (int32_t)(g + 1);
+    return PERI_OK;
+}
+
+static void peri__batch_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__draft *d = (const peri__draft *)context;
+    (void)sums;
+    for (int64_t k = begin; k < end; ++k) {
+        int32_t *row = &d->batch[k * d->batch_room];
+        const int64_t i = d->batch_first + k, count = peri__visit_family(d->cloud, i, row, d->batch_room);
+        d->cloud->model->count[i] = (int32_t)count;
+        if (count > 0 && count <= d->batch_room) peri__sort_row(row, count);
+    }
+}
+
+/* Searches the families of the next points, in room that all of them fit. PERI_ERROR_FAMILY where one is empty or too large. */
+static int32_t peri__next_batch(peri__draft *d) {
+    const peri_body *b = d->cloud->body;
+    const peri__model *m = d->cloud->model;
+    d->batch_first += d->batch_points;
+    /* a cloud shows within the first block */
+    d->batch_points = peri__min(d->batch_first == 0 ? PERI_BLOCK : d->batch_rows, m->points - d->batch_first);
+    for (;;) {
+        int32_t largest = 0;
+        if (d->batch) peri__for_points(b, d->batch_points, 256, peri__batch_block, d, NULL);
+        for (int64_t i = d->batch_first; d->batch && i < d->batch_first + d->batch_points; ++i) {
+            if (m->count[i] <= 0 || m->count[i] > PERI_VECTOR_LIMIT) return PERI_ERROR_FAMILY;
+            if (m->count[i] > largest) largest = m->count[i];
+        }
+        if (d->batch && largest <= d->batch_room) return PERI_OK;
+        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
+        while (d->batch_room < largest || d->batch_room < 32) d->batch_room += 32;
+        d->batch = (int32_t *)peri__new(&b->memory, d->batch_rows * d->batch_room, sizeof *d->batch);
+        if (!d->batch) return PERI_ERROR_MEMORY;
+    }
+}
+
+/* Units of the grains of weights, by the first family. */
+static void peri__choose_units(peri__draft *d, const int32_t *ids, int64_t count) {
+    const peri__model *m = d->cloud->model;
+    peri__bond bond;
+    for (int64_t i = 0; i < m->points; ++i)
+        if (m->volume[i] > d->share) d->share = m->volume[i];
+    for (int64_t k = 0; k < count; ++k) {
+        if (m->ids) peri__listed_bond(d->cloud, 0, k, &bond);
+        else if (!peri__weigh_bond(d->cloud, &d->parts, 0, ids[k], &bond)) continue;
+        const double weight = fabs(bond.weight) / m->volume[ids[k]] * d->share;
+        if (weight > d->weight) d->weight = weight;
+    }
+}
+
+/* Collects the columns of all groups: PERI_OK, PERI_ERROR_FAMILY where they serve nothing, or PERI_ERROR_MEMORY. */
+static int32_t peri__draft_lanes(peri__draft *d) {
+    const peri__model *m = d->cloud->model;
+    for (int64_t i = 0; i < m->points; ++i) {
+        if (!m->ids && i == d->batch_first + d->batch_points) {
+            int32_t status = peri__next_batch(d);
+            if (status < 0) return status;
+        }
+        const int32_t *ids = m->ids ? &m->ids[i * m->width] : &d->batch[(i - d->batch_first) * d->batch_room];
+        if (i == 0) peri__choose_units(d, ids, m->count[0]);
+        if (i % PERI_BLOCK == 0) peri__clear_parts(&d->parts);
+        if (i % PERI_LANES == 0) d->group_count = 0;
+        if (!peri__draft_row(d, i, ids, m->count[i])) return PERI_ERROR_FAMILY;
+        if ((i + 1) % PERI_LANES != 0 && i + 1 < m->points) continue;
+        if (peri__draft_group(d, i / PERI_LANES) < 0) return PERI_ERROR_MEMORY;
+    }
+    /* emptier columns than 2 in 5 are slower than the list */
+    return 5 * d->bonds >= 2 * PERI_LANES * m->lanes.begin[m->lanes.groups] ? PERI_OK : PERI_ERROR_FAMILY;
 }
 
 static void peri__free_lanes(peri__model *m) {
     peri__lanes *l = &m->lanes;
     peri__delete(&m->memory, l->begin, l->groups + 1, sizeof *l->begin);
-    peri__delete(&m->memory, l->offset, l->columns, sizeof *l->offset);
-    peri__delete(&m->memory, l->vector, l->columns, sizeof *l->vector);
-    peri__delete(&m->memory, l->member, l->columns, sizeof *l->member);
-    peri__delete(&m->memory, l->row, m->points * m->width, sizeof *l->row);
+    peri__delete(&m->memory, l->first, l->groups, sizeof *l->first);
+    peri__delete(&m->memory, l->column, l->kept, sizeof *l->column);
     peri__delete(&m->memory, l->table, (int64_t)l->vectors * PERI_TABLE_ROW, sizeof *l->table);
     memset(l, 0, sizeof *l);
 }
 
-typedef struct peri__lane_draft { /* what building needs and drops                                                        */
-    peri__vectors vectors;
-    int64_t      *entry;  /* [width*PERI_LANES] of one group                                                             */
-    int64_t      *column; /* (offset, vector) of all columns                                                             */
-    int64_t       columns, capacity;
-} peri__lane_draft;
-
-/* Collects the columns of all groups: PERI_OK, PERI_ERROR_FAMILY where the points are no lattice, or PERI_ERROR_MEMORY. */
-static int32_t peri__draft_lanes(const peri_body *b, peri__lane_draft *draft, const double *x) {
-    peri__lanes *l = &b->model->lanes;
-    for (int64_t k = 0; k < b->model->points * b->model->width; ++k) {
-        double weight = fabs(peri__get_real(b->model->weight, b->f32, k));
-        if (weight > draft->vectors.heaviest) draft->vectors.heaviest = weight;
-    }
-    for (int64_t g = 0; g < l->groups; ++g) {
-        int64_t count = peri__group_entries(&draft->vectors, b, x, g, draft->entry);
-        if (count < 0) return PERI_ERROR_FAMILY;
-        if (!peri__grow(&b->memory, &draft->column, &draft->capacity, draft->columns + count, sizeof *draft->column))
-            return PERI_ERROR_MEMORY;
-        memcpy(&draft->column[draft->columns], draft->entry, (size_t)count * sizeof *draft->entry);
-        l->begin[g] = draft->columns;
-        draft->columns += count;
-    }
-    l->begin[l->groups] = draft->columns;
-    /* emptier columns than 2 in 5 are slower than the list */
-    return 5 * b->model->bonds >= 2 * PERI_LANES * draft->columns ? PERI_OK : PERI_ERROR_FAMILY;
-}
-
-static int32_t peri__keep_lanes(peri_body *b, peri__lane_draft *draft) {
-    peri__model *m = b->model;
+static int32_t peri__keep_lanes(peri__draft *d) {
+    peri__model *m = d->cloud->model;
     peri__lanes *l = &m->lanes;
-    int64_t columns = draft->columns;
-    peri__oppose_vectors(&draft->vectors);
-    l->columns = columns;
-    l->vectors = draft->vectors.count;
-    l->offset = (int32_t *)peri__new(&m->memory, columns, sizeof *l->offset);
-    l->vector = (uint16_t *)peri__new(&m->memory, columns, sizeof *l->vector);
-    l->member = (uint16_t *)peri__new(&m->memory, columns, sizeof *l->member);
+    peri__oppose_vectors(d);
+    l->kept = d->columns;
+    l->vectors = d->count;
+    l->column = (peri__column *)peri__copy(&m->memory, d->column, l->kept, sizeof *l->column);
     l->table = (double *)peri__new(&m->memory, (int64_t)l->vectors * PERI_TABLE_ROW, sizeof *l->table);
-    if (!l->offset || !l->vector || !l->member || !l->table) return PERI_ERROR_MEMORY;
+    if (!l->column || !l->table) return PERI_ERROR_MEMORY;
     for (int32_t k = 0; k < l->vectors; ++k) {
-        const peri__vector *row = &draft->vectors.row[k];
-        memcpy(&l->table[k * PERI_TABLE_ROW], row->xi, sizeof row->xi);
-        l->table[k * PERI_TABLE_ROW + 3] = row->bond;
-        l->table[k * PERI_TABLE_ROW + 4] = row->weight;
+        const peri__vector *row = &d->row[k];
+        double *entry = &l->table[k * PERI_TABLE_ROW];
+        memcpy(entry, row->bond.xi, sizeof row->bond.xi);
+        entry[3] = row->length;
+        entry[4] = row->weight;
+        entry[5] = row->bond.share;
     }
-    for (int64_t c = 0; c < columns; ++c) {
-        int64_t vector = draft->column[c] & 65535;
-        l->vector[c] = (uint16_t)vector;
-        l->offset[c] = (int32_t)((draft->column[c] - vector) / 65536);
-        if (l->offset[c] > l->reach) l->reach = l->offset[c];
-    }
-    for (int64_t g = 0; g < l->groups; ++g) peri__group_masks(m, g, NULL, l->member);
+    for (int64_t c = 0; c < l->kept; ++c)
+        if (l->column[c].offset > l->reach) l->reach = l->column[c].offset;
+    l->columns = l->begin[l->groups];
+    l->parts = d->cloud->body->desc.quadrature != PERI_FULL_VOLUME;
+    m->width = (int32_t)d->width;
+    m->bonds = d->bonds;
+    if (!m->states) m->rate = d->rate;
     return PERI_OK;
 }
 
-/* Builds the columns where they pay. x: [points*dim]. Only memory can fail. */
-static int32_t peri__build_lanes(peri_body *b, const double *x) {
-    peri__model *m = b->model;
+/* Makes the columns where they pay, from the list where there is one and else from the points. 1: made; 0: not; else an error. */
+static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
+    peri__model *m = c->model;
     peri__lanes *l = &m->lanes;
-    int64_t room = (int64_t)m->width * PERI_LANES;
     int32_t status = PERI_ERROR_MEMORY;
-    if (m->centroid || m->materials > 1 || m->back != m->weight || m->works || m->nodes || b->desc.reference) return PERI_OK;
-    peri__lane_draft *draft = (peri__lane_draft *)peri__new(&b->memory, 1, sizeof *draft);
-    if (draft) draft->entry = (int64_t *)peri__new(&b->memory, room, sizeof *draft->entry);
+    if (b->desc.quadrature == PERI_PARTIAL_CENTROID || m->materials > 1 || m->works || m->nodes || b->desc.reference) return 0;
+    if (m->ids ? m->back != m->weight : b->setup.ibond || peri__corrects(b, m)) return 0;
+    peri__draft *d = (peri__draft *)peri__new(&b->memory, 1, sizeof *d);
     l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;
     l->begin = (int64_t *)peri__new(&m->memory, l->groups + 1, sizeof *l->begin);
-    l->row = (uint16_t *)peri__new(&m->memory, m->points * m->width, sizeof *l->row);
-    if (draft && draft->entry && l->begin && l->row) {
-        status = peri__draft_lanes(b, draft, x);
-        if (status == PERI_OK) status = peri__keep_lanes(b, draft);
+    l->first = (int64_t *)peri__new(&m->memory, l->groups, sizeof *l->first);
+    if (d) {
+        d->cloud = c;
+        d->batch_rows = peri__min(PERI_BATCH, m->points);
+        d->seen_slots = 16;
+        while (d->seen_slots < 2 * l->groups) d->seen_slots *= 2;
+        d->seen = (int32_t *)peri__new(&b->memory, d->seen_slots, sizeof *d->seen);
+        if (d->seen && l->begin && l->first) status = peri__draft_lanes(d);
+        if (status == PERI_OK) status = peri__keep_lanes(d);
+        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
+        peri__delete(&b->memory, d->seen, d->seen_slots, sizeof *d->seen);
+        peri__delete(&b->memory, d->column, d->capacity, sizeof *d->column);
+        peri__delete(&b->memory, d, 1, sizeof *d);
     }
-    if (draft) {
-        peri__delete(&b->memory, draft->entry, room, sizeof *draft->entry);
-        peri__delete(&b->memory, draft->column, draft->capacity, sizeof *draft->column);
-    }
-    peri__delete(&b->memory, draft, 1, sizeof *draft);
     if (status < 0) peri__free_lanes(m);
-    return status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "lanes", -1, 0.0) : PERI_OK;
+    return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "lanes", -1, 0.0) : 0;
 }
 
-/* Masks of what is alive, brought up to date with the flags of the list. */
+/* Masks of a group of what flags[points][words] leave of it: bit k of a row for its k-th bond. */
+static void peri__group_masks(const peri__model *m, int64_t g, const uint32_t *flags, uint16_t *masks) {
+    const peri__lanes *lanes = &m->lanes;
+    const peri__column *column = &lanes->column[lanes->first[g]];
+    int64_t next[PERI_LANES] = { 0 }; /* bond of each point that comes next */
+    for (int64_t c = lanes->begin[g]; c < lanes->begin[g + 1]; ++c, ++column) {
+        uint32_t mask = 0;
+        for (int lane = 0; lane < PERI_LANES; ++lane) {
+            if (!(column->member >> lane & 1)) continue;
+            const uint32_t word = flags[(g * PERI_LANES + lane) * m->words + next[lane] / 32];
+            mask |= (word >> (next[lane]++ % 32) & 1) << lane;
+        }
+        masks[c] = (uint16_t)mask;
+    }
+}
+
+/* Masks of what is alive, brought up to date with the flags. */
 static void peri__update_lanes(peri_body *b) {
     if (!b->lanes_stale || !b->lanes_alive) return;
     for (int64_t g = 0; g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, b->alive, b->lanes_alive);

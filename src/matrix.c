@@ -103,20 +103,20 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     if (law != PERI_BOND_BASED) {
         press = peri__get_constant(b, o, PERI__PRESS);
         dilate = peri__get_constant(b, o, PERI__DILATE);
-        if (press != 0.0) p = press * peri__dilatation(b, o);
+        if (press != 0.0) p = press * peri__dilatation(b, o, &row);
     }
     if (law == PERI_CORRESPONDENCE) {
         vector = peri__get_constant(b, o, PERI__VECTOR);
         *tensors = peri__get_constant(b, o, PERI__INVERSE) != 0.0;
-        peri__deform(b, o, &f);
+        peri__deform(b, o, &row, &f);
     }
     for (int64_t k = 0; k < row.count; ++k) {
         if (!peri__is_alive(b, o, k)) continue;
         if (row.ids[k] > o && e->self < 0) e->self = e->count++;
         double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->f32, k), bond = peri__get_real(row.bond, b->f32, k);
         double gauge = law == PERI_OTERKUS ? 1.0 : bond, *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
-        double stretched = bond * peri__stretch(b, o, k), q;
-        peri__pull_of(b, o, k, xi, eta);
+        double stretched = bond * peri__stretch(b, o, &row, k), q;
+        peri__pull_of(b, o, row.ids[k], xi, eta);
         for (int d = 0; d < dim; ++d) length += peri__square(n[d] = xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
         for (int d = 0; d < dim; ++d) n[d] /= length;
@@ -153,7 +153,9 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
 
 /* K of the shape tensor of point o: what the stabilisation takes back. */
 static void peri__shape_of(const peri_body *b, int64_t o, double shape[3][3]) {
-    peri__moments sum = peri__family_moments(b, o, 1);
+    peri__row row;
+    peri__read_row(b->model, b->f32, o, &row);
+    peri__moments sum = peri__family_moments(b, o, &row, 1);
     for (int a = 0; a < b->dim; ++a)
         for (int c = 0; c < b->dim; ++c) shape[a][c] = sum.shape[peri__packed(b->dim, a, c)];
 }

@@ -57,8 +57,8 @@ static int32_t peri__sort_cells(peri__cloud *c, const peri__memory *memory) {
     return PERI_OK;
 }
 
-/* Visits the family of i: writes ids (unless row is NULL) and returns their number, or -1 - j where point j is at the same place. */
-static int64_t peri__visit_family(const peri__cloud *c, int64_t i, int32_t *row) {
+/* Visits the family of i: writes up to `room` ids and returns their number, or -1 - j where point j is at the same place. */
+static int64_t peri__visit_family(const peri__cloud *c, int64_t i, int32_t *row, int64_t room) {
     const peri__model *m = c->model;
     int32_t dim = m->dim;
     int64_t at[3] = { 0, 0, 0 }, count = 0, lo[3] = { 0, 0, 0 }, hi[3] = { 0, 0, 0 };
@@ -79,7 +79,7 @@ static int64_t peri__visit_family(const peri__cloud *c, int64_t i, int32_t *row)
                 if (!(square <= c->reach2)) continue;
                 if (square < 1e-24) return -1 - j;
                 if (!peri__is_family(c, i, j)) continue;
-                if (row) row[count] = (int32_t)j;
+                if (count < room) row[count] = (int32_t)j;
                 count++;
             }
         }
@@ -101,7 +101,7 @@ static void peri__sort_row(int32_t *row, int64_t count) {
 static void peri__count_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     for (int64_t i = begin; i < end; ++i) {
-        int64_t count = peri__visit_family(c, i, NULL);
+        int64_t count = peri__visit_family(c, i, NULL, 0);
         if (count < 0) {
             if (sums->bad < 0) {
                 sums->bad = i > -1 - count ? i : -1 - count;
@@ -120,14 +120,14 @@ static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__su
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         int32_t *row = &m->ids[i * m->width];
-        int64_t count = peri__visit_family(c, i, row);
+        int64_t count = peri__visit_family(c, i, row, m->width);
         peri__sort_row(row, count);
         for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
     }
 }
 
-/* Place of j in row i, or -1. */
-static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
+/* Place of j in row i of the list, or -1. */
+static int64_t peri__find_listed(const peri__model *m, int64_t i, int64_t j) {
     const int32_t *row = &m->ids[i * m->width];
     int64_t lo = 0, hi = m->count[i];
     while (lo < hi) {
@@ -176,7 +176,7 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
         for (int64_t k = 0; k < m->count[i]; ++k) {
             int64_t j = m->ids[i * m->width + k];
             double square = 0.0;
-            if (peri__find_bond(m, j, i) < 0)
+            if (peri__find_listed(m, j, i) < 0)
                 return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, j), (double)j);
             for (int32_t d = 0; d < m->dim; ++d) square += peri__square(c->x[j * m->dim + d] - c->x[i * m->dim + d]);
             if (square < 1e-24) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", i > j ? i : j, (double)(i > j ? j : i));
@@ -184,13 +184,18 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
     return PERI_OK;
 }
 
-static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sums) {
-    peri__model *m = c->model;
+/* Makes the cloud ready for peri__visit_family. */
+static int32_t peri__sort_cloud(peri_body *b, peri__cloud *c) {
+    const peri__model *m = c->model;
     double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
     if (b->desc.quadrature == PERI_VOLUME_RAMP) reach += 0.5 * c->largest;
     if (b->desc.quadrature >= PERI_PARTIAL_VOLUME) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
     c->reach2 = reach * reach;
-    if (peri__sort_cells(c, &m->memory) < 0) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    return peri__sort_cells(c, &m->memory) < 0 ? peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0) : PERI_OK;
+}
+
+static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sums) {
+    peri__model *m = c->model;
     peri__for_points(b, m->points, 256, peri__count_block, c, sums);
     peri__sums total = peri__total(sums, m->points);
     m->bonds = total.n;

@@ -10,6 +10,7 @@ typedef struct peri__cloud {
     double          *x;        /* [points*dim]                                                                           */
     double           reach2;   /* square of the largest distance of a bond                                               */
     double           largest;  /* edge of the largest cell                                                               */
+    double           edge;     /* of the cell of mean size: half of it over the horizon                                  */
     int64_t          cells[3]; /* the search grid                                                                        */
     double           lo[3], scale[3];
     int32_t         *start;    /* [cells+1] first entry of a cell in `order`                                             */

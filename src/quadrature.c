@@ -26,56 +26,66 @@ static double peri__family_volume(const peri__model *m, int64_t i) {
     return sum;
 }
 
+typedef struct peri__bond { /* what is known of a bond (i, j), inner units                                                */
+    double xi[3], length; /* x_j - x_i; its length, or that of the bond to the centroid                                  */
+    double weight, share; /* w beta V_j, beta V_j                                                                        */
+    double centre[3];     /* with the centroid rule: bond to the centroid                                                */
+} peri__bond;
+
+static void peri__bond_vector(const peri__cloud *c, int64_t i, int64_t j, double *xi) {
+    for (int32_t d = 0; d < c->model->dim; ++d) xi[d] = c->x[j * c->model->dim + d] - c->x[i * c->model->dim + d];
+}
+
+/* 0 where the influence function is not finite. */
+static int peri__weigh_bond(const peri__cloud *c, peri__parts *parts, int64_t i, int64_t j, peri__bond *bond) {
+    const peri__model *m = c->model;
+    const peri_body_desc *desc = &c->body->desc;
+    double square = 0.0, beta, w, length;
+    peri__bond_vector(c, i, j, bond->xi);
+    for (int32_t d = 0; d < m->dim; ++d) square += bond->xi[d] * bond->xi[d];
+    bond->length = length = sqrt(square);
+    beta = peri__beta(c, parts, i, j);
+    if (desc->quadrature == PERI_PARTIAL_CENTROID) {
+        (void)peri__part(c, i, j, bond->centre);
+        bond->length = sqrt(peri__dot(bond->centre, bond->centre, m->dim));
+    }
+    if (desc->quadrature == PERI_PARTIAL_MOMENT)
+        w = 0.5 * (peri__moment_weight(c, i, j, length, c->edge) + peri__moment_weight(c, j, i, length, c->edge));
+    else
+        w = beta * peri__influence(desc, bond->length / m->horizon, c->edge);
+    bond->weight = w * m->volume[j];
+    bond->share = beta * m->volume[j];
+    return peri__finite(w);
+}
+
 /* Weights of a block of rows. sums->bad with sums->n = status. */
 static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     const peri_body *b = c->body;
     peri__model *m = c->model;
-    int32_t dim = m->dim, quadrature = b->desc.quadrature;
-    double edge = 0.5 * m->spacing / m->horizon;
+    peri__bond bond;
     peri__parts parts;
     peri__clear_parts(&parts);
     for (int64_t i = begin; i < end; ++i) {
         double total = 0.0, stiff = 0.0;
         for (int64_t k = 0; k < m->width; ++k) {
             int64_t at = i * m->width + k, j = m->ids[at];
-            double xi[3], centre[3], square = 0.0, bond, length, w, beta;
             if (k >= m->count[i]) { /* padding: no weight, and a length that is safe to divide by */
                 peri__put_real(m->bond, b->f32, at, 1.0);
                 continue;
             }
-            for (int32_t d = 0; d < dim; ++d) {
-                xi[d] = c->x[j * dim + d] - c->x[i * dim + d];
-                square += xi[d] * xi[d];
-            }
-            bond = length = sqrt(square);
-            beta = peri__beta(c, &parts, i, j);
-            if (quadrature == PERI_PARTIAL_CENTROID) {
-                (void)peri__part(c, i, j, centre);
-                length = sqrt(peri__dot(centre, centre, dim));
-            }
-            if (quadrature == PERI_PARTIAL_MOMENT)
-                w = 0.5 * (peri__moment_weight(c, i, j, bond, edge) + peri__moment_weight(c, j, i, bond, edge));
-            else
-                w = beta * peri__influence(&b->desc, length / m->horizon, edge);
-            if (!peri__finite(w)) {
+            int finite = peri__weigh_bond(c, &parts, i, j, &bond);
+            peri__put_real(m->weight, b->f32, at, bond.weight);
+            if (!finite || !peri__finite(peri__get_real(m->weight, b->f32, at))) { /* the second: beyond the range of float */
                 sums->bad = i;
                 sums->n = PERI_ERROR_INFLUENCE;
                 return;
             }
-            w *= m->volume[j];
-            if (m->part) m->part[at] = (float)(beta * m->volume[j]);
-            if (m->centroid)
-                for (int32_t d = 0; d < dim; ++d) peri__put_real(m->centroid, b->f32, at * dim + d, centre[d]);
-            peri__put_real(m->weight, b->f32, at, w);
-            if (!peri__finite(peri__get_real(m->weight, b->f32, at))) { /* beyond the range of float */
-                sums->bad = i;
-                sums->n = PERI_ERROR_INFLUENCE;
-                return;
-            }
-            peri__put_real(m->bond, b->f32, at, length);
-            total += fabs(w);
-            stiff += w * length * length;
+            peri__put_real(m->bond, b->f32, at, bond.length);
+            if (m->part) m->part[at] = (float)bond.share;
+            for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->f32, at * m->dim + d, bond.centre[d]);
+            total += fabs(bond.weight);
+            stiff += bond.weight * bond.length * bond.length;
         }
         if (!(total > 0.0) || (m->laws[m->material[i]].model != PERI_BOND_BASED && !(stiff > 0.0))) {
             sums->bad = i;
@@ -85,7 +95,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     }
 }
 
-/* sums->a: largest 2 sum(c w beta V/|xi|)/rho of a bond-based point. */
+/* sums->a: largest 2 sum(c w beta V/|xi|)/rho of a bond-based point, by the list. */
 static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__cloud *c = (const peri__cloud *)context;
     const peri__model *m = c->model;

@@ -20,22 +20,20 @@ static int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
     return !b->alive || (b->alive[i * b->model->words + k / 32] >> (k % 32) & 1);
 }
 
-static void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t k, double *xi) {
-    int64_t j = m->ids[i * m->width + k];
+static void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t j, double *xi) {
     for (int32_t d = 0; d < m->dim; ++d)
         xi[d] = peri__get_real(m->x, f32, d * m->stride + j) - peri__get_real(m->x, f32, d * m->stride + i);
 }
 
-static peri__moments peri__family_moments(const peri_body *b, int64_t i, int live) {
+static peri__moments peri__family_moments(const peri_body *b, int64_t i, const peri__row *row, int live) {
     const peri__model *m = b->model;
     peri__moments sum;
     memset(&sum, 0, sizeof sum);
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        int64_t at = i * m->width + k;
-        double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(m->weight, b->f32, at), bond = peri__get_real(m->bond, b->f32, at);
+    for (int64_t k = 0; k < row->count; ++k) {
+        double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k);
         double planes = m->dim * (m->dim - 1) / 2;
         if (live && !peri__is_alive(b, i, k)) continue;
-        peri__bond_of(m, b->f32, i, k, xi);
+        peri__bond_of(m, b->f32, i, row->ids[k], xi);
         sum.m += weight * bond * bond;
         sum.length += weight * bond;
         sum.plain += weight;
@@ -56,13 +54,13 @@ static double peri__get_constant(const peri_body *b, int64_t i, int plane) {
     return peri__get_real(b->constant, b->f32, b->model->margin + plane * b->model->stride + i);
 }
 
-static void peri__set_constants(peri_body *b, int64_t i) {
+static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     double dilate = 0.0, press = 0.0, spring = 0.0, vector = 0.0, inverse[6] = { 0.0 };
     int32_t dim = m->dim;
     if (law->model == PERI_BOND_BASED) return;
-    peri__moments sum = peri__family_moments(b, i, 1);
+    peri__moments sum = peri__family_moments(b, i, row, 1);
     if (sum.m > 0.0 && law->model == PERI_LPS) {
         dilate = dim / sum.m;
         press = law->a / dim * dilate;
@@ -80,7 +78,7 @@ static void peri__set_constants(peri_body *b, int64_t i) {
             vector = law->stabilization * law->b / sum.m;
         } else {
             memset(inverse, 0, sizeof inverse);
-            spring = law->b / peri__family_moments(b, i, 0).m;
+            spring = law->b / peri__family_moments(b, i, row, 0).m;
         }
     }
     peri__put_constant(b, i, PERI__DILATE, dilate);
@@ -114,32 +112,31 @@ static double peri__gauge(const peri_body *b, int64_t i, const double *xi, doubl
     return sqrt(square);
 }
 
-/* |sum_j G_ij| of the point itself: what a motion of i alone does to its theta or H. */
-static double peri__lean(const peri_body *b, int64_t i, double *row) {
+/* |sum_j G_ij| of the point itself: what a motion of i alone does to its theta or H. *sum: the row sum of |G|. */
+static double peri__lean(const peri_body *b, int64_t i, const peri__row *row, double *sum) {
     const peri__model *m = b->model;
     double lean[3] = { 0.0, 0.0, 0.0 };
     int tensor = m->laws[m->material[i]].model == PERI_CORRESPONDENCE;
-    *row = 0.0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        double xi[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(m->weight, b->f32, i * m->width + k);
-        double bond = peri__get_real(m->bond, b->f32, i * m->width + k);
+    *sum = 0.0;
+    for (int64_t k = 0; k < row->count; ++k) {
+        double xi[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k);
         if (!peri__is_alive(b, i, k)) continue;
-        peri__bond_of(m, b->f32, i, k, xi);
+        peri__bond_of(m, b->f32, i, row->ids[k], xi);
         double gauge = peri__gauge(b, i, xi, bond);
-        *row += fabs(w) * gauge;
+        *sum += fabs(w) * gauge;
         for (int d = 0; d < m->dim; ++d) /* of a tensor K^-1 sum w xi is the sum: its size is taken below */
             lean[d] += w * (tensor ? xi[d] : gauge * xi[d] / bond);
     }
     return tensor ? peri__gauge(b, i, lean, 1.0) : sqrt(peri__dot(lean, lean, m->dim));
 }
 
-static void peri__set_wide(peri_body *b, int64_t i) {
+static void peri__set_wide(peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
-    double row, dilate = peri__get_constant(b, i, PERI__DILATE), stiff = 0.0;
+    double sum, dilate = peri__get_constant(b, i, PERI__DILATE), stiff = 0.0;
     if (law->model == PERI_CORRESPONDENCE) stiff = law->lambda > 0.0 ? m->dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
     else if (dilate > 0.0) stiff = peri__get_constant(b, i, PERI__PRESS) / dilate;
-    b->wide[i] = stiff > 0.0 ? stiff * (peri__lean(b, i, &row) + row) : 0.0;
+    b->wide[i] = stiff > 0.0 ? stiff * (peri__lean(b, i, row, &sum) + sum) : 0.0;
 }
 
 /* Stiffness of the half of point i in bond (i, j), per weight. */
@@ -152,28 +149,32 @@ static double peri__half_stiffness(const peri_body *b, int64_t i, int64_t j, dou
 
 static void peri__set_rate(peri_body *b, int64_t i) {
     const peri__model *m = b->model;
-    double sum = 0.0, row;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        int64_t at = i * m->width + k, j = m->ids[at];
-        double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(m->bond, b->f32, at);
-        double own = fabs(peri__get_real(m->weight, b->f32, at)), back = fabs(peri__get_real(m->back, b->f32, at));
+    double sum = 0.0, whole;
+    peri__row row;
+    peri__read_row(m, b->f32, i, &row);
+    for (int64_t k = 0; k < row.count; ++k) {
+        int64_t j = row.ids[k];
+        double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(row.bond, b->f32, k);
+        double own = fabs(peri__get_real(row.weight, b->f32, k)), back = fabs(peri__get_real(row.back, b->f32, k));
         if (!peri__is_alive(b, i, k)) continue;
-        peri__bond_of(m, b->f32, i, k, xi);
+        peri__bond_of(m, b->f32, i, j, xi);
         if (m->tensors && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
             b->central[i / PERI_LANES] = 1;
         sum += 2.0 * (own * peri__half_stiffness(b, i, j, bond) + back * peri__half_stiffness(b, j, i, bond));
         if (b->wide[j] > 0.0) sum += back * peri__gauge(b, j, xi, bond) * b->wide[j];
     }
-    if (b->wide[i] > 0.0) sum += peri__lean(b, i, &row) * b->wide[i];
+    if (b->wide[i] > 0.0) sum += peri__lean(b, i, &row, &whole) * b->wide[i];
     b->rate[i] = sum / m->rho[m->material[i]];
 }
 
 static void peri__constants_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri_body *b = ((const peri__step *)context)->body;
+    peri__row row;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
-        peri__set_constants(b, i);
-        peri__set_wide(b, i);
+        peri__read_row(b->model, b->f32, i, &row);
+        peri__set_constants(b, i, &row);
+        peri__set_wide(b, i, &row);
     }
 }
 

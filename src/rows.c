@@ -3,12 +3,59 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* Row i: ids ascending, and what each bond weighs. Valid while `row` is. */
+/* Row i from the columns of its group, into the room of `row`. Columns ascend by offset, so ids ascend. */
+static void peri__expand_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
+    const peri__lanes *lanes = &m->lanes;
+    const int64_t g = i / PERI_LANES, columns = lanes->begin[g + 1] - lanes->begin[g];
+    const peri__column *column = &lanes->column[lanes->first[g]];
+    int64_t n = 0;
+    for (int64_t c = 0; c < columns; ++c) {
+        const double *entry = &lanes->table[column[c].vector * PERI_TABLE_ROW];
+        if (!(column[c].member >> (i % PERI_LANES) & 1)) continue;
+        row->ids_room[n] = (int32_t)(i + column[c].offset);
+        row->part_room[n] = (float)entry[5];
+        if (f32) {
+            row->bond_room.f32[n] = (float)entry[3];
+            row->weight_room.f32[n] = (float)entry[4];
+        } else {
+            row->bond_room.f64[n] = entry[3];
+            row->weight_room.f64[n] = entry[4];
+        }
+        ++n;
+    }
+    row->count = n;
+    row->ids = row->ids_room;
+    row->weight = row->back = &row->weight_room;
+    row->bond = &row->bond_room;
+    row->part = lanes->parts ? row->part_room : NULL;
+}
+
+/* Row i: ids ascending, and what each bond weighs. Valid while `row` and the model are. */
 static void peri__read_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
     const size_t at = (size_t)(i * m->width) * (f32 ? sizeof(float) : sizeof(double));
+    if (m->lanes.columns) {
+        peri__expand_row(m, f32, i, row);
+        return;
+    }
     row->count = m->count[i];
     row->ids = &m->ids[i * m->width];
     row->weight = (const char *)m->weight + at;
     row->bond = (const char *)m->bond + at;
     row->back = (const char *)m->back + at;
+    row->part = m->part ? &m->part[i * m->width] : NULL;
+}
+
+/* Place of j in row i, or -1. */
+static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
+    const peri__lanes *lanes = &m->lanes;
+    const int64_t g = i / PERI_LANES;
+    int64_t place = 0;
+    if (!lanes->columns) return peri__find_listed(m, i, j);
+    const peri__column *column = &lanes->column[lanes->first[g]], *end = column + (lanes->begin[g + 1] - lanes->begin[g]);
+    for (; column < end && column->offset <= j - i; ++column) {
+        const int has = column->member >> (i % PERI_LANES) & 1;
+        if (has && column->offset == j - i) return place;
+        place += has;
+    }
+    return -1;
 }

@@ -55,11 +55,11 @@ static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, 
     const peri__model *m = b->model;
     const int64_t j = row->ids[k];
     const peri__pair *pair = b->cls ? &b->pairs[b->cls[i] * b->classes + b->cls[j]] : b->pairs;
-    double stretch = peri__stretch(b, i, k), excess = 0.0;
+    double stretch = peri__stretch(b, i, row, k), excess = 0.0;
     if (!(stretch > 0.0)) return 0.0;
     if (pair->s0 < PERI_NEVER) excess = stretch / pair->s0;
     if (b->work && pair->bond_energy < PERI_NEVER) {
-        double share = m->part ? (double)m->part[i * m->width + k] : m->volume[j];
+        double share = row->part ? (double)row->part[k] : m->volume[j];
         excess = fmax(excess, peri__get_real(b->work, b->f32, i * m->width + k) / (pair->bond_energy * share));
     }
     if (b->node && pair->node_energy < PERI_NEVER) excess = fmax(excess, 0.5 * (b->node[i] + b->node[j]) / pair->node_energy);

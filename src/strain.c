@@ -16,37 +16,36 @@ typedef struct peri__deformation {
     int    whole; /* the live bonds span the space                                                                       */
 } peri__deformation;
 
-/* Bond k of point i: xi and eta. */
-static void peri__pull_of(const peri_body *b, int64_t i, int64_t k, double *xi, double *eta) {
+/* Bond (i, j): xi and eta. */
+static void peri__pull_of(const peri_body *b, int64_t i, int64_t j, double *xi, double *eta) {
     const peri__model *m = b->model;
-    int64_t j = m->ids[i * m->width + k];
-    peri__bond_of(m, b->f32, i, k, xi);
+    peri__bond_of(m, b->f32, i, j, xi);
     for (int32_t d = 0; d < m->dim; ++d)
         eta[d] = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);
 }
 
 /* theta of the law; a bond-based point counts as LPS with w/|xi| in place of w. */
-static double peri__dilatation(const peri_body *b, int64_t i) {
+static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     int32_t law = m->laws[m->material[i]].model;
     double sum = 0.0, whole = 0.0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        double w = peri__get_real(m->weight, b->f32, i * m->width + k), bond = peri__get_real(m->bond, b->f32, i * m->width + k);
+    for (int64_t k = 0; k < row->count; ++k) {
+        double w = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k);
         if (!peri__is_alive(b, i, k)) continue;
         if (law == PERI_LPS) w *= bond;
-        sum += w * bond * peri__stretch(b, i, k);
+        sum += w * bond * peri__stretch(b, i, row, k);
         whole += w * bond;
     }
     return whole > 0.0 ? m->dim * sum / whole : 0.0;
 }
 
-static void peri__deform(const peri_body *b, int64_t i, peri__deformation *f) {
+static void peri__deform(const peri_body *b, int64_t i, const peri__row *row, peri__deformation *f) {
     const peri__model *m = b->model;
     double n[3][3] = { { 0.0 } }, shape[6] = { 0.0 }, inverse[6];
-    for (int64_t k = 0; k < m->count[i]; ++k) {
-        double xi[3], eta[3], w = peri__get_real(m->weight, b->f32, i * m->width + k);
+    for (int64_t k = 0; k < row->count; ++k) {
+        double xi[3], eta[3], w = peri__get_real(row->weight, b->f32, k);
         if (!peri__is_alive(b, i, k)) continue;
-        peri__pull_of(b, i, k, xi, eta);
+        peri__pull_of(b, i, row->ids[k], xi, eta);
         for (int a = 0; a < m->dim; ++a)
             for (int c = 0; c < m->dim; ++c) {
                 n[a][c] += w * eta[a] * xi[c];
@@ -124,7 +123,7 @@ static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *
 }
 
 /* sum T xi V over the live bonds, T the half that point i gives. */
-static void peri__collapse(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
+static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, const peri__deformation *f, double p[3][3]) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     int linear = b->desc.geometry == PERI_LINEAR;
@@ -132,7 +131,7 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__deformatio
     int tensor = 0;
     if (law->model != PERI_BOND_BASED) {
         press = peri__get_constant(b, i, PERI__PRESS);
-        if (press != 0.0) press *= peri__dilatation(b, i);
+        if (press != 0.0) press *= peri__dilatation(b, i, row);
         spring = peri__get_constant(b, i, PERI__SPRING);
     }
     if (law->model == PERI_CORRESPONDENCE) {
@@ -143,18 +142,19 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__deformatio
     }
     for (int a = 0; a < 3; ++a)
         for (int c = 0; c < 3; ++c) p[a][c] = 0.0;
-    for (int64_t k = 0; k < m->count[i]; ++k) {
+    for (int64_t k = 0; k < row->count; ++k) {
         int64_t at = i * m->width + k;
         double xi[3], eta[3], t[3] = { 0.0, 0.0, 0.0 }, length = 0.0, central;
-        double w = peri__get_real(m->weight, b->f32, at), bond = peri__get_real(m->bond, b->f32, at), e;
+        double w = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k), e;
         if (!peri__is_alive(b, i, k)) continue;
-        peri__pull_of(b, i, k, xi, eta);
+        peri__pull_of(b, i, row->ids[k], xi, eta);
         if (m->centroid)
             for (int d = 0; d < m->dim; ++d) xi[d] = peri__get_real(m->centroid, b->f32, at * m->dim + d);
-        e = bond * peri__stretch(b, i, k);
+        e = bond * peri__stretch(b, i, row, k);
         for (int d = 0; d < m->dim; ++d) length += peri__square(xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
-        if (law->model == PERI_BOND_BASED) central = 0.5 * m->pairs[m->material[i] * m->materials + m->material[m->ids[at]]].c * e / bond;
+        if (law->model == PERI_BOND_BASED)
+            central = 0.5 * m->pairs[m->material[i] * m->materials + m->material[row->ids[k]]].c * e / bond;
         else central = press * (law->model == PERI_OTERKUS ? 1.0 : bond) + spring * e;
         for (int d = 0; d < m->dim; ++d) {
             t[d] = central * (xi[d] + (linear ? 0.0 : eta[d])) / length + vector * eta[d];
@@ -172,18 +172,20 @@ static void peri__gradients_block(void *context, int64_t begin, int64_t end, per
     const peri_body *b = g->body;
     const peri__model *m = b->model;
     int32_t parts = peri__components(g->field, m->dim);
+    peri__row row;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         peri__deformation f;
         double p[3][3], *out = &g->out[i * parts];
+        peri__read_row(m, b->f32, i, &row);
         if (g->field == PERI_DILATATION && m->laws[m->material[i]].model != PERI_CORRESPONDENCE) {
-            *out = peri__dilatation(b, i);
+            *out = peri__dilatation(b, i, &row);
             continue;
         }
-        peri__deform(b, i, &f);
+        peri__deform(b, i, &row, &f);
         if (g->field == PERI_STRESS || g->field == PERI_FORCE_STRESS) {
             if (g->field == PERI_STRESS) peri__piola(b, i, &f, p);
-            else peri__collapse(b, i, &f, p);
+            else peri__collapse(b, i, &row, &f, p);
             peri__cauchy(b, p, &f, out);
             for (int k = 0; k < parts; ++k) out[k] *= m->stress;
             continue;

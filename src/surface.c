@@ -189,7 +189,7 @@ PERI_API int32_t peri_apply_bond_pressure(peri_body *b, int32_t set, double pres
         for (int64_t n = 0; n < row.count; ++n) {
             double xi[3] = { 0.0 }, bond = peri__get_real(row.bond, b->f32, n);
             if (peri__is_alive(b, i, n) || !inside[row.ids[n]] || bond > 1.2 * m->spacing) continue;
-            peri__bond_of(m, b->f32, i, n, xi);
+            peri__bond_of(m, b->f32, i, row.ids[n], xi);
             for (int d = 0; d < m->dim; ++d) spread[(k * m->dim + d) * m->dim] -= xi[d] / (bond * bond); /* face V/|xi|, over V */
             pairs++;
         }

@@ -85,17 +85,23 @@ typedef struct peri__interface {
 
 typedef struct peri__ops peri__ops;
 
-#define PERI_TABLE_ROW 5 /* xi (3), |xi|, weight                                                                          */
+#define PERI_TABLE_ROW 6       /* xi (3), |xi|, weight, beta V_j                                                          */
+#define PERI_VECTOR_LIMIT 1024 /* rows of the table; so no family on columns is larger                                    */
+
+typedef struct peri__column { /* the bonds of a group of PERI_LANES points along one vector                               */
+    int32_t  offset;         /* neighbour's id less own                                                                  */
+    uint16_t vector, member; /* row of the table; which points of the group have the bond                                */
+} peri__column;
 
 typedef struct peri__lanes { /* see lanes.c                                                                               */
-    int64_t   groups, columns, reach; /* reach: largest offset                                                           */
-    int64_t  *begin;                  /* [groups+1] first column of a group                                              */
-    int32_t  *offset;                 /* [columns] neighbour's id less own, ascending in a group                         */
-    uint16_t *vector;                 /* [columns] row of the table                                                      */
-    uint16_t *member;                 /* [columns] which points of the group have the bond                               */
-    double   *table;                  /* [vectors][PERI_TABLE_ROW]                                                       */
-    uint16_t *row;                    /* [points][width] row of the table, by the list                                   */
-    int32_t   vectors, isa;           /* isa: which instruction set the kernels use                                      */
+    int64_t       groups, reach;  /* reach: largest offset                                                               */
+    int64_t       columns, kept;  /* of all groups, each counted for itself; and those in `column`                       */
+    int64_t      *begin;          /* [groups+1] columns of the groups before                                             */
+    int64_t      *first;          /* [groups] place in `column` of the first of a group; equal groups share their columns */
+    peri__column *column;         /* [kept] ascending by offset, then vector, in a group                                 */
+    double       *table;          /* [vectors][PERI_TABLE_ROW], rounded as real                                          */
+    int32_t       vectors, isa;   /* isa: which instruction set the kernels use                                          */
+    int32_t       parts;          /* 1: cells may be partial                                                             */
 } peri__lanes;
 
 /* What peri_build makes. */
@@ -117,14 +123,14 @@ typedef struct peri__model {
     void      *x;        /* real [dim][stride] reference positions                                                       */
     double    *volume;   /* [points]                                                                                     */
     uint8_t   *material; /* [points]                                                                                     */
-    int32_t   *ids;      /* [points][width] Ibond: ascending ids, padded with the row's own                              */
     int32_t   *count;    /* [points] family sizes                                                                        */
+    peri__lanes lanes;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
+    int32_t   *ids;      /* [points][width] Ibond: ascending ids, padded with the row's own                              */
     void      *weight;   /* real [points][width] w(|xi|) beta V_j, 0 in the padding                                      */
     void      *bond;     /* real [points][width] |xi|, 1 in the padding                                                  */
     void      *back;     /* real [points][width] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal */
     void      *centroid; /* real [points][width][dim] bond to the centroid of the part; NULL but for that rule           */
     float     *part;     /* [points][width] beta V_j; NULL for whole cells                                               */
-    peri__lanes lanes;   /* the same rows compressed, where they come from a lattice                                     */
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
@@ -140,10 +146,19 @@ typedef struct peri__model {
     peri__pair *pairs;    /* [materials][materials]                                                                      */
 } peri__model;
 
-typedef struct peri__row { /* the family of a point, see peri__read_row                                                   */
+typedef union peri__reals {
+    double f64[PERI_VECTOR_LIMIT];
+    float  f32[PERI_VECTOR_LIMIT];
+} peri__reals;
+
+typedef struct peri__row { /* the family of a point, see peri__read_row; 25 kB, and not to be copied                      */
     int64_t        count;
     const int32_t *ids;                   /* ascending                                                                    */
     const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
+    const float   *part;                  /* NULL for whole cells                                                         */
+    int32_t        ids_room[PERI_VECTOR_LIMIT];
+    float          part_room[PERI_VECTOR_LIMIT];
+    peri__reals    weight_room, bond_room;
 } peri__row;
 
 typedef struct peri__set {
