@@ -25,7 +25,8 @@
      3  peri_add_box(body, glass, lo, hi, spacing);            points, as many calls as the shape needs
      4  peri_build(body);                                      families, weights, constants: the points are now fixed
      5  peri_cut_segment, peri_select_box, peri_apply_traction, peri_prescribe_velocity, ...
-     6  peri_run r;  peri_run_init(&r);  r.duration = 43e-6;   peri_advance(body, &r);      as often as you like
+     6  peri_run r;  peri_run_init(&r);  r.duration = 43e-6;   peri_advance(body, &r);      in time, as often as you like; or
+        peri_statics s;  peri_statics_init(&s);   peri_solve(body, &s, NULL);               the equilibrium, by load steps
      7  peri_read(body, PERI_DAMAGE, buffer, capacity);  peri_save_vtu(body, "out.vtu");
      8  peri_reset(body) for the next case of a sweep, peri_clone for an independent copy, peri_body_destroy at the end.
 
@@ -168,7 +169,8 @@ typedef int32_t (*peri_point_fn)(void *user, int64_t index, const double *x);
 typedef int32_t (*peri_pair_fn)(void *user, int32_t i, int32_t j, const double *xi, const double *xj);
 
 /* Values of a load or support at `time` on the points[count] of its set. value[count*dim] holds the constant value at entry;
-   overwrite what varies. Called once per step, for the time at its end; loads and velocities also at the start of a run. */
+   overwrite what varies. Called once per step, for the time at its end; loads and velocities also at the start of a run. In peri_solve
+   time is the load factor, and calls may repeat. */
 typedef void (*peri_load_fn)(void *user, double time, int64_t count, const int32_t *points, double *value);
 
 /* Where a moving obstacle is: write its reference place (peri_add_ball_obstacle: the centre) at `time` to place[dim]. */
@@ -417,7 +419,7 @@ PERI_API int32_t peri_family_width(const peri_body *body);   /* M: the size of t
 PERI_API int64_t peri_bond_count(const peri_body *body);     /* entries (i,j) of all families: twice the number of bonds */
 PERI_API int64_t peri_cut_count(const peri_body *body);      /* bonds (pairs) cut before the first step                  */
 PERI_API int64_t peri_broken_count(const peri_body *body);   /* bonds (pairs) broken by a criterion, or cut, since then  */
-PERI_API int64_t peri_step_count(const peri_body *body);     /* steps since build or reset                               */
+PERI_API int64_t peri_step_count(const peri_body *body);     /* steps and load steps since build or reset                */
 PERI_API double  peri_time(const peri_body *body);           /* [T] since build or reset                                 */
 
 /* Largest stable time step [T], 2/sqrt(lambda) with lambda bounded by the stiffness of the actual bonds of each point
@@ -513,7 +515,7 @@ PERI_API int32_t peri_apply_traction(peri_body *body, int32_t set, double area, 
 PERI_API int32_t peri_remove_load(peri_body *body, int32_t load);
 
 /* Force [M L T^-2] to force[dim]: of a support on the body (its prescribed components), mean of the last step, so that reactions
-   times steps add up to the momentum given; of a load, its present total. */
+   times steps add up to the momentum given, or of the equilibrium; of a load, its present total. */
 PERI_API int32_t peri_read_reaction(peri_body *body, int32_t load, double *force);
 
 /* Rigid obstacles, by penalty: a point that is `depth` inside is pushed out along the normal with a force density of
@@ -751,7 +753,7 @@ PERI_API int32_t peri_view_field(peri_body *body, int32_t field, peri_view *view
 typedef struct peri_energy {
     double kinetic;  /* of all points                                                                                    */
     double elastic;  /* stored in intact bonds                                                                           */
-    double external; /* work done by loads and supports                                                                  */
+    double external; /* work done by loads and supports; in peri_solve by obstacles, too                                 */
     double obstacle; /* work done by obstacles                                                                           */
     double damping;  /* dissipated by mass damping                                                                       */
     double fracture; /* elastic energy that went as bonds broke. State-based: the families that are left are calibrated anew,

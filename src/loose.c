@@ -2,7 +2,8 @@
    little.
 
    The rigid motions of a part are t + omega x (y - centre)/radius of its present positions y (linear geometry: of x): 3 in 2D, 6 in 3D.
-   Those in which no held component moves are free; they are the null space of the Gram matrix of the held components. */
+   Those in which no held component moves, and no point along the normal of an obstacle that it touches, are free: the null space of the
+   Gram matrix of these motions. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -49,6 +50,21 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
     return count;
 }
 
+/* Adds the rigid motions along the normals of the obstacles that point i is in to the Gram matrix of what is held. */
+static void peri__hold_contact(const peri_body *b, const peri__fragment *part, int64_t i, double *held) {
+    const int dim = b->dim, motions = dim * (dim + 1) / 2;
+    for (int64_t k = 0; k < b->obstacle_count; ++k) {
+        double push[3] = { 0.0, 0.0, 0.0 }, along[PERI_RIGID] = { 0.0 }, size;
+        peri__push(b, &b->obstacles[k], i, push);
+        size = sqrt(peri__dot(push, push, dim));
+        if (!(size > 0.0)) continue;
+        for (int r = 0; r < motions; ++r)
+            for (int d = 0; d < dim; ++d) along[r] += push[d] / size * peri__rigid(b, part, i, r, d);
+        for (int r = 0; r < motions; ++r)
+            for (int c = 0; c < motions; ++c) held[r * motions + c] += along[r] * along[c];
+    }
+}
+
 /* Centre, radius and free modes of the part in s->queue. */
 static void peri__free_modes(const peri__solver *s, int64_t count, peri__fragment *part) {
     const peri_body *b = s->body;
@@ -65,6 +81,7 @@ static void peri__free_modes(const peri__solver *s, int64_t count, peri__fragmen
         if (square > part->radius * part->radius) part->radius = sqrt(square);
     }
     if (!(part->radius > 0.0)) part->radius = 1.0;
+    for (int64_t n = 0; n < count && b->obstacle_count > 0; ++n) peri__hold_contact(b, part, s->queue[n], held);
     for (int64_t n = 0; n < count; ++n)
         for (int d = 0; d < dim; ++d) {
             double motion[PERI_RIGID];
@@ -210,15 +227,21 @@ static int32_t peri__invert_blocks(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     const int packed = PERI_PACKED(m->dim);
+    double last[6] = { 0.0 }, inverse[6] = { 0.0 };
+    int spanned = 0;
     for (int64_t i = 0; i < m->points; ++i) {
-        double block[6], inverse[6];
+        double block[6] = { 0.0 };
         int frees = 0;
         for (int k = 0; k < packed; ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
         for (int d = 0; d < m->dim; ++d) {
             frees += !(s->held[i] >> d & 1);
             for (int c = 0; c < m->dim && (s->held[i] >> d & 1); ++c) block[peri__packed(m->dim, d, c)] = 0.0;
         }
-        if (frees > 0 && peri__invert(m->dim, block, b->f32 ? 1e-5 : 1e-9, inverse) < frees) {
+        if (memcmp(block, last, sizeof block) != 0) { /* in a lattice most are equal */
+            memcpy(last, block, sizeof last);
+            spanned = peri__invert(m->dim, block, b->f32 ? 1e-5 : 1e-9, inverse);
+        }
+        if (spanned < frees) {
             if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, 0.0);
             s->held[i] |= PERI_HANGING;
         }
