@@ -611,13 +611,13 @@ typedef struct peri_statics {
     int32_t           fracture;       /* 1 (default) = bonds break by their criterion, 0 = none breaks                   */
     double            criticality;    /* [0, 1]: of the bonds over their limit those break that are over criticality times the largest
                                          excess (value/limit): 0 (default) = all, 1 = only the most critical (and its equals)   */
-    double            tolerance;      /* > 0. Default 1e-8 (single precision: 1e-4)                                      */
+    double            tolerance;      /* [0, 1): 0 (default) = 1e-8, in single precision 1e-4                            */
     double            energy_tolerance; /* > 0: the linear solver also stops when its residual in the norm of the preconditioner has
                                          fallen by this factor, an estimate of the error in energy. Default 0: never     */
     int64_t           iterations;     /* most iterations of the linear solver (of PERI_RELAXATION: steps) for one equilibrium.
                                          Default 20000                                                                   */
     int64_t           newton;         /* most Newton iterations for one equilibrium. Default 60                          */
-    int64_t           breaks;         /* most rounds of breaking at one load factor. Default 100000                      */
+    int64_t           breaks;         /* most rounds of breaking at one load factor. Default 100000; PERI_ERROR_CONVERGENCE beyond */
     double            load_from;      /* load factor before the first step. Default 0                                    */
     double            load_to;        /* load factor at the end. Default 1                                               */
     int64_t           steps;          /* load steps >= 1. A step without equilibrium is halved, then grows again. Default 1 */

@@ -62,20 +62,20 @@ static double peri__precondition(peri__solver *s) {
     return peri__krylov_pass(s, s->body->ops->krylov_dot).a;
 }
 
-/* |r| of what is free; updates the scale by the reactions in r. */
+/* |r| of what is free; the scale by the loads, the reactions in r and, where there is neither, the first r. */
 static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
     double held = sqrt(sums.b);
     s->scale = loads > held ? loads : held;
+    if (s->scale < s->start) s->scale = s->start;
     return sqrt(sums.a);
 }
 
 /* One more iteration, told to the callback. */
 static int32_t peri__count_iteration(peri__solver *s, double residual) {
-    peri_body *b = s->body;
+    const peri_statics *st = s->settings;
     s->report.iterations++;
     s->left--;
-    if (s->settings->on_iteration && s->settings->on_iteration(s->settings->user, s->report.iterations, residual)) s->stopped = 1;
-    return s->stopped ? PERI_STOPPED : b->running ? PERI_OK : PERI_ERROR_ORDER;
+    return st->on_iteration && st->on_iteration(st->user, s->report.iterations, residual) ? PERI_STOPPED : PERI_OK;
 }
 
 /* Adds to d the solution of K d = r, r becoming what is left, until |r| <= reach*scale. `loads`: that part of the scale which stays.
@@ -83,14 +83,13 @@ static int32_t peri__count_iteration(peri__solver *s, double residual) {
    d then is what was found before it, or that way down. */
 static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int at_rest) {
     peri_body *b = s->body;
-    const double least = s->start, none = b->f32 ? 1e-7 : 1e-14;
+    const double none = b->f32 ? 1e-7 : 1e-14;
     double rz = 0.0;
     s->slope = 0.0;
     memset(s->k.p, 0, peri__vector_bytes(b));
     double residual = peri__measure(s, peri__krylov_pass(s, b->ops->krylov_norm), loads);
     for (int64_t k = 0;; ++k) {
         double before = rz, square, bent;
-        if (s->scale < least) s->scale = least;
         if (residual <= reach * s->scale || residual == 0.0) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         rz = peri__precondition(s);

@@ -73,6 +73,12 @@ static double peri__static_residual(peri__solver *s, double loads) {
     return peri__measure(s, peri__krylov_pass(s, s->body->ops->krylov_norm), loads);
 }
 
+/* The first residual of an equilibrium is the scale where loads and reactions are smaller. */
+static void peri__note_start(peri__solver *s, double residual) {
+    s->start = residual > s->scale ? residual : 0.0;
+    if (s->scale < s->start) s->scale = s->start;
+}
+
 /* ---- supports ----------------------------------------------------------------------------------------------------- */
 
 static void peri__mark_supports(peri__solver *s) {
@@ -210,12 +216,12 @@ static int32_t peri__newton(peri__solver *s) {
     const int linear = peri__is_linear(b);
     double last = HUGE_VAL, loads = peri__static_forces(s);
     s->negative = s->energy_done = 0;
+    s->start = 0.0;
     for (int64_t k = 0;; ++k) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;
         double residual = peri__static_residual(s, loads);
-        if (k == 0) s->start = residual > s->scale ? residual : 0.0;
-        if (s->scale < s->start) s->scale = s->start;
+        if (k == 0) peri__note_start(s, residual);
         int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
         s->report.residual = s->scale > 0.0 ? residual / s->scale : 0.0;
         if (!gap && (residual <= peri__solve_tolerance(s) * s->scale || s->energy_done))

@@ -347,8 +347,8 @@ static void peri__solve_coarsest(const peri__multilevel *l) {
     }
 }
 
-static void peri__cycle(const peri__multilevel *l, const peri_body *b, int32_t level) {
-    peri__grid *g = (peri__grid *)&l->grid[level];
+static void peri__cycle(peri__multilevel *l, const peri_body *b, int32_t level) {
+    peri__grid *g = &l->grid[level];
     peri__grid_task t;
     if (level == l->grids - 1) {
         peri__solve_coarsest(l);

@@ -38,8 +38,9 @@ static int32_t peri__relax(peri__solver *s) {
     double unit = 1.1 / peri__square(peri__stable(b));
     double loads = peri__static_forces(s), residual; /* the scale of the start is that before supports jump */
     if (loads < 0.0) return (int32_t)loads;
+    s->start = 0.0;
     residual = peri__static_residual(s, loads);
-    s->start = residual > s->scale ? residual : 0.0;
+    peri__note_start(s, residual);
     if (peri__gap(s)) peri__move(s, 1.0);
     memset(s->k.p, 0, peri__vector_bytes(b));
     for (int64_t k = 0;; ++k) {
@@ -49,7 +50,6 @@ static int32_t peri__relax(peri__solver *s) {
         loads = peri__static_forces(s);
         if (loads < 0.0) return (int32_t)loads;
         residual = peri__static_residual(s, loads);
-        if (s->scale < s->start) s->scale = s->start;
         s->report.residual = s->scale > 0.0 ? residual / s->scale : 0.0;
         if (residual <= peri__solve_tolerance(s) * s->scale) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);

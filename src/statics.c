@@ -169,7 +169,8 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
             peri__bond_forces(b, &step);
         }
         peri__count_work(s, s->from);
-        if (round == s->settings->breaks || peri__break_static(s) == 0) break;
+        if (peri__break_static(s) == 0) break;
+        if (round >= s->settings->breaks) status = peri__fail(b, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
     }
     return status;
 }

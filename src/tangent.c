@@ -153,7 +153,7 @@ static double peri__fill_diagonal(peri_body *b, void *blocks) {
 /* ---- the product in the user's units ------------------------------------------------------------------------------ */
 
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
-    PERI_NEED_IDLE(b);
+    PERI_NEED_CHANGEABLE(b);
     const peri__model *m = b->model;
     peri__tangent t;
     double unit = m->energy / peri__square(m->length);

@@ -265,13 +265,12 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     double              stiff;    /* mean of the diagonal of the stiffness                                               */
     double              scale;    /* the larger of |loads| and |reactions|                                               */
     double              slope;    /* r.d of the last linear solve, r as it was before                                     */
-    double              start;    /* |r| at the start of this equilibrium where there was neither                         */
+    double              start;    /* |r| at the start of this equilibrium where it was larger than these                  */
     double              energy0;  /* r.z at the start of this equilibrium                                                */
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
     int64_t             bytes;    /* taken now                                                                           */
     int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
-    int32_t             stopped;  /* 1: a callback asked to stop                                                         */
 } peri__solver;
 
 typedef struct peri__ledger { /* inner units of energy                                                                    */
