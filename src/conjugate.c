@@ -49,6 +49,9 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
     peri__apply_contact(&s->t);
     s->report.passes++;
     peri__sums sums = peri__krylov_pass(s, s->body->ops->krylov_force);
+    /* the tangent of a stressed body answers to turns; p has no part in what is taken out, so p.K p stands */
+    peri__balance(s, s->k.q, 1);
+    peri__drop_hanging(s, s->k.q);
     *square = sums.b;
     return sums.a;
 }
@@ -59,6 +62,7 @@ static double peri__precondition(peri__solver *s) {
     (void)peri__krylov_pass(s, s->body->ops->krylov_blocks);
     if (s->levels) peri__correct_coarsely(s);
     peri__balance(s, s->k.z, 0);
+    peri__drop_hanging(s, s->k.z);
     return peri__krylov_pass(s, s->body->ops->krylov_dot).a;
 }
 

@@ -103,9 +103,9 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
         s->levels = NULL;
     }
     if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
-    if (s->settings->method == PERI_RELAXATION) return PERI_OK;
+    s->hanging = 0;
     int32_t status = peri__find_loose(s);
-    if (status < 0) return status;
+    if (status < 0 || s->settings->method == PERI_RELAXATION) return status;
     s->stiff = peri__fill_diagonal(b, s->blocks);
     if (!s->levels && s->settings->preconditioner == PERI_MULTILEVEL && s->settings->method == PERI_NEWTON) {
         s->levels = peri__build_levels(s);

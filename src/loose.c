@@ -228,6 +228,7 @@ static int32_t peri__invert_blocks(peri__solver *s) {
     const peri__model *m = b->model;
     const int packed = PERI_PACKED(m->dim);
     double last[6] = { 0.0 }, inverse[6] = { 0.0 };
+    s->hanging = 0;
     int spanned = 0;
     for (int64_t i = 0; i < m->points; ++i) {
         double block[6] = { 0.0 };
@@ -244,17 +245,18 @@ static int32_t peri__invert_blocks(peri__solver *s) {
         if (spanned < frees) {
             if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, 0.0);
             s->held[i] |= PERI_HANGING;
+            s->hanging++;
         }
         for (int k = 0; k < packed; ++k) peri__put_real(s->blocks, b->f32, k * m->stride + i, frees > 0 ? inverse[k] : 0.0);
     }
     return PERI_OK;
 }
 
-/* Takes out of a vector of forces what the bonds of hanging points do not resist. */
+/* Takes out of a vector of forces, or of displacements, what the bonds of hanging points do not resist. */
 static void peri__drop_hanging(peri__solver *s, void *vector) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
-    for (int64_t i = 0; i < m->points; ++i) {
+    for (int64_t i = 0; s->hanging > 0 && i < m->points; ++i) {
         double block[6], inverse[6], force[3], range[3], kept[3];
         if (!(s->held[i] & PERI_HANGING)) continue;
         for (int k = 0; k < PERI_PACKED(m->dim); ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);

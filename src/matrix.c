@@ -375,6 +375,7 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
         }
     } else
         status = peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
+    peri__balance(s, s->k.d, 0);
     peri__delete(&b->memory, work, 8 * n, sizeof *work);
     peri_matrix_destroy(a);
     return status;

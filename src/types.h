@@ -262,6 +262,7 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     peri__fragment     *parts;
     int64_t             part_count, part_capacity;
     peri__multilevel   *levels;
+    int64_t             hanging;  /* points that are                                                                      */
     double              stiff;    /* mean of the diagonal of the stiffness                                               */
     double              scale;    /* the larger of |loads| and |reactions|                                               */
     double              slope;    /* r.d of the last linear solve, r as it was before                                     */
