@@ -62,9 +62,10 @@ test: $(TESTS:%=build/tests/%) $(EXAMPLES:%=build/examples/%) build/libperi.so
 validate: $(TESTS:%=build/tests/%)
 	@sh tests/run.sh --long
 
-bench: build/bench/bench
+bench: build/bench/bench build/bench/statics
 	@mkdir -p out
 	build/bench/bench
+	build/bench/statics
 
 dist: build/dist/peri.h
 build/dist/peri.h: $(SOURCES) tools/dist.awk
