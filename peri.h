@@ -651,10 +651,10 @@ typedef struct peri_statics_report {
 PERI_API void peri_statics_init(peri_statics *statics);
 
 /* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule over load
-   steps. Steps that fail leave the body at the last equilibrium (unless none was reached: then with what was found so far).
-   PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or softening: the tangent has a negative direction and no equilibrium was found
-   further down), PERI_ERROR_CONVERGENCE (value: residual reached), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked
-   for it, when forces are read; peri_advance takes them at 1, and at its time, again. */
+   steps. A step that fails leaves the body at the last equilibrium; where steps are not halved (linear problems, halvings = 0, and after
+   bonds have broken in it), as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or softening: the tangent has a negative
+   direction, and no equilibrium was found further down), PERI_ERROR_CONVERGENCE (value: residual reached), PERI_ERROR_CALLBACK. Loads stay
+   at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
 
 /* Tractions that pass the patch test: value[dim] [M L^-1 T^-2] on a face of `area` and outward `normal`, given to all points that feel the

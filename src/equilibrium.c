@@ -73,6 +73,10 @@ static double peri__static_residual(peri__solver *s, double loads) {
     return peri__measure(s, peri__krylov_pass(s, s->body->ops->krylov_norm), loads);
 }
 
+static void peri__tell_residual(peri__solver *s, double residual) {
+    s->report.residual = !(residual < HUGE_VAL) ? HUGE_VAL : s->scale > 0.0 ? residual / s->scale : 0.0;
+}
+
 /* The first residual of an equilibrium is the scale where loads and reactions are smaller. */
 static void peri__note_start(peri__solver *s, double residual) {
     s->start = residual > s->scale ? residual : 0.0;
@@ -223,7 +227,7 @@ static int32_t peri__newton(peri__solver *s) {
         double residual = peri__static_residual(s, loads);
         if (k == 0) peri__note_start(s, residual);
         int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
-        s->report.residual = s->scale > 0.0 ? residual / s->scale : 0.0;
+        peri__tell_residual(s, residual);
         if (!gap && (residual <= peri__solve_tolerance(s) * s->scale || s->energy_done))
             return s->negative ? peri__fail(b, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
         if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))

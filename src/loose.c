@@ -222,11 +222,13 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
     }
 }
 
-/* Inverts the diagonal blocks on what is free. Points whose bonds do not resist in all free directions are refused, or marked. */
+/* Inverts the diagonal blocks on what is free. Points whose bonds do not resist in all free directions are refused, or marked; those
+   whose bonds push where they should resist are refused. */
 static int32_t peri__invert_blocks(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     const int packed = PERI_PACKED(m->dim);
+    const double cut = b->f32 ? 1e-5 : 1e-9;
     double last[6] = { 0.0 }, inverse[6] = { 0.0 };
     s->hanging = 0;
     int spanned = 0;
@@ -240,7 +242,8 @@ static int32_t peri__invert_blocks(peri__solver *s) {
         }
         if (memcmp(block, last, sizeof block) != 0) { /* in a lattice most are equal */
             memcpy(last, block, sizeof last);
-            spanned = peri__invert(m->dim, block, b->f32 ? 1e-5 : 1e-9, inverse);
+            spanned = peri__invert(m->dim, block, cut, inverse);
+            if (peri__is_negative(m->dim, block, cut)) return peri__fail(b, PERI_ERROR_INDEFINITE, "point", i, 0.0);
         }
         if (spanned < frees) {
             if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, 0.0);

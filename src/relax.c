@@ -50,7 +50,7 @@ static int32_t peri__relax(peri__solver *s) {
         loads = peri__static_forces(s);
         if (loads < 0.0) return (int32_t)loads;
         residual = peri__static_residual(s, loads);
-        s->report.residual = s->scale > 0.0 ? residual / s->scale : 0.0;
+        peri__tell_residual(s, residual);
         if (residual <= peri__solve_tolerance(s) * s->scale) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
         peri__relax_step(s, unit, k);

@@ -35,13 +35,29 @@ static void peri__jacobi(int n, double *a, double *v) {
             }
 }
 
+/* The same of a packed one; full: [dim][dim]. */
+static void peri__eigen(int32_t dim, const double *packed, double *full, double *v) {
+    for (int p = 0; p < dim; ++p)
+        for (int q = 0; q < dim; ++q) full[p * dim + q] = packed[peri__packed(dim, p, q)];
+    peri__jacobi(dim, full, v);
+}
+
+/* Is there an eigenvalue below 0, by more than `cut` times the largest in size? */
+static int peri__is_negative(int32_t dim, const double *packed, double cut) {
+    double full[9], v[9], least = 0.0, size = 0.0;
+    peri__eigen(dim, packed, full, v);
+    for (int p = 0; p < dim; ++p) {
+        if (full[p * (dim + 1)] < least) least = full[p * (dim + 1)];
+        if (fabs(full[p * (dim + 1)]) > size) size = fabs(full[p * (dim + 1)]);
+    }
+    return least < -cut * size;
+}
+
 /* Inverse on the eigenvectors whose eigenvalue exceeds `cut` times the largest, nothing on the others. Returns how many there are. */
 static int peri__invert(int32_t dim, const double *packed, double cut, double *inverse) {
     double full[9], v[9], largest = 0.0;
     int kept = 0;
-    for (int p = 0; p < dim; ++p)
-        for (int q = 0; q < dim; ++q) full[p * dim + q] = packed[peri__packed(dim, p, q)];
-    peri__jacobi(dim, full, v);
+    peri__eigen(dim, packed, full, v);
     for (int p = 0; p < dim; ++p)
         if (full[p * (dim + 1)] > largest) largest = full[p * (dim + 1)];
     for (int k = 0; k < PERI_PACKED(dim); ++k) inverse[k] = 0.0;
