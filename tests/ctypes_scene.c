@@ -28,6 +28,39 @@ static void on_break(void *user, int32_t i, int32_t j, double time, double stret
     show(stretch);
 }
 
+static int32_t on_iteration(void *user, int64_t iteration, double residual) {
+    *(double *)user += (double)iteration * residual;
+    return 0;
+}
+
+/* The equilibrium of the same body, half the load in each of two steps. */
+static int32_t solve(peri_body *body) {
+    double curve[12] = {0}, told = 0;
+    peri_statics s;
+    peri_statics_report report;
+    int32_t status, k;
+    show((double)sizeof s);
+    show((double)sizeof report);
+    show((double)offsetof(peri_statics, on_iteration));
+    peri_statics_init(&s);
+    show((double)s.iterations);
+    s.fracture = 0;
+    s.steps = 2;
+    s.curve_load = 0;
+    s.curve = curve;
+    s.curve_rows = 2;
+    s.on_iteration = on_iteration;
+    s.user = &told;
+    status = peri_reset(body);
+    if (status == 0) status = peri_solve(body, &s, &report);
+    for (k = 0; k < 12; ++k) show(curve[k]);
+    show((double)report.iterations);
+    show((double)report.passes);
+    show(report.residual);
+    show(told);
+    return status;
+}
+
 int main(void) {
     const double lo[2] = {0, 0}, hi[2] = {1.6, 0.6}, left[2] = {0.2, 0.6}, right[2] = {1.4, 0}, t[2] = {0.09, 0};
     const double a[2] = {0.8, 0}, b[2] = {0.8, 0.2};
@@ -109,6 +142,7 @@ int main(void) {
     if (peri_last_error(body, &error) < 0) return 6;
     show(error.code);
     show(error.value);
+    if (solve(body) < 0) return 7;
     peri_body_destroy(body);
     return 0;
 }

@@ -12,6 +12,7 @@ ALLOC = C.CFUNCTYPE(C.c_void_p, C.c_void_p, C.c_uint64)
 RELEASE = C.CFUNCTYPE(None, C.c_void_p, C.c_void_p, C.c_uint64)
 LOAD = C.CFUNCTYPE(None, C.c_void_p, C.c_double, C.c_int64, C.POINTER(C.c_int32), C.POINTER(C.c_double))
 FRAME = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_void_p)
+ITERATION = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_int64, C.c_double)
 BREAK = C.CFUNCTYPE(None, C.c_void_p, C.c_int32, C.c_int32, C.c_double, C.c_double)
 PLANE_STRESS, BOND_BASED = 1, 1
 DISPLACEMENT, VELOCITY, FAMILY_SIZE, DAMAGE = 2, 3, 7, 8
@@ -45,6 +46,21 @@ class Run(C.Structure):
                 + [("frame_steps", C.c_int64), ("on_frame", FRAME), ("user", C.c_void_p)])
 
 
+class Statics(C.Structure):
+    _fields_ = ([("cookie", C.c_uint64)]
+                + [(n, C.c_int32) for n in ("method", "preconditioner", "loose", "fracture")]
+                + [(n, C.c_double) for n in ("criticality", "tolerance", "energy_tolerance")]
+                + [(n, C.c_int64) for n in ("iterations", "newton", "breaks")]
+                + [("load_from", C.c_double), ("load_to", C.c_double), ("steps", C.c_int64), ("halvings", C.c_int64),
+                   ("curve_load", C.c_int32), ("reserved", C.c_int32), ("curve", C.POINTER(C.c_double)), ("curve_rows", C.c_int64),
+                   ("on_iteration", ITERATION), ("on_step", FRAME), ("user", C.c_void_p)])
+
+
+class Report(C.Structure):
+    _fields_ = ([(n, C.c_int64) for n in ("iterations", "passes", "newton", "steps", "broken", "curve_rows", "loose", "bytes")]
+                + [("residual", C.c_double), ("load_factor", C.c_double)])
+
+
 class View(C.Structure):
     _fields_ = [("data", C.c_void_p), ("count", C.c_int64), ("point_stride", C.c_int64), ("component_stride", C.c_int64),
                 ("components", C.c_int32), ("type", C.c_int32), ("scale", C.c_double), ("offset", C.c_double * 3)]
@@ -72,7 +88,8 @@ def declare(lib):
         "peri_on_break": (i32, [p, BREAK, p]), "peri_stable_step": (f64, [p]), "peri_run_init": (None, [p]),
         "peri_advance": (i32, [p, p]), "peri_time": (f64, [p]), "peri_field_size": (i64, [p, i32]),
         "peri_read": (i32, [p, i32, p, i64]), "peri_read_energy": (i32, [p, p]), "peri_read_reaction": (i32, [p, i32, p]),
-        "peri_view_field": (i32, [p, i32, p])}
+        "peri_view_field": (i32, [p, i32, p]), "peri_statics_init": (None, [p]), "peri_solve": (i32, [p, p, p]),
+        "peri_reset": (i32, [p])}
     for name, (result, arguments) in signatures.items():
         function = getattr(lib, name)
         function.restype, function.argtypes = result, arguments
@@ -152,6 +169,21 @@ def scene(lib):
     out += [error.code, error.value]
     if b"step" not in error.text or b"time_step" not in error.field:
         failures.append("error record: %r, %r" % (error.text, error.field))
+    out += [C.sizeof(Statics), C.sizeof(Report), Statics.on_iteration.offset]
+    statics, report, curve, told = Statics(), Report(), (C.c_double * 12)(), [0.0]
+
+    @ITERATION
+    def on_iteration(_user, iteration, residual):
+        told[0] += iteration * residual
+        return 0
+
+    lib.peri_statics_init(C.byref(statics))
+    out.append(statics.iterations)
+    statics.fracture, statics.steps, statics.curve_load, statics.curve, statics.curve_rows = 0, 2, 0, curve, 2
+    statics.on_iteration = on_iteration
+    must(lib.peri_reset(body))
+    must(lib.peri_solve(body, C.byref(statics), C.byref(report)))
+    out += list(curve) + [report.iterations, report.passes, report.residual, told[0]]
     lib.peri_body_destroy(body)
     return out, counts, failures
 
