@@ -74,6 +74,11 @@ static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
     return sqrt(sums.a);
 }
 
+/* Is |r| small enough? Where there is no stress it cannot fall below the rounding of the forces. */
+static int peri__is_small(const peri__solver *s, double residual, double reach) {
+    return residual <= reach * s->scale || residual <= s->floor;
+}
+
 /* One more iteration, told to the callback. */
 static int32_t peri__count_iteration(peri__solver *s, double residual) {
     const peri_statics *st = s->settings;
@@ -94,7 +99,7 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
     double residual = peri__measure(s, peri__krylov_pass(s, b->ops->krylov_norm), loads);
     for (int64_t k = 0;; ++k) {
         double before = rz, square, bent;
-        if (residual <= reach * s->scale || residual == 0.0) return PERI_OK;
+        if (peri__is_small(s, residual, reach)) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         rz = peri__precondition(s);
         if (s->energy0 == 0.0) s->energy0 = rz;

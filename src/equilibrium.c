@@ -73,6 +73,17 @@ static double peri__static_residual(peri__solver *s, double loads) {
     return peri__measure(s, peri__krylov_pass(s, s->body->ops->krylov_norm), loads);
 }
 
+/* The rounding of forces: K times that of the displacements, as they are and as supports will make them. */
+static void peri__note_floor(peri__solver *s) {
+    const peri_body *b = s->body;
+    void *r = s->k.r;
+    s->k.r = b->u;
+    peri__sums sums = peri__krylov_pass(s, b->ops->krylov_norm);
+    s->k.r = r;
+    s->floor = (b->f32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON) * s->stiff
+             * (sqrt(sums.a + sums.b) + s->widest * sqrt((double)b->model->points));
+}
+
 static void peri__tell_residual(peri__solver *s, double residual) {
     s->report.residual = !(residual < HUGE_VAL) ? HUGE_VAL : s->scale > 0.0 ? residual / s->scale : 0.0;
 }
@@ -109,8 +120,9 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
     if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
     s->hanging = 0;
     int32_t status = peri__find_loose(s);
-    if (status < 0 || s->settings->method == PERI_RELAXATION) return status;
+    if (status < 0) return status;
     s->stiff = peri__fill_diagonal(b, s->blocks);
+    if (s->settings->method == PERI_RELAXATION) return PERI_OK;
     if (!s->levels && s->settings->preconditioner == PERI_MULTILEVEL && s->settings->method == PERI_NEWTON) {
         s->levels = peri__build_levels(s);
         if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
@@ -125,6 +137,7 @@ static int peri__gap(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     int gap = 0;
+    s->widest = 0.0;
     memset(s->k.d, 0, peri__vector_bytes(b));
     for (int64_t l = 0; l < b->load_count; ++l) {
         const peri__load *load = &b->loads[l];
@@ -135,6 +148,7 @@ static int peri__gap(peri__solver *s) {
                 double now = peri__get_real(b->u, b->f32, at), way = peri__load_value(b, load, k, d) / m->length - now;
                 if (!(load->owned[k] >> d & 1) || !(fabs(way) > (b->f32 ? 2e-7 : 1e-15) * fabs(now))) continue;
                 peri__put_real(s->k.d, b->f32, at, way);
+                if (fabs(way) > s->widest) s->widest = fabs(way);
                 gap = 1;
             }
     }
@@ -228,7 +242,8 @@ static int32_t peri__newton(peri__solver *s) {
         if (k == 0) peri__note_start(s, residual);
         int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
         peri__tell_residual(s, residual);
-        if (!gap && (residual <= peri__solve_tolerance(s) * s->scale || s->energy_done))
+        peri__note_floor(s);
+        if (!gap && (peri__is_small(s, residual, peri__solve_tolerance(s)) || s->energy_done))
             return s->negative ? peri__fail(b, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
         if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))
             return peri__fail(b, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);

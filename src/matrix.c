@@ -320,7 +320,7 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
         peri__sums sums = { peri__free_dot(scale, r, r, n), 0.0, 0, -1 };
         for (int64_t k = 0; k < n; ++k) sums.b += scale[k] == 0.0 ? r[k] * r[k] : 0.0;
         double residual = peri__measure(s, sums, loads), next = peri__free_dot(scale, shadow, r, n);
-        if (residual <= reach * s->scale || residual == 0.0) return PERI_OK;
+        if (peri__is_small(s, residual, reach)) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         double beta = omega != 0.0 ? next / rho * alpha / omega : 0.0;
         if (next == 0.0 || beta == 0.0) { /* broken down: again from here */

@@ -51,7 +51,8 @@ static int32_t peri__relax(peri__solver *s) {
         if (loads < 0.0) return (int32_t)loads;
         residual = peri__static_residual(s, loads);
         peri__tell_residual(s, residual);
-        if (residual <= peri__solve_tolerance(s) * s->scale) return PERI_OK;
+        peri__note_floor(s);
+        if (peri__is_small(s, residual, peri__solve_tolerance(s))) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
         peri__relax_step(s, unit, k);
         int32_t status = peri__count_iteration(s, s->report.residual);
