@@ -5,7 +5,7 @@
        z = D^-1 r  +  P B P^T r,
    P the (bi-, tri-) linear interpolation from the nodes of a regular grid of about a horizon to the points, of a lattice or a cloud, and
    B a V-cycle for the stiffness of linear elasticity in those shape functions, integrated over the points: V_i grad N:C_i:grad N, C_i of
-   the point's law times what is left of its bonds. Points that are held add D_ii N N, the resistance of their bonds. Coarser grids
+   the point's law, scaled by the stiffness of its actual bonds. Points that are held add D_ii N N, the resistance of their bonds. Coarser grids
    have twice the spacing, and stiffness by Galerkin's product; there Chebyshev's polynomials smooth, and the coarsest is solved
    directly. Everything is symmetric and the order of sums fixed. Nodes without points have a zero diagonal and stay 0. */
 #ifndef PERI_IMPL
@@ -88,16 +88,24 @@ static int peri__lay_grid(peri__multilevel *l, const peri_body *b) {
     return 1;
 }
 
-/* What is left of the stiffness of a point's bonds: state-based laws are calibrated on what is left. */
-static double peri__left(const peri_body *b, int64_t i) {
+/* How stiff the bonds of point i are, over those of its material alone, whole: softer where bonds of springs are broken (state-based laws
+   are calibrated on what is left), stiffer beside a stiffer material, whose half of the bonds reaches here. */
+static double peri__relative_stiffness(const peri_body *b, int64_t i) {
+    const peri__model *m = b->model;
+    const int32_t own = m->material[i], springs = m->laws[own].model == PERI_BOND_BASED;
     double all = 0.0, live = 0.0;
     peri__row row;
-    if (!b->alive || b->model->laws[b->model->material[i]].model != PERI_BOND_BASED) return 1.0;
-    peri__read_row(b->model, b->f32, i, &row);
+    if (m->materials == 1 && !(springs && b->alive)) return 1.0;
+    peri__read_row(m, b->f32, i, &row);
     for (int64_t k = 0; k < row.count; ++k) {
-        double stiff = fabs(peri__get_real(row.weight, b->f32, k)) * peri__get_real(row.bond, b->f32, k);
-        all += stiff;
-        if (peri__is_alive(b, i, k)) live += stiff;
+        const int32_t other = m->material[row.ids[k]], alive = peri__is_alive(b, i, k);
+        double share = fabs(peri__get_real(row.weight, b->f32, k)) * peri__get_real(row.bond, b->f32, k), ratio;
+        if (springs && m->laws[other].model == PERI_BOND_BASED)
+            ratio = m->pairs[own * m->materials + other].c / m->pairs[own * m->materials + own].c;
+        else
+            ratio = 0.5 + 0.5 * m->laws[other].mu / m->laws[own].mu;
+        if (springs || alive) all += share;
+        if (alive) live += share * ratio;
     }
     return all > 0.0 ? live / all + 1e-3 : 1e-3;
 }
@@ -108,7 +116,7 @@ static void peri__add_point(const peri__solver *s, peri__multilevel *l, int64_t 
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int dim = l->dim, corners = 1 << dim;
-    double within[3] = { 0.0 }, shape[8], gradient[8][3], volume = m->volume[i] * peri__left(b, i);
+    double within[3] = { 0.0 }, shape[8], gradient[8][3], volume = m->volume[i] * peri__relative_stiffness(b, i);
     double lambda = law->lambda, mu = law->mu;
     int64_t cell = peri__grid_cell(l, b, i, within), node[8];
     float *stencil = l->grid[0].stencil;
