@@ -651,8 +651,8 @@ typedef struct peri_statics_report {
 PERI_API void peri_statics_init(peri_statics *statics);
 
 /* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule over load
-   steps. A step that fails leaves the body at the last equilibrium; where steps are not halved (linear problems, halvings = 0, and after
-   bonds have broken in it), as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or softening: the tangent has a negative
+   steps. A step that fails leaves the body at the equilibrium before it; where there is none in this call, and after bonds have broken in
+   it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or softening: the tangent has a negative
    direction, and no equilibrium was found further down), PERI_ERROR_CONVERGENCE (value: residual reached), PERI_ERROR_CALLBACK. Loads stay
    at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
@@ -757,7 +757,7 @@ typedef struct peri_energy {
     double elastic;  /* stored in intact bonds                                                                           */
     double external; /* work done by loads and supports; in peri_solve by obstacles, too                                 */
     double obstacle; /* work done by obstacles                                                                           */
-    double damping;  /* dissipated by mass damping                                                                       */
+    double damping;  /* dissipated by mass damping; in peri_solve, what springs free when bonds have broken              */
     double fracture; /* elastic energy that went as bonds broke. State-based: the families that are left are calibrated anew,
                         so a single break may even add some                                                              */
     double initial;  /* put in by writing displacement or velocity (less what later cuts took out)                       */

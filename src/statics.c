@@ -29,6 +29,7 @@ static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
     PERI_NEED(b, st->method >= PERI_NEWTON && st->method <= PERI_RELAXATION, "method");
     PERI_NEED(b, st->preconditioner >= PERI_MULTILEVEL && st->preconditioner <= PERI_NO_PRECONDITIONER, "preconditioner");
     PERI_NEED(b, st->loose >= PERI_LOOSE_REFUSED && st->loose <= PERI_LOOSE_BALANCED, "loose");
+    PERI_NEED(b, st->fracture == 0 || st->fracture == 1, "fracture");
     PERI_NEED_NUMBER(b, st->criticality >= 0.0 && st->criticality <= 1.0, st->criticality);
     PERI_NEED_NUMBER(b, st->tolerance >= 0.0 && st->tolerance < 1.0, st->tolerance);
     PERI_NEED_NUMBER(b, st->energy_tolerance >= 0.0 && st->energy_tolerance < 1.0, st->energy_tolerance);
@@ -40,10 +41,8 @@ static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
     PERI_NEED(b, st->steps > 0, "steps");
     PERI_NEED(b, st->halvings >= 0 && st->halvings <= 60, "halvings");
     PERI_NEED(b, st->curve_rows >= 0 && (st->curve || st->curve_rows == 0), "curve");
-    if (st->curve_load != -1 || st->curve_rows > 0) {
-        int32_t status = peri__check_load(b, st->curve_load);
-        if (status < 0) return status;
-    }
+    if ((st->curve_load != -1 || st->curve_rows > 0) && peri__check_load(b, st->curve_load) < 0)
+        return peri__fail(b, PERI_ERROR_ID, "curve_load", st->curve_load, 0.0);
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
     return PERI_OK;
 }
@@ -82,7 +81,11 @@ static void peri__excess_block(void *context, int64_t begin, int64_t end, peri__
     }
 }
 
-/* Breaks the bonds over their limit; returns their number. */
+static int peri__may_break(const peri__solver *s) {
+    return s->body->alive && s->body->model->breakable && s->settings->fracture;
+}
+
+/* Breaks the bonds over their limit; returns their number. The ledger is up to peri__static_step. */
 static int64_t peri__break_static(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
@@ -90,12 +93,10 @@ static int64_t peri__break_static(peri__solver *s) {
     double most = 0.0, limit = 1.0;
     int64_t count = 0;
     breaker.body = b;
-    if (!b->alive || !m->breakable || !s->settings->fracture) return 0;
     peri__for_points(b, m->points, 2 * m->width, peri__excess_block, &breaker, b->sums);
     for (int64_t k = 0; k < m->blocks; ++k) most = fmax(most, b->sums[k].a);
     if (!(most > 1.0)) return 0;
     if (s->settings->criticality * most * (1.0 - 1e-6) > limit) limit = s->settings->criticality * most * (1.0 - 1e-6);
-    double energy = b->desc.ledger ? peri__elastic_energy(b, NULL) : 0.0;
     if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
@@ -114,7 +115,6 @@ static int64_t peri__break_static(peri__solver *s) {
     b->broken += 2 * count;
     s->report.broken += count;
     peri__cuts_made(b);
-    if (b->desc.ledger) b->ledger.fracture += energy - peri__elastic_energy(b, NULL);
     if (b->before) peri__report_breaks(b);
     return count;
 }
@@ -138,6 +138,8 @@ static void peri__count_work(peri__solver *s, const void *from) {
     b->ledger.external += work;
 }
 
+static double peri__static_energy(peri_body *b) { return b->desc.ledger ? peri__elastic_energy(b, NULL) : 0.0; }
+
 /* ---- load steps --------------------------------------------------------------------------------------------------- */
 
 static int32_t peri__static_values(peri_body *b) {
@@ -155,6 +157,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     const peri__model *m = b->model;
     b->load_factor = factor;
     int32_t status = peri__static_values(b);
+    double broken = 0.0; /* elastic energy after the last bonds broke */
     for (int64_t round = 0; status == PERI_OK; ++round) {
         status = peri__prepare(s, round == 0);
         s->left = s->settings->iterations;
@@ -168,8 +171,14 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
             memcpy(b->f, s->k.z, peri__vector_bytes(b));
             peri__bond_forces(b, &step);
         }
+        double external = b->ledger.external, energy;
         peri__count_work(s, s->from);
+        if (!peri__may_break(s)) break;
+        energy = peri__static_energy(b);
+        if (round > 0) b->ledger.damping += b->ledger.external - external - (energy - broken);
         if (peri__break_static(s) == 0) break;
+        broken = peri__static_energy(b);
+        b->ledger.fracture += energy - broken;
         if (round >= s->settings->breaks) status = peri__fail(b, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
     }
     return status;
@@ -233,11 +242,13 @@ static int32_t peri__load_step(peri__solver *s, double from, double to) {
             part *= 2.0;
             continue;
         }
-        if (status != PERI_ERROR_CONVERGENCE && status != PERI_ERROR_INDEFINITE) break;
-        if (!s->before || peri__is_linear(b) || s->settings->halvings == 0 || s->report.broken > broken) break;
-        memcpy(b->u, s->before, peri__vector_bytes(b));
-        part *= 0.5;
-        if (part >= least) status = PERI_OK;
+        if (s->before && s->report.broken == broken) {
+            int halved = status == PERI_ERROR_CONVERGENCE || status == PERI_ERROR_INDEFINITE;
+            part *= 0.5;
+            halved = halved && part >= least && !peri__is_linear(b);
+            if (halved || (s->report.steps > 0 && status != PERI_STOPPED)) memcpy(b->u, s->before, peri__vector_bytes(b));
+            if (halved) status = PERI_OK;
+        }
     }
     return status;
 }
@@ -286,6 +297,10 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_r
     b->running = 2;
     status = peri__load_steps(&s);
     b->running = 0;
+    if (status < 0) {
+        b->load_factor = s.report.steps > 0 ? s.report.load_factor : st->load_from;
+        b->force_current = 0;
+    }
     peri__free_solver(&s);
     if (report) *report = s.report;
     return status;
