@@ -102,6 +102,7 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
         if (peri__is_small(s, residual, reach)) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         rz = peri__precondition(s);
+        if (!(rz > 0.0)) return PERI_ERROR_CONVERGENCE;
         if (s->energy0 == 0.0) s->energy0 = rz;
         if (rz <= peri__square(s->settings->energy_tolerance) * s->energy0) return PERI_OK;
         s->k.beta = k == 0 ? 0.0 : rz / before;

@@ -156,6 +156,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     b->load_factor = factor;
+    b->force_current = 0;
     int32_t status = peri__static_values(b);
     double broken = 0.0; /* elastic energy after the last bonds broke */
     for (int64_t round = 0; status == PERI_OK; ++round) {
