@@ -469,8 +469,8 @@ static void check_symmetry(const bending *t) {
 
 /* ENERGY  Between two recorded steps the beam is loaded with the bonds that it has, a straight line in load over deflection, and then loses
    some at rest: external is the sum of those trapezia. Elastic: half load times deflection. Fracture: the bonds at the stretch at which
-   they broke. What is left of the work, damping, is what the beam gave off as it found its next equilibrium, by motions that statics leaves out:
-   no less than zero, and nothing only where breaking bonds is a continuous process.
+   they broke. What is left of the work, damping, is what the beam gave off as it found its next equilibrium, by motions that statics
+   leaves out: no less than zero, and nothing only where breaking bonds is a continuous process.
    So the crack takes R = (external - elastic)/area, where the bonds alone take their least, G0 but for the lattice sum: the area is least/
    (energy of the lattice). R is higher by the trapping of the crack between rows.
    PEAK  A crack grows at Griffith's load for E of the lattice and R. Its tip is blunt: bonds up to a horizon long reach past it and are
