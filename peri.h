@@ -576,8 +576,9 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    it is. At each factor the equations  internal force(u) + loads = 0  on what is not supported are solved by Newton's method: each
    iteration by conjugate gradients on the tangent, which is applied without being stored, then a line search. Where the geometry is
    linear and there are no obstacles the first iteration ends it. Converged: |residual| <= tolerance * the larger of |loads| and
-   |reactions|, as vectors of point forces. Then bonds over their limit break, and equilibrium is sought again, until none does.
-   Starts from the present displacements, so a solve that ran out of iterations goes on where it stopped when called again.
+   |reactions|, as vectors of point forces. Then bonds over their limit break, and equilibrium is sought again, until none does. Slow cracks
+   are trapped between the rows of a lattice: a bond-based one took 1.56, 1.29, 1.12 times the energy G0 at 3, 4, 6 spacings to the horizon.
+   Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again.
    In single precision the residual cannot fall much below 1e-5. */
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
@@ -588,7 +589,8 @@ typedef enum peri_method {
 
 typedef enum peri_preconditioner {
     PERI_MULTILEVEL        = 1, /* blocks of the diagonal, and linear elasticity on a background grid of about a horizon with all its
-                                   coarser grids: iterations hardly grow with the number of points. The default           */
+                                   coarser grids: iterations hardly grow with the number of points, by about 1.4 per halving of the
+                                   spacing where there are long cracks. The default                                      */
     PERI_BLOCK_JACOBI      = 2, /* the dim x dim blocks of the diagonal                                                  */
     PERI_NO_PRECONDITIONER = 3
 } peri_preconditioner;
@@ -650,11 +652,12 @@ typedef struct peri_statics_report {
 /* Fills every field with its default. NULL is ignored. */
 PERI_API void peri_statics_init(peri_statics *statics);
 
-/* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule over load
-   steps. A step that fails leaves the body at the equilibrium before it; where there is none in this call, and after bonds have broken in
-   it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or softening: the tangent has a negative
-   direction, and no equilibrium was found further down), PERI_ERROR_CONVERGENCE (value: residual reached), PERI_ERROR_CALLBACK. Loads stay
-   at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes them at 1, and at its time, again. */
+/* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule from each
+   equilibrium to the next, those in between bonds breaking included. A step that fails leaves the body at the equilibrium before it; where
+   there is none in this call, and after bonds have broken in it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or
+   softening: the tangent has a negative direction, and no equilibrium was found further down), PERI_ERROR_CONVERGENCE (value: residual
+   reached), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes
+   them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
 
 /* Tractions that pass the patch test: value[dim] [M L^-1 T^-2] on a face of `area` and outward `normal`, given to all points that feel the
