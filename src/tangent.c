@@ -160,6 +160,7 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     PERI_NEED(b, in, "in");
     PERI_NEED(b, out, "out");
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
+    if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
     for (int64_t k = 0; k < count; ++k)
         if (!peri__finite(in[k])) return peri__fail(b, PERI_ERROR_RANGE, "in", k, in[k]);
     int32_t status = peri__update_force(b);
