@@ -1,0 +1,86 @@
+/* test_study.h - what the two parts of the convergence study [C] share: square lattices of any law, one linear solve, the order of a
+   series of errors. */
+#ifndef TEST_STUDY_H
+#define TEST_STUDY_H
+
+#include "test_scene.h"
+
+enum { CONST, INV, LINEAR, QUADR, CUBIC, SHAPES }; /* the influence functions of [C] table 2 */
+static const int32_t study_influence[SHAPES] = {PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_INVERSE, PERI_INFLUENCE_LINEAR,
+                                                PERI_INFLUENCE_POWER_2, PERI_INFLUENCE_POWER_3};
+static const char *const shape_name[SHAPES] = {"Const", "Inv", "Linear", "Quadr", "Cubic"};
+
+/* A law with its means against its own errors. Stabilization counts for correspondence only, where 0 is the "gradient" law of [C]. */
+typedef struct study_law {
+    int32_t model, correction;
+    double  stabilization;
+    const char *name;
+} study_law;
+
+static const study_law SILLING = {PERI_LPS, PERI_NO_CORRECTION, 0, "Silling"};
+static const study_law OTERKUS = {PERI_OTERKUS, PERI_NO_CORRECTION, 0, "Oterkus"};
+static const study_law GRADIENT = {PERI_CORRESPONDENCE, PERI_NO_CORRECTION, 0, "gradient"};
+
+/* A square with cells x cells points at the centres of its cells, one corner at lo[2]; plane strain, small displacements. */
+static inline peri_body *study_square(const study_law *law, int shape, double ratio, int cells, const double *lo, double side, double young,
+                                      double nu) {
+    const double spacing = side / cells;
+    double hi[2];
+    peri_body_desc d;
+    peri_material m;
+    peri_body *b = NULL;
+    peri_body_desc_init(&d);
+    d.space = PERI_PLANE_STRAIN;
+    d.geometry = PERI_LINEAR;
+    d.influence = study_influence[shape];
+    d.correction = law->correction;
+    d.horizon = ratio * spacing;
+    d.threads = 1;
+    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
+    peri_material_init(&m, law->model);
+    m.young = young;
+    m.poisson = nu;
+    m.density = 1;
+    if (law->model == PERI_CORRESPONDENCE) m.stabilization = law->stabilization;
+    hi[0] = lo[0] + side;
+    hi[1] = lo[1] + side;
+    CHECK(MUST(b, peri_add_box(b, (int32_t)MUST(b, peri_add_material(b, &m)), lo, hi, spacing)) == (int64_t)cells * cells);
+    (void)MUST(b, peri_build(b));
+    return b;
+}
+
+static inline int32_t study_box(peri_body *b, double x0, double y0, double x1, double y1) {
+    double lo[2], hi[2];
+    lo[0] = x0;
+    lo[1] = y0;
+    hi[0] = x1;
+    hi[1] = y1;
+    return (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi));
+}
+
+/* One linear solve without fracture. Returns the status of peri_solve, which a singular system may fail. */
+static inline int32_t study_solve(peri_body *b, double tolerance, int64_t iterations, peri_statics_report *report) {
+    peri_statics s;
+    peri_statics_init(&s);
+    s.fracture = 0;
+    s.tolerance = tolerance;
+    s.iterations = iterations;
+    s.halvings = 0;
+    return peri_solve(b, &s, report);
+}
+
+/* The slope of the least-squares line through (log h, log |error|), [C] 37. */
+static inline double study_order(int count, const double *h, const double *error) {
+    double sum[4] = {0, 0, 0, 0};
+    int k;
+    for (k = 0; k < count; ++k) {
+        const double x = log(h[k]), y = log(fabs(error[k]));
+        sum[0] += x;
+        sum[1] += y;
+        sum[2] += x * x;
+        sum[3] += x * y;
+    }
+    return (count * sum[3] - sum[0] * sum[1]) / (count * sum[2] - sum[0] * sum[0]);
+}
+
+#endif
