@@ -357,7 +357,8 @@ typedef struct peri_material {
     double   stabilization;    /* correspondence: k m/B [-] >= 0, stiffness against zero-energy modes relative to the central bonds of
                                   LPS. Default 0.2 for PERI_CORRESPONDENCE (thin strips bend right, 0.95 to 1.02 at 4 cells); more makes
                                   short waves and thin parts stiffer. Beams are best with PERI_INFLUENCE_POWER_3 and 0.4: deflection
-                                  within 0.5 % from 10 cells of thickness on. Must be 0 for others                       */
+                                  within 0.5 % from 10 cells of thickness on; but cracks open less: by 10 % at 0.5 and a
+                                  horizon of 2 spacings or more. Must be 0 for others                                    */
 } peri_material;
 
 /* Defaults for a model. NULL is ignored. */
@@ -463,8 +464,8 @@ PERI_API int32_t peri_read_set(peri_body *body, int32_t set, int32_t *points, in
 
 /* ---- cracks and failure ------------------------------------------------------------------------------------------- */
 
-/* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (tolerance
-   1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). Return the number
+/* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (so let a crack end a hair
+   short of where bonds cross its line, or it acts half a spacing longer; tolerance 1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). Return the number
    of bonds (pairs) newly cut: 0 where the crack misses (and a remark in the log). Made before the first step they are the
    initial crack and survive peri_reset; later they count as broken. */
 PERI_API int64_t peri_cut_segment(peri_body *body, const double *from, const double *to);                    /* 2D        */
@@ -578,8 +579,9 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    linear and there are no obstacles the first iteration ends it. Converged: |residual| <= tolerance * the larger of |loads| and
    |reactions|, as vectors of point forces. Then bonds over their limit break, and equilibrium is sought again, until none does. Slow cracks
    are trapped between the rows of a lattice: a bond-based one took 1.56, 1.29, 1.12 times the energy G0 at 3, 4, 6 spacings to the horizon.
-   Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again.
-   In single precision the residual cannot fall much below 1e-5. */
+   Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again
+   (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5; in both, one that is the rounding of the
+   bonds' forces counts as converged: a body turned rigidly has no stress to compare with. */
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
     PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */
@@ -598,7 +600,7 @@ typedef enum peri_preconditioner {
 /* What becomes of parts that no support holds against some rigid motion, and of points whose bonds resist only in some directions. */
 typedef enum peri_loose {
     PERI_LOOSE_REFUSED  = 1, /* PERI_ERROR_LOOSE, index = the first point. The default                                   */
-    PERI_LOOSE_PINNED   = 2, /* just enough components of points are held to stop the rigid motions                       */
+    PERI_LOOSE_PINNED   = 2, /* just enough components of points are held to stop the rigid motions; exact where loads balance */
     PERI_LOOSE_BALANCED = 3  /* the part of the loads that would drive the motion is left out (spread by mass, as inertia would); the
                                 motion itself stays as it was                                                            */
 } peri_loose; /* points whose bonds span less than the space: the force on what is not resisted is left out by the last two */

@@ -17,7 +17,7 @@ check example_length sh -c 'for e in examples/*.c; do
 if echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; then
     check sanitized_library $CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o
     sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
-        test_memory test_output test_quadrature test_random"
+        test_loadsteps test_loose test_memory test_output test_quadrature test_random test_solvers"
     printf '%s\n' $sanitized |
         xargs -P 2 -I % sh -c "$CC $STRICT $SANITIZE $OPENMP -I. tests/%.c build/san/peri.o -o build/san/% -lm"
     programs build/san sanitized_ $sanitized

@@ -1,0 +1,171 @@
+/* statics.c - what a static solve costs: `statics [--large]`. Tables, and CSV (out/statics.csv).
+
+   1  plates of LPS, plane stress, nu = 0.3, horizon 3 spacings, linear, clamped at three columns on the left and pulled at the last on
+      the right, to a residual of 1e-8: iterations, time, and the number of evaluations of all bonds that the time equals, for each
+      preconditioner
+   2  blocks of LPS, nu = 0.25, horizon 3, linear, one thread: three layers clamped at x = 0, three at x = 1 pulled by 0.001 (y, z held),
+      to 1e-6. To beat: 40^3 in 3 s, 60 MB with all that the body holds. Peridigm 1.5 takes for 40^3 151 s on two cores; for 20^3 17 s
+      matrix-free, 160 s and 1.45 GB with its tangent assembled
+   3  with --large: a block of 100^3, pulled alike
+
+   Bytes are counted by an allocator hook: the body with all of its state, and the most that there was at a time. */
+#include "../peri.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+static double seconds(void) {
+#ifdef _OPENMP
+    return omp_get_wtime();
+#else
+    return (double)clock() / CLOCKS_PER_SEC;
+#endif
+}
+
+static uint64_t bytes_now, bytes_most;
+
+static void *count_allocate(void *user, uint64_t bytes) {
+    (void)user;
+    bytes_now += bytes;
+    if (bytes_now > bytes_most) bytes_most = bytes_now;
+    return malloc((size_t)bytes);
+}
+
+static void count_release(void *user, void *pointer, uint64_t bytes) {
+    (void)user;
+    if (pointer) bytes_now -= bytes;
+    free(pointer);
+}
+
+static void need(peri_body *body, int64_t result) {
+    peri_error error;
+    char text[256];
+    if (result >= 0) return;
+    (void)peri_last_error(body, &error);
+    (void)peri_error_format(&error, text, sizeof text);
+    fprintf(stderr, "statics: %s\n", text);
+    exit(1);
+}
+
+static peri_body *block(int32_t space, int64_t edge, double poisson, int32_t precision) {
+    const double lo[3] = { 0, 0, 0 }, hi[3] = { 1, 1, 1 };
+    peri_body_desc desc;
+    peri_material material;
+    peri_body *body = NULL;
+    peri_body_desc_init(&desc);
+    desc.space = space;
+    desc.geometry = PERI_LINEAR;
+    desc.precision = precision;
+    desc.horizon = 3.0 / (double)edge;
+    desc.threads = 1;
+    desc.allocate = count_allocate;
+    desc.release = count_release;
+    bytes_now = bytes_most = 0;
+    if (peri_body_create(&desc, &body, NULL) < 0) exit(1);
+    peri_material_init(&material, PERI_LPS);
+    material.young = 1.0;
+    material.poisson = poisson;
+    material.density = 1.0;
+    need(body, peri_add_material(body, &material));
+    need(body, peri_add_box(body, 0, lo, hi, 1.0 / (double)edge));
+    need(body, peri_build(body));
+    return body;
+}
+
+/* Points of columns or layers [from, to). */
+static int32_t layers(peri_body *body, int64_t edge, int64_t from, int64_t to) {
+    const double lo[3] = { (double)from / (double)edge, -1, -1 }, hi[3] = { (double)to / (double)edge, 2, 2 };
+    int32_t set = peri_select_box(body, NULL, lo, hi);
+    need(body, set);
+    return set;
+}
+
+/* Time of one evaluation of all bonds, by the steps of explicit dynamics, which are a pass and a little each: the best of five. */
+static double one_pass(peri_body *body) {
+    double best = 1e300;
+    peri_run run;
+    peri_run_init(&run);
+    run.steps = 1;
+    need(body, peri_reset(body));
+    need(body, peri_advance(body, &run));
+    run.steps = 5;
+    for (int r = 0; r < 5; ++r) {
+        double start = seconds();
+        need(body, peri_advance(body, &run));
+        if ((seconds() - start) / 5 < best) best = (seconds() - start) / 5;
+    }
+    return best;
+}
+
+static void row(FILE *csv, const char *scene, peri_body *body, const char *how, const peri_statics *statics) {
+    peri_statics_report report;
+    double body_bytes = (double)bytes_now, start = seconds(), taken, most, pass;
+    bytes_most = bytes_now;
+    need(body, peri_solve(body, statics, &report));
+    taken = seconds() - start;
+    most = (double)bytes_most;
+    pass = one_pass(body);
+    printf("%-14s %-11s %7lld %9.3f %8.0f %9.4f %8.1f %8.1f %9.1e\n", scene, how, (long long)report.iterations, taken, taken / pass,
+           1e3 * pass, body_bytes / 1e6, most / 1e6, report.residual);
+    if (csv)
+        fprintf(csv, "%s,%s,%lld,%lld,%.4g,%.4g,%.4g,%.6g,%.6g,%.3g\n", scene, how, (long long)peri_point_count(body),
+                (long long)report.iterations, taken, taken / pass, pass, body_bytes, most, report.residual);
+    (void)fflush(stdout);
+}
+
+static void plates(FILE *csv) {
+    static const char *const names[] = { "", "multilevel", "blocks", "none" };
+    const double pull[2] = { 1e-3, 0 };
+    for (int64_t edge = 100; edge <= 800; edge *= 2)
+        for (int32_t p = PERI_MULTILEVEL; p <= PERI_NO_PRECONDITIONER; ++p) {
+            char scene[32];
+            peri_statics statics;
+            peri_body *body;
+            if (p != PERI_MULTILEVEL && edge > 400) continue;
+            body = block(PERI_PLANE_STRESS, edge, 0.3, PERI_F64);
+            need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_X | PERI_Y, NULL, NULL, NULL));
+            need(body, peri_apply_traction(body, layers(body, edge, edge - 1, edge), 1.0, pull, NULL, NULL));
+            peri_statics_init(&statics);
+            statics.tolerance = 1e-8;
+            statics.preconditioner = p;
+            (void)sprintf(scene, "plate %lld^2", (long long)edge);
+            row(csv, scene, body, names[p], &statics);
+            peri_body_destroy(body);
+        }
+}
+
+static void blocks_of(FILE *csv, int64_t edge) {
+    const double pull[3] = { 1e-3, 0, 0 };
+    for (int32_t precision = PERI_F64; precision <= PERI_F32; ++precision) {
+        char scene[32];
+        peri_statics statics;
+        peri_body *body = block(PERI_SOLID, edge, 0.25, precision);
+        need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_X | PERI_Y | PERI_Z, NULL, NULL, NULL));
+        need(body, peri_prescribe_displacement(body, layers(body, edge, edge - 3, edge), PERI_X | PERI_Y | PERI_Z, pull, NULL, NULL));
+        peri_statics_init(&statics);
+        statics.tolerance = precision == PERI_F64 ? 1e-6 : 1e-4;
+        (void)sprintf(scene, "block %lld^3", (long long)edge);
+        row(csv, scene, body, precision == PERI_F64 ? "f64" : "f32, 1e-4", &statics);
+        peri_body_destroy(body);
+        if (edge > 40) break;
+    }
+}
+
+int main(int argc, char **argv) {
+    FILE *csv = fopen("out/statics.csv", "w");
+    if (csv) fprintf(csv, "scene,how,points,iterations,seconds,passes,seconds_of_a_pass,body_bytes,most_bytes,residual\n");
+    printf("%-14s %-11s %7s %9s %8s %9s %8s %8s %9s\n", "scene", "how", "iter.", "s", "= passes", "ms/pass", "body MB", "most MB",
+           "residual");
+    plates(csv);
+    blocks_of(csv, 20);
+    blocks_of(csv, 40);
+    printf("to beat at 40^3: 3 s, 60 MB; Peridigm 1.5: 40^3 151 s on two cores, 20^3 17 s matrix-free, 160 s and 1.45 GB assembled\n");
+    if (argc > 1 && strcmp(argv[1], "--large") == 0) blocks_of(csv, 100);
+    if (csv) (void)fclose(csv);
+    return 0;
+}
