@@ -464,10 +464,11 @@ PERI_API int32_t peri_read_set(peri_body *body, int32_t set, int32_t *points, in
 
 /* ---- cracks and failure ------------------------------------------------------------------------------------------- */
 
-/* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (so let a crack end a hair
-   short of where bonds cross its line, or it acts half a spacing longer; tolerance 1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). Return the number
-   of bonds (pairs) newly cut: 0 where the crack misses (and a remark in the log). Made before the first step they are the
-   initial crack and survive peri_reset; later they count as broken. */
+/* Cut every bond whose straight line from point to point meets the crack; touching counts, collinear counts (tolerance
+   1e-9 of the spacing; in single precision also the rounding of coordinates, 6e-8 of the body's extent). So a crack that ends on the line
+   of a column of bonds acts half a spacing longer than one that ends a hair before it. Return the number of bonds (pairs) newly cut: 0
+   where the crack misses (and a remark in the log). Made before the first step they are the initial crack and survive peri_reset;
+   later they count as broken. */
 PERI_API int64_t peri_cut_segment(peri_body *body, const double *from, const double *to);                    /* 2D        */
 PERI_API int64_t peri_cut_polyline(peri_body *body, int64_t count, const double *vertices);                 /* 2D        */
 PERI_API int64_t peri_cut_disc(peri_body *body, const double *centre, const double *normal, double radius); /* 3D        */

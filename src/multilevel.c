@@ -5,9 +5,9 @@
        z = D^-1 r  +  P B P^T r,
    P the (bi-, tri-) linear interpolation from the nodes of a regular grid of about a horizon to the points, of a lattice or a cloud, and
    B a V-cycle for the stiffness of linear elasticity in those shape functions, integrated over the points: V_i grad N:C_i:grad N, C_i of
-   the point's law, scaled by the stiffness of its actual bonds. Points that are held add D_ii N N, the resistance of their bonds. Coarser grids
-   have twice the spacing, and stiffness by Galerkin's product; there Chebyshev's polynomials smooth, and the coarsest is solved
-   directly. Everything is symmetric and the order of sums fixed. Nodes without points have a zero diagonal and stay 0. */
+   the point's law, scaled by the stiffness of its actual bonds. Points that are held add D_ii N N, the resistance of their bonds.
+   Coarser grids have twice the spacing, and stiffness by Galerkin's product; there Chebyshev's polynomials smooth, and the coarsest is
+   solved directly. Everything is symmetric and the order of sums fixed. Nodes without points have a zero diagonal and stay 0. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
