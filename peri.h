@@ -581,8 +581,8 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    |reactions|, as vectors of point forces. Then bonds over their limit break, and equilibrium is sought again, until none does. Slow cracks
    are trapped between the rows of a lattice: a bond-based one took 1.56, 1.29, 1.12 times the energy G0 at 3, 4, 6 spacings to the horizon.
    Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again
-   (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5; in both, one that is the rounding of the
-   bonds' forces counts as converged: a body turned rigidly has no stress to compare with. */
+   (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 1e-3: a tolerance out of
+   reach ends with PERI_ERROR_CONVERGENCE at the best that there is. Where nothing acts (a body turned rigidly) rounding is good enough. */
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
     PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */
@@ -600,31 +600,33 @@ typedef enum peri_preconditioner {
 
 /* What becomes of parts that no support holds against some rigid motion, and of points whose bonds resist only in some directions. */
 typedef enum peri_loose {
-    PERI_LOOSE_REFUSED  = 1, /* PERI_ERROR_LOOSE, index = the first point. The default                                   */
+    PERI_LOOSE_REFUSED  = 1, /* PERI_ERROR_LOOSE, index = the first point. The default. Hinges (parts joined at one point) are found by
+                                the solver, whatever is chosen here; index is then a point that they let move            */
     PERI_LOOSE_PINNED   = 2, /* just enough components of points are held to stop the rigid motions; exact where loads balance */
     PERI_LOOSE_BALANCED = 3  /* the part of the loads that would drive the motion is left out (spread by mass, as inertia would); the
                                 motion itself stays as it was                                                            */
 } peri_loose; /* points whose bonds span less than the space: the force on what is not resisted is left out by the last two */
 
-/* Called after each iteration of the linear solver with the residual over its scale; nonzero stops: PERI_STOPPED. */
+/* Called after each iteration of the linear solver with the residual over its scale; nonzero stops: PERI_STOPPED, on the way to an
+   equilibrium (linear: with what the linear solver had found; else where the last Newton iteration left it). */
 typedef int32_t (*peri_iteration_fn)(void *user, int64_t iteration, double residual);
 
 typedef struct peri_statics {
     uint64_t          cookie;         /* set by peri_statics_init                                                        */
     int32_t           method;         /* peri_method. Default PERI_NEWTON                                                */
-    int32_t           preconditioner; /* peri_preconditioner. Default PERI_MULTILEVEL                                    */
+    int32_t           preconditioner; /* peri_preconditioner, of PERI_NEWTON. Default PERI_MULTILEVEL                    */
     int32_t           loose;          /* peri_loose. Default PERI_LOOSE_REFUSED                                          */
     int32_t           fracture;       /* 1 (default) = bonds break by their criterion, 0 = none breaks                   */
     double            criticality;    /* [0, 1]: of the bonds over their limit those break that are over criticality times the largest
                                          excess (value/limit): 0 (default) = all, 1 = only the most critical (and its equals)   */
     double            tolerance;      /* [0, 1): 0 (default) = 1e-8, in single precision 1e-4                            */
-    double            energy_tolerance; /* > 0: the linear solver also stops when its residual in the norm of the preconditioner has
-                                         fallen by this factor, an estimate of the error in energy. Default 0: never     */
+    double            energy_tolerance; /* > 0, PERI_NEWTON: converged also when the residual in the norm of the preconditioner has fallen by
+                                         this factor, an estimate of the error in energy. Default 0: never               */
     int64_t           iterations;     /* most iterations of the linear solver (of PERI_RELAXATION: steps) for one equilibrium.
                                          Default 20000                                                                   */
     int64_t           newton;         /* most Newton iterations for one equilibrium. Default 60                          */
-    int64_t           breaks;         /* most rounds of breaking at one load factor. Default 100000; PERI_ERROR_CONVERGENCE beyond */
-    double            load_from;      /* load factor before the first step. Default 0                                    */
+    int64_t           breaks;         /* most rounds of breaking at one load factor. Default 100000; then PERI_ERROR_CONVERGENCE */
+    double            load_from;      /* load factor at which the body stands now, say load_to of the last solve. Default 0 */
     double            load_to;        /* load factor at the end. Default 1                                               */
     int64_t           steps;          /* load steps >= 1. A step without equilibrium is halved, then grows again. Default 1 */
     int64_t           halvings;       /* most halvings of a step, 0..60. Default 8; PERI_ERROR_CONVERGENCE, ... beyond      */
@@ -767,7 +769,8 @@ typedef struct peri_energy {
     double fracture; /* elastic energy that went as bonds broke. State-based: the families that are left are calibrated anew,
                         so a single break may even add some                                                              */
     double initial;  /* put in by writing displacement or velocity (less what later cuts took out)                       */
-    double error;    /* initial + external + obstacle - kinetic - elastic - damping - fracture                           */
+    double error;    /* initial + external + obstacle - kinetic - elastic - damping - fracture; in peri_solve O(load step^2) where
+                        the geometry is not linear                                                                       */
 } peri_energy;
 
 /* Costs about one force evaluation, once, when called; keeping the ledger while running costs by the size of the loads. */

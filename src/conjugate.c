@@ -6,6 +6,14 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+#define PERI_NOTHING(b) ((b)->f32 ? 1e-30 : 1e-140) /* forces whose squares underflow; inner units                         */
+
+static int peri__is_linear(const peri_body *b) {
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        if (b->obstacles[k].kind) return 0;
+    return b->desc.geometry == PERI_LINEAR;
+}
+
 static void *peri__take(peri__solver *s, int64_t count, size_t size) {
     void *taken = peri__new(&s->body->memory, count, size);
     if (taken) s->bytes += count * (int64_t)size;
@@ -66,17 +74,16 @@ static double peri__precondition(peri__solver *s) {
     return peri__krylov_pass(s, s->body->ops->krylov_dot).a;
 }
 
-/* |r| of what is free; the scale by the loads, the reactions in r and, where there is neither, the first r. */
+/* |r| of what is free; the scale by the loads and the reactions in r. */
 static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
     double held = sqrt(sums.b);
     s->scale = loads > held ? loads : held;
-    if (s->scale < s->start) s->scale = s->start;
     return sqrt(sums.a);
 }
 
-/* Is |r| small enough? Where there is no stress it cannot fall below the rounding of the forces. */
-static int peri__is_small(const peri__solver *s, double residual, double reach) {
-    return residual <= reach * s->scale || residual <= s->floor;
+/* Is a residual no more than rounding in a body that nothing loads and no support strains? Reactions then fall with it. */
+static int peri__is_nothing(const peri__solver *s, double residual, double loads) {
+    return residual <= PERI_NOTHING(s->body) || (loads == 0.0 && residual <= s->floor && s->scale <= s->floor);
 }
 
 /* One more iteration, told to the callback. */
@@ -92,27 +99,32 @@ static int32_t peri__count_iteration(peri__solver *s, double residual) {
    d then is what was found before it, or that way down. */
 static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int at_rest) {
     peri_body *b = s->body;
-    const double none = b->f32 ? 1e-7 : 1e-14;
-    double rz = 0.0;
+    /* differences of displacements are exact: rigid motions bend by the square of the rounding unit, others by the unit itself */
+    const double none = b->f32 ? 1e-12 : 1e-27, less = b->f32 ? -1e-7 : -1e-14;
+    double rz = 0.0, first = 0.0;
     s->slope = 0.0;
     memset(s->k.p, 0, peri__vector_bytes(b));
     double residual = peri__measure(s, peri__krylov_pass(s, b->ops->krylov_norm), loads);
     for (int64_t k = 0;; ++k) {
         double before = rz, square, bent;
-        if (peri__is_small(s, residual, reach)) return PERI_OK;
+        if (k == 0) first = residual;
+        if (residual <= reach * s->scale || peri__is_nothing(s, residual, residual <= reach * first ? loads : HUGE_VAL)) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         rz = peri__precondition(s);
         if (!(rz > 0.0)) return PERI_ERROR_CONVERGENCE;
         if (s->energy0 == 0.0) s->energy0 = rz;
-        if (rz <= peri__square(s->settings->energy_tolerance) * s->energy0) return PERI_OK;
+        if (rz <= peri__square(s->settings->energy_tolerance) * s->energy0) {
+            s->energy_done = k == 0 || peri__is_linear(b);
+            return PERI_OK;
+        }
         s->k.beta = k == 0 ? 0.0 : rz / before;
         (void)peri__krylov_pass(s, b->ops->krylov_turn);
         bent = peri__stiffness_times(s, at_rest, &square);
-        if (!(bent > none * square * s->stiff)) {
+        if (!(bent > none * square * s->softest)) {
             s->k.alpha = k == 0 ? 1.0 : 0.0;
             s->slope += s->k.alpha * rz;
             (void)peri__krylov_pass(s, b->ops->krylov_step);
-            return bent < -none * square * s->stiff ? PERI_ERROR_INDEFINITE : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
+            return bent < less * square * s->stiff ? PERI_ERROR_INDEFINITE : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
         }
         s->k.alpha = rz / bent;
         s->slope += s->k.alpha * rz;

@@ -7,12 +7,6 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-static int peri__is_linear(const peri_body *b) {
-    for (int64_t k = 0; k < b->obstacle_count; ++k)
-        if (b->obstacles[k].kind) return 0;
-    return b->desc.geometry == PERI_LINEAR;
-}
-
 static double peri__solve_tolerance(const peri__solver *s) {
     return s->settings->tolerance > 0.0 ? s->settings->tolerance : s->body->f32 ? 1e-4 : 1e-8;
 }
@@ -73,25 +67,35 @@ static double peri__static_residual(peri__solver *s, double loads) {
     return peri__measure(s, peri__krylov_pass(s, s->body->ops->krylov_norm), loads);
 }
 
-/* The rounding of forces: K times that of the displacements, as they are and as supports will make them. */
+/* The rounding of forces: the diagonal of K times that of the displacements, as they are and as supports will make them; the largest of
+   this equilibrium. */
 static void peri__note_floor(peri__solver *s) {
     const peri_body *b = s->body;
-    void *r = s->k.r;
-    s->k.r = b->u;
-    peri__sums sums = peri__krylov_pass(s, b->ops->krylov_norm);
-    s->k.r = r;
-    s->floor = (b->f32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON) * s->stiff
-             * (sqrt(sums.a + sums.b) + s->widest * sqrt((double)b->model->points));
+    const peri__model *m = b->model;
+    const int inverted = s->settings->method != PERI_RELAXATION;
+    double square = 0.0, rounding;
+    for (int64_t i = 0; i < m->points; ++i) {
+        double moved = 0.0, trace = 0.0, stiff = s->stiff;
+        int frees = 0;
+        for (int32_t d = 0; d < m->dim; ++d) {
+            moved += peri__square(fabs(peri__get_real(b->u, b->f32, d * m->stride + i)) + s->widest);
+            trace += inverted ? peri__get_real(s->blocks, b->f32, d * m->stride + i) : 0.0;
+            frees += !(s->held[i] >> d & 1);
+        }
+        if (frees == 0) continue;
+        if (trace > 0.0) stiff = frees / trace;
+        square += stiff * stiff * moved;
+    }
+    rounding = (b->f32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON) * sqrt(square);
+    if (rounding > s->floor) s->floor = rounding;
+}
+
+static int peri__is_settled(const peri__solver *s, double residual, double loads) {
+    return residual <= peri__solve_tolerance(s) * s->scale || peri__is_nothing(s, residual, loads);
 }
 
 static void peri__tell_residual(peri__solver *s, double residual) {
     s->report.residual = !(residual < HUGE_VAL) ? HUGE_VAL : s->scale > 0.0 ? residual / s->scale : 0.0;
-}
-
-/* The first residual of an equilibrium is the scale where loads and reactions are smaller. */
-static void peri__note_start(peri__solver *s, double residual) {
-    s->start = residual > s->scale ? residual : 0.0;
-    if (s->scale < s->start) s->scale = s->start;
 }
 
 /* ---- supports ----------------------------------------------------------------------------------------------------- */
@@ -175,6 +179,21 @@ static int peri__at_rest(const peri_body *b) {
     return 1;
 }
 
+/* The point that the last direction moves most. */
+static int64_t peri__most_moved(const peri__solver *s) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    double most = 0.0;
+    int64_t at = 0;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            double moved = fabs(peri__get_real(s->k.p, b->f32, d * m->stride + i));
+            if (moved > most) at = i;
+            if (moved > most) most = moved;
+        }
+    return at;
+}
+
 static double peri__slope(peri__solver *s) {
     void *z = s->k.z;
     s->k.z = s->k.d;
@@ -234,16 +253,15 @@ static int32_t peri__newton(peri__solver *s) {
     const int linear = peri__is_linear(b);
     double last = HUGE_VAL, loads = peri__static_forces(s);
     s->negative = s->energy_done = 0;
-    s->start = 0.0;
+    s->floor = 0.0;
     for (int64_t k = 0;; ++k) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;
         double residual = peri__static_residual(s, loads);
-        if (k == 0) peri__note_start(s, residual);
         int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
-        if (!gap && (peri__is_small(s, residual, peri__solve_tolerance(s)) || s->energy_done))
+        if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))
             return s->negative ? peri__fail(b, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
         if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))
             return peri__fail(b, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
@@ -251,13 +269,13 @@ static int32_t peri__newton(peri__solver *s) {
         double reach = peri__newton_reach(s, residual, gap);
         last = residual;
         s->report.newton++;
-        s->negative = 0;
+        s->negative = s->energy_done = 0;
         if (s->settings->method == PERI_BICGSTAB) status = peri__solve_assembled(s, reach, loads);
         else status = peri__conjugate(s, reach, loads, at_rest);
         s->negative = status == PERI_ERROR_INDEFINITE;
         if (status == PERI_ERROR_MEMORY) return status;
-        if (status == PERI_ERROR_LOOSE || (linear && s->negative)) return peri__fail(b, status, "tangent", -1, 0.0);
-        s->energy_done = linear && s->settings->energy_tolerance > 0.0;
+        if (status == PERI_ERROR_LOOSE || (linear && s->negative))
+            return peri__fail(b, status, "tangent", peri__most_moved(s), 0.0);
         if (linear || gap) {
             if (linear || status != PERI_STOPPED) peri__move(s, 1.0);
             if (status != PERI_STOPPED) loads = peri__static_forces(s);

@@ -259,7 +259,7 @@ static int32_t peri__meet_supports(peri_body *b) {
     for (int64_t s = 0; s < b->load_count; ++s) {
         peri__load *load = &b->loads[s];
         if (!load->owned) continue;
-        int32_t status = load->kind == PERI__VELOCITY ? peri__refresh_load(b, load, b->time) : PERI_OK;
+        int32_t status = load->kind == PERI__VELOCITY ? peri__refresh_load(b, load, peri__load_time(b)) : PERI_OK;
         if (status < 0) return status;
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {

@@ -8,6 +8,10 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+#define PERI_RESISTED(b) ((b)->f32 ? 1e-5 : 1e-9) /* stiffness of a point in a direction, over its largest, that counts as some */
+
+#define PERI_WEIGHTLESS 1e-7 /* of the heaviest bond of a family: w vanishes at the horizon, but for rounding             */
+
 static double peri__place(const peri_body *b, int64_t i, int32_t d) {
     int64_t at = d * b->model->stride + i;
     return peri__get_real(b->model->x, b->f32, at) + (b->desc.geometry == PERI_LINEAR ? 0.0 : peri__get_real(b->u, b->f32, at));
@@ -41,8 +45,11 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
         int64_t i = s->queue[n];
         peri__row row;
         peri__read_row(b->model, b->f32, i, &row);
+        double heaviest = 0.0;
+        for (int64_t k = 0; k < row.count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row.weight, b->f32, k)));
         for (int64_t k = 0; k < row.count; ++k)
-            if (s->part_of[row.ids[k]] < -1 && peri__is_alive(b, i, k)) {
+            if (s->part_of[row.ids[k]] < -1 && peri__is_alive(b, i, k)
+                && fabs(peri__get_real(row.weight, b->f32, k)) + fabs(peri__get_real(row.back, b->f32, k)) > PERI_WEIGHTLESS * heaviest) {
                 s->part_of[row.ids[k]] = mark;
                 s->queue[count++] = row.ids[k];
             }
@@ -222,30 +229,63 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
     }
 }
 
+/* Leaves the free directions of a packed matrix; returns their number. */
+static int peri__free_block(int dim, uint8_t held, double *block) {
+    int frees = 0;
+    for (int d = 0; d < dim; ++d) {
+        frees += !(held >> d & 1);
+        for (int c = 0; c < dim && (held >> d & 1); ++c) block[peri__packed(dim, d, c)] = 0.0;
+    }
+    return frees;
+}
+
+/* In how many free directions the bonds of a point resist at all, however little: the rank of the sum of n n. */
+static int peri__directions(const peri_body *b, int64_t i, uint8_t held) {
+    const peri__model *m = b->model;
+    double spread[6] = { 0.0 }, inverse[6], heaviest = 0.0;
+    peri__row row;
+    peri__read_row(m, b->f32, i, &row);
+    for (int64_t k = 0; k < row.count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row.weight, b->f32, k)));
+    for (int64_t k = 0; k < row.count; ++k) {
+        double n[3] = { 0.0 }, square;
+        if (!peri__is_alive(b, i, k) || !(fabs(peri__get_real(row.weight, b->f32, k)) > PERI_WEIGHTLESS * heaviest)) continue;
+        for (int d = 0; d < m->dim; ++d) n[d] = peri__place(b, row.ids[k], d) - peri__place(b, i, d);
+        square = peri__dot(n, n, m->dim);
+        if (square > 0.0) peri__add_dyad(m->dim, 1.0 / square, n, 0.0, spread);
+    }
+    (void)peri__free_block(m->dim, held, spread);
+    return peri__invert(m->dim, spread, b->f32 ? 1e-6 : 1e-9, inverse);
+}
+
 /* Inverts the diagonal blocks on what is free. Points whose bonds do not resist in all free directions are refused, or marked; those
    whose bonds push where they should resist are refused. */
 static int32_t peri__invert_blocks(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     const int packed = PERI_PACKED(m->dim);
-    const double cut = b->f32 ? 1e-5 : 1e-9;
+    const double cut = PERI_RESISTED(b);
     double last[6] = { 0.0 }, inverse[6] = { 0.0 };
-    s->hanging = 0;
     int spanned = 0;
+    s->hanging = 0;
+    s->softest = HUGE_VAL;
     for (int64_t i = 0; i < m->points; ++i) {
-        double block[6] = { 0.0 };
-        int frees = 0;
+        double block[6] = { 0.0 }, trace = 0.0;
         for (int k = 0; k < packed; ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
-        for (int d = 0; d < m->dim; ++d) {
-            frees += !(s->held[i] >> d & 1);
-            for (int c = 0; c < m->dim && (s->held[i] >> d & 1); ++c) block[peri__packed(m->dim, d, c)] = 0.0;
-        }
+        for (int d = 0; d < m->dim; ++d) trace += block[d];
+        if (trace > 0.0 && trace < s->softest) s->softest = trace;
+        int frees = peri__free_block(m->dim, s->held[i], block);
         if (memcmp(block, last, sizeof block) != 0) { /* in a lattice most are equal */
             memcpy(last, block, sizeof last);
             spanned = peri__invert(m->dim, block, cut, inverse);
             if (peri__is_negative(m->dim, block, cut)) return peri__fail(b, PERI_ERROR_INDEFINITE, "point", i, 0.0);
         }
-        if (spanned < frees) {
+        if (spanned < frees && peri__directions(b, i, s->held[i]) == frees) { /* soft beside stiff */
+            peri__diagonal_block(b, i, block);
+            (void)peri__free_block(m->dim, s->held[i], block);
+            (void)peri__invert(m->dim, block, DBL_EPSILON, inverse);
+            memset(last, 0, sizeof last);
+            spanned = 0;
+        } else if (spanned < frees) {
             if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, 0.0);
             s->held[i] |= PERI_HANGING;
             s->hanging++;
@@ -263,7 +303,7 @@ static void peri__drop_hanging(peri__solver *s, void *vector) {
         double block[6], inverse[6], force[3], range[3], kept[3];
         if (!(s->held[i] & PERI_HANGING)) continue;
         for (int k = 0; k < PERI_PACKED(m->dim); ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
-        (void)peri__invert(m->dim, block, 1e-12, inverse);
+        (void)peri__invert(m->dim, block, 0.5 * PERI_RESISTED(b), inverse); /* what was kept is no further apart than that */
         for (int d = 0; d < m->dim; ++d) force[d] = peri__get_real(vector, b->f32, d * m->stride + i);
         for (int d = 0; d < m->dim; ++d) { /* inverse of the inverse times the inverse: the projector on its range */
             range[d] = 0.0;

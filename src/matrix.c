@@ -320,7 +320,7 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
         peri__sums sums = { peri__free_dot(scale, r, r, n), 0.0, 0, -1 };
         for (int64_t k = 0; k < n; ++k) sums.b += scale[k] == 0.0 ? r[k] * r[k] : 0.0;
         double residual = peri__measure(s, sums, loads), next = peri__free_dot(scale, shadow, r, n);
-        if (peri__is_small(s, residual, reach)) return PERI_OK;
+        if (residual <= reach * s->scale || peri__is_nothing(s, residual, loads)) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         double beta = omega != 0.0 ? next / rho * alpha / omega : 0.0;
         if (next == 0.0 || beta == 0.0) { /* broken down: again from here */
@@ -335,6 +335,7 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
         }
         peri__multiply_matrix(a, y, v);
         alpha = rho / peri__free_dot(scale, shadow, v, n);
+        if (!peri__finite(alpha)) return PERI_ERROR_CONVERGENCE; /* broken down: x and r are whole                       */
         for (int64_t k = 0; k < n; ++k) {
             x[k] += alpha * y[k];
             r[k] -= alpha * v[k];
@@ -352,6 +353,23 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
     }
 }
 
+/* Adds the stiffness of the obstacles that points are in, V k n n. */
+static void peri__add_contact(peri_matrix *a, const peri_body *b) {
+    const int dim = a->dim;
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        for (int64_t i = 0; b->obstacles[k].kind && i < a->points; ++i) {
+            double push[3] = { 0.0, 0.0, 0.0 }, square;
+            int64_t at = a->start[i];
+            peri__push(b, &b->obstacles[k], i, push);
+            square = peri__dot(push, push, dim);
+            if (!(square > 0.0)) continue;
+            while (a->column[at] != i) ++at;
+            for (int r = 0; r < dim; ++r)
+                for (int c = 0; c < dim; ++c)
+                    a->block[(at * dim + r) * dim + c] += b->model->volume[i] * b->obstacles[k].stiffness * push[r] * push[c] / square;
+        }
+}
+
 /* As peri__conjugate, by BiCGSTAB on the assembled tangent. */
 static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads) {
     peri_body *b = s->body;
@@ -360,6 +378,7 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
     peri_matrix *a = NULL;
     int32_t status = peri_assemble(b, &a);
     if (status < 0) return status;
+    peri__add_contact(a, b);
     double *work = (double *)peri__new(&b->memory, 8 * n, sizeof *work);
     int64_t bytes = s->bytes + 8 * n * (int64_t)sizeof *work + a->pairs * (m->dim * m->dim * 8 + 4);
     if (bytes > s->report.bytes) s->report.bytes = bytes;

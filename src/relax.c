@@ -36,11 +36,8 @@ static void peri__relax_step(peri__solver *s, double unit, int64_t k) {
 static int32_t peri__relax(peri__solver *s) {
     peri_body *b = s->body;
     double unit = 1.1 / peri__square(peri__stable(b));
-    double loads = peri__static_forces(s), residual; /* the scale of the start is that before supports jump */
-    if (loads < 0.0) return (int32_t)loads;
-    s->start = 0.0;
-    residual = peri__static_residual(s, loads);
-    peri__note_start(s, residual);
+    double loads, residual;
+    s->floor = 0.0;
     if (peri__gap(s)) peri__move(s, 1.0);
     memset(s->k.p, 0, peri__vector_bytes(b));
     for (int64_t k = 0;; ++k) {
@@ -52,7 +49,7 @@ static int32_t peri__relax(peri__solver *s) {
         residual = peri__static_residual(s, loads);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
-        if (peri__is_small(s, residual, peri__solve_tolerance(s))) return PERI_OK;
+        if (peri__is_settled(s, residual, loads)) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
         peri__relax_step(s, unit, k);
         int32_t status = peri__count_iteration(s, s->report.residual);

@@ -151,6 +151,22 @@ static int32_t peri__static_values(peri_body *b) {
     return PERI_OK;
 }
 
+/* What loads and supports do to the body as it stands, for the ledger. */
+static int32_t peri__note_forces(peri__solver *s) {
+    peri_body *b = s->body;
+    int32_t status = peri__static_values(b);
+    if (status < 0) return status;
+    memset(s->held, 0, (size_t)b->model->points);
+    s->part_count = s->hanging = 0;
+    peri__update_lanes(b);
+    peri__refresh(b);
+    double loads = peri__static_forces(s);
+    if (loads < 0.0) return (int32_t)loads;
+    peri__mark_supports(s);
+    peri__count_work(s, NULL);
+    return PERI_OK;
+}
+
 /* Equilibrium at a load factor, with all that breaks there. */
 static int32_t peri__static_step(peri__solver *s, double factor) {
     peri_body *b = s->body;
@@ -158,7 +174,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     b->load_factor = factor;
     b->force_current = 0;
     int32_t status = peri__static_values(b);
-    double broken = 0.0; /* elastic energy after the last bonds broke */
+    double broken = s->disturbed ? peri__static_energy(b) : 0.0; /* elastic energy after bonds broke, or on_step changed the body */
     for (int64_t round = 0; status == PERI_OK; ++round) {
         status = peri__prepare(s, round == 0);
         s->left = s->settings->iterations;
@@ -172,12 +188,12 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
             memcpy(b->f, s->k.z, peri__vector_bytes(b));
             peri__bond_forces(b, &step);
         }
-        double external = b->ledger.external, energy;
+        double external = b->ledger.external, energy = 0.0;
         peri__count_work(s, s->from);
-        if (!peri__may_break(s)) break;
-        energy = peri__static_energy(b);
-        if (round > 0) b->ledger.damping += b->ledger.external - external - (energy - broken);
-        if (peri__break_static(s) == 0) break;
+        if (peri__may_break(s) || s->disturbed) energy = peri__static_energy(b);
+        if (round > 0 || s->disturbed) b->ledger.damping += b->ledger.external - external - (energy - broken);
+        s->disturbed = 0;
+        if (!peri__may_break(s) || peri__break_static(s) == 0) break;
         broken = peri__static_energy(b);
         b->ledger.fracture += energy - broken;
         if (round >= s->settings->breaks) status = peri__fail(b, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
@@ -190,7 +206,7 @@ static int32_t peri__record(peri__solver *s) {
     const peri_statics *st = s->settings;
     const int32_t dim = b->dim;
     double force[3];
-    if (st->curve_load < 0) return PERI_OK;
+    if (st->curve_load < 0 || b->loads[st->curve_load].kind == PERI__FREE) return PERI_OK;
     int32_t status = peri_read_reaction(b, st->curve_load, force);
     if (status < 0) return status;
     if (s->report.curve_rows < st->curve_rows) {
@@ -224,7 +240,9 @@ static int32_t peri__show_step(peri__solver *s) {
     int32_t stop = s->settings->on_step(s->settings->user, b);
     b->running = 2;
     if (b->desc.ledger) peri__settle(b);
-    return stop ? PERI_STOPPED : PERI_OK;
+    s->disturbed = b->desc.ledger && !b->force_current;
+    if (s->disturbed) status = peri__note_forces(s);
+    return status < 0 ? status : stop ? PERI_STOPPED : PERI_OK;
 }
 
 /* From one planned load factor to the next, in as many steps as it takes. */
@@ -265,19 +283,8 @@ static int32_t peri__load_steps(peri__solver *s) {
     memset(b->v, 0, peri__vector_bytes(b));
     b->still = 1;
     b->force_current = 0;
-    if (s->load) { /* what acts before the first step, at its load factor */
-        b->load_factor = from;
-        status = peri__static_values(b);
-        memset(s->held, 0, (size_t)b->model->points);
-        peri__update_lanes(b);
-        peri__refresh(b);
-        if (status == PERI_OK) {
-            double loads = peri__static_forces(s);
-            if (loads < 0.0) status = (int32_t)loads;
-            else peri__mark_supports(s);
-        }
-        if (status == PERI_OK) peri__count_work(s, NULL);
-    }
+    b->load_factor = from;
+    if (s->load) status = peri__note_forces(s);
     for (int64_t k = 1; k <= st->steps && status == PERI_OK; ++k) {
         double to = k < st->steps ? st->load_from + (st->load_to - st->load_from) * (double)k / (double)st->steps : st->load_to;
         status = peri__load_step(s, from, to);

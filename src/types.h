@@ -264,13 +264,14 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     peri__multilevel   *levels;
     int64_t             hanging;  /* points that are                                                                      */
     double              stiff;    /* mean of the diagonal of the stiffness                                               */
+    double              softest;  /* the smallest trace of a diagonal block                                              */
     double              scale;    /* the larger of |loads| and |reactions|                                               */
     double              slope;    /* r.d of the last linear solve, r as it was before                                     */
-    double              start;    /* |r| at the start of this equilibrium where it was larger than these                  */
     double              widest;   /* the longest way that a held component still had to go                                */
     double              floor;    /* |r| that is rounding, of bonds over displacements                                   */
     double              energy0;  /* r.z at the start of this equilibrium                                                */
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
+    int32_t             disturbed; /* 1: on_step has changed what acts, or the bonds                                      */
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
     int64_t             bytes;    /* taken now                                                                           */
     int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */

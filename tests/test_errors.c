@@ -2,28 +2,7 @@
 
    SOURCE OF TRUTH: peri.h: the texts of PERI_STATUS_LIST and of each function ("a call that fails has changed nothing").
    One story (build a body, load it, run it) is told twice, once with every wrong call in between; the bits must agree. */
-#include "test_scene.h"
-
-static int reached[64]; /* by code + 32 */
-static peri_error seen; /* the record of the last refusal */
-
-/* The call must have returned `code` and left a complete record of it (where the function can: body not NULL, not const). */
-static void refuse(const peri_body *b, int32_t code, int64_t result, const char *text, int line) {
-    if (result != code) {
-        test_bad++;
-        printf("    line %d: %s gave %d (%s), expected %d\n", line, text, (int)result, peri_status_text((int32_t)result), code);
-    } else reached[code + 32] = 1;
-    if (!b) return;
-    memset(&seen, 0, sizeof seen);
-    if (peri_last_error(b, &seen) != PERI_OK || seen.code != code || !seen.field || !seen.text || !seen.text[0] || seen.reserved) {
-        test_bad++;
-        printf("    line %d: %s: record: code %d, index %d, field %s, text %s\n", line, text, (int)seen.code, (int)seen.index,
-               seen.field ? seen.field : "NULL", seen.text ? seen.text : "NULL");
-    }
-}
-#define REFUSE(body, code, call)  refuse((body), (code), (int64_t)(call), #call, __LINE__)
-#define REFUSE_CONST(code, call)  refuse(NULL, (code), (int64_t)(call), #call, __LINE__) /* const body: no record */
-#define FIELD_IS(name)            CHECK(seen.field && strstr(seen.field, name) != NULL)
+#include "test_refuse.h"
 
 static int32_t take_none(void *user, int64_t index, const double *x) {
     (void)user;
@@ -541,6 +520,40 @@ static void found_while_running(void) {
     peri_body_destroy(b);
 }
 
+/* 1 - 13 (1 - q)^4: pushes between nearest neighbours, and a tangent that is not positive. */
+static double pushing(void *user, double q) {
+    (void)user;
+    return 1 - 13 * pow(1 - q, 4);
+}
+
+static void found_by_the_solver(void) {
+    const double lo[2] = {0, 0}, hi[2] = {1.2, 0.8}, grip[2] = {0.3, 0.8}, g[2] = {1e-3, 0};
+    peri_body *b = block(PERI_PLANE_STRAIN, PERI_F64, PERI_LINEAR, 8, 8, 1);
+    peri_body_desc d;
+    peri_statics s;
+    peri_statics_init(&s);
+    REFUSE(b, PERI_ERROR_LOOSE, peri_solve(b, &s, NULL));
+    (void)MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, grip)), 3, NULL, NULL, NULL));
+    (void)MUST(b, peri_apply_body_force(b, PERI_ALL, g, NULL, NULL));
+    s.iterations = 1;
+    REFUSE(b, PERI_ERROR_CONVERGENCE, peri_solve(b, &s, NULL));
+    peri_body_destroy(b);
+    peri_body_desc_init(&d);
+    d.space = PERI_PLANE_STRESS;
+    d.geometry = PERI_LINEAR;
+    d.horizon = 0.3;
+    d.influence = PERI_INFLUENCE_USER;
+    d.influence_fn = pushing;
+    b = test_unit_body(&d, 0);
+    (void)MUST(b, peri_add_box(b, 0, lo, hi, 0.1));
+    (void)MUST(b, peri_build(b));
+    (void)MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, grip)), 3, NULL, NULL, NULL));
+    (void)MUST(b, peri_apply_body_force(b, PERI_ALL, g, NULL, NULL));
+    s.iterations = 1000;
+    REFUSE(b, PERI_ERROR_INDEFINITE, peri_solve(b, &s, NULL));
+    peri_body_destroy(b);
+}
+
 /* ---- texts -------------------------------------------------------------------------------------------------------- */
 
 /* SOURCE OF TRUTH: peri_error_format's contract; lengths counted here. */
@@ -588,6 +601,7 @@ int main(int argc, char **argv) {
     RUN(clouds_that_cannot_be_built);
     RUN(wrong_calls_change_nothing);
     RUN(found_while_running);
+    RUN(found_by_the_solver);
     RUN(errors_format);
     RUN(status_texts);
     if (!test_filter) RUN(every_status_was_reached); /* by the cases above */

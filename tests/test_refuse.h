@@ -1,0 +1,28 @@
+/* test_refuse.h - calls that must fail: the code, the whole record, and which codes were seen. */
+#ifndef TEST_REFUSE_H
+#define TEST_REFUSE_H
+
+#include "test_scene.h"
+
+static int reached[64]; /* by code + 32 */
+static peri_error seen; /* the record of the last refusal */
+
+/* The call must have returned `code` and left a complete record of it (where the function can: body not NULL, not const). */
+static void refuse(const peri_body *b, int32_t code, int64_t result, const char *text, int line) {
+    if (result != code) {
+        test_bad++;
+        printf("    line %d: %s gave %d (%s), expected %d\n", line, text, (int)result, peri_status_text((int32_t)result), code);
+    } else reached[code + 32] = 1;
+    if (!b) return;
+    memset(&seen, 0, sizeof seen);
+    if (peri_last_error(b, &seen) != PERI_OK || seen.code != code || !seen.field || !seen.text || !seen.text[0] || seen.reserved) {
+        test_bad++;
+        printf("    line %d: %s: record: code %d, index %d, field %s, text %s\n", line, text, (int)seen.code, (int)seen.index,
+               seen.field ? seen.field : "NULL", seen.text ? seen.text : "NULL");
+    }
+}
+#define REFUSE(body, code, call)  refuse((body), (code), (int64_t)(call), #call, __LINE__)
+#define REFUSE_CONST(code, call)  refuse(NULL, (code), (int64_t)(call), #call, __LINE__) /* const body: no record */
+#define FIELD_IS(name)            CHECK(seen.field && strstr(seen.field, name) != NULL)
+
+#endif
