@@ -37,7 +37,7 @@ static void peri__set_array(peri_body *b, const peri__array *array, void *pointe
 
 static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const peri__model *m = b->model;
-    const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = n * m->width;
+    const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = m->entries;
     const int64_t constants = m->tensors ? PERI__INVERSE + PERI_PACKED(m->dim) : PERI__VECTOR;
     const int32_t states = m->states, breaks = m->states && m->breakable;
     const size_t real = peri__real(b);

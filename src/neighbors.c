@@ -1,5 +1,5 @@
-/* neighbors.c - points to families: the N x M array Ibond of [T] 3.11. Row i holds the ids of the family of i, ascending, and is padded
-   with i. Found by a grid of cells no smaller than the reach, so in O(N) for any cloud; or checked where the caller gave them. */
+/* neighbors.c - points to families: the array Ibond of [T] 3.11, its rows without padding. Row i holds the ids of the family of i,
+   ascending. Found by a grid of cells no smaller than the reach, so in O(N) for any cloud; or checked where the caller gave them. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -110,7 +110,6 @@ static void peri__count_block(void *context, int64_t begin, int64_t end, peri__s
             count = 0;
         }
         c->model->count[i] = (int32_t)count;
-        sums->n += count;
     }
 }
 
@@ -119,16 +118,29 @@ static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__su
     peri__model *m = c->model;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
-        int32_t *row = &m->ids[i * m->width];
-        int64_t count = peri__visit_family(c, i, row, m->width);
-        peri__sort_row(row, count);
-        for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
+        int32_t *row = &m->ids[m->start[i]];
+        peri__sort_row(row, peri__visit_family(c, i, row, m->count[i]));
     }
+}
+
+/* Room for the rows, by m->count. 0 where memory is short. */
+static int peri__make_rows(peri__model *m) {
+    m->start = (int64_t *)peri__new(&m->memory, m->points + 1, sizeof *m->start);
+    if (!m->start) return 0;
+    m->width = 1;
+    for (int64_t i = 0; i < m->points; ++i) {
+        m->start[i + 1] = m->start[i] + m->count[i];
+        if (m->count[i] > m->width) m->width = m->count[i];
+    }
+    m->bonds = m->start[m->points];
+    m->entries = m->bonds + PERI_LANES;
+    m->ids = (int32_t *)peri__new(&m->memory, m->entries, sizeof *m->ids);
+    return m->ids != NULL;
 }
 
 /* Place of j in row i of the list, or -1. */
 static int64_t peri__find_listed(const peri__model *m, int64_t i, int64_t j) {
-    const int32_t *row = &m->ids[i * m->width];
+    const int32_t *row = &m->ids[m->start[i]];
     int64_t lo = 0, hi = m->count[i];
     while (lo < hi) {
         int64_t mid = (lo + hi) / 2;
@@ -155,14 +167,10 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
         int64_t i = k / s->ibond_width, j = s->ibond[k];
         if (j < 0 || j >= m->points) return peri__fail(b, PERI_ERROR_IBOND, "ibond", k, (double)j);
         m->count[i] += j != i;
-        m->bonds += j != i;
-        if (m->count[i] > m->width) m->width = m->count[i];
     }
-    if (m->width == 0) m->width = 1;
-    m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
-    if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    if (!peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     for (int64_t i = 0; i < m->points; ++i) {
-        int32_t *row = &m->ids[i * m->width];
+        int32_t *row = &m->ids[m->start[i]];
         int64_t count = 0;
         for (int64_t k = i * s->ibond_width; k < (i + 1) * s->ibond_width; ++k)
             if (s->ibond[k] != i) row[count++] = s->ibond[k];
@@ -170,11 +178,10 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
         for (int64_t k = 1; k < count; ++k)
             if (row[k] == row[k - 1])
                 return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, row[k]), (double)row[k]);
-        for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
     }
     for (int64_t i = 0; i < m->points; ++i)
         for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t j = m->ids[i * m->width + k];
+            int64_t j = m->ids[m->start[i] + k];
             double square = 0.0;
             if (peri__find_listed(m, j, i) < 0)
                 return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, j), (double)j);
@@ -197,15 +204,9 @@ static int32_t peri__sort_cloud(peri_body *b, peri__cloud *c) {
 static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__model *m = c->model;
     peri__for_points(b, m->points, 256, peri__count_block, c, sums);
-    peri__sums total = peri__total(sums, m->points);
-    m->bonds = total.n;
     for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].bad >= 0) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", sums[k].bad, sums[k].a);
-    for (int64_t i = 0; i < m->points; ++i)
-        if (m->count[i] > m->width) m->width = m->count[i];
-    if (m->width == 0) m->width = 1;
-    m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
-    if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    if (!peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     peri__for_points(b, m->points, 4 * m->width, peri__fill_block, c, NULL);
     return PERI_OK;
 }

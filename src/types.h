@@ -125,12 +125,15 @@ typedef struct peri__model {
     uint8_t   *material; /* [points]                                                                                     */
     int32_t   *count;    /* [points] family sizes                                                                        */
     peri__lanes lanes;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
-    int32_t   *ids;      /* [points][width] Ibond: ascending ids, padded with the row's own                              */
-    void      *weight;   /* real [points][width] w(|xi|) beta V_j, 0 in the padding                                      */
-    void      *bond;     /* real [points][width] |xi|, 1 in the padding                                                  */
-    void      *back;     /* real [points][width] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal */
-    void      *centroid; /* real [points][width][dim] bond to the centroid of the part; NULL but for that rule           */
-    float     *part;     /* [points][width] beta V_j; NULL for whole cells                                               */
+    int64_t   *start;    /* [points+1] entries of the rows before: row i is entries start[i] to start[i+1] of the list   */
+    int64_t    entries;  /* bonds, and PERI_LANES more that kernels may read                                             */
+    int32_t   *ids;      /* [entries] Ibond without its padding: ascending ids                                           */
+    void      *weight;   /* real [entries] w(|xi|) beta V_j                                                              */
+    void      *back;     /* real [entries] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal  */
+    void      *bond;     /* real [entries] |xi|; NULL where x tells: not with the centroid rule, for families larger than the
+                            room of peri__row, and where single precision blurs it                                       */
+    void      *centroid; /* real [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
+    float     *part;     /* [entries] beta V_j; NULL for whole cells                                                     */
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
@@ -152,7 +155,7 @@ typedef union peri__reals {
 } peri__reals;
 
 typedef struct peri__row { /* the family of a point, see peri__read_row; 25 kB, and not to be copied                      */
-    int64_t        count;
+    int64_t        count, first;          /* first: its entry in the list; 0 on columns                                   */
     const int32_t *ids;                   /* ascending                                                                    */
     const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
     const float   *part;                  /* NULL for whole cells                                                         */
@@ -337,8 +340,8 @@ struct peri_body {
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
     uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
-    void     *work;          /* real [points][width] work done on bonds; NULL, like the next, without that criterion     */
-    void     *pull;          /* real [points][width][dim] force density of bonds when last worked out                    */
+    void     *work;          /* real [entries] work done on bonds; NULL, like the next, without that criterion           */
+    void     *pull;          /* real [entries][dim] force density of bonds when last worked out                          */
     void     *worked;        /* real [dim][stride] displacement then                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
