@@ -204,6 +204,8 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     m->lanes.isa = peri__isa();
     m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
     m->words = (m->width + 31) / 32;
+    if (m->start && !m->bond && !b->desc.reference && (!m->states || (m->ordinary && !m->works && !m->nodes)))
+        m->slots = dim == 2 && !m->states && m->materials == 1 ? 4 : 8;
     return status;
 }
 

@@ -3,7 +3,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_BLUR 1e-3 /* relative                                                                                    */
+#define PERI_BLUR 1e-3
 
 static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
     if (f32) ((float *)array)[at] = (float)value;
@@ -68,14 +68,15 @@ static int peri__weigh_bond(const peri__cloud *c, peri__parts *parts, int64_t i,
     return peri__finite(w);
 }
 
-/* Is the length of bond (i, j) lost in the rounding of the places of its ends? Only in single precision, of points very near each other. */
+/* Is the length of bond (i, j) lost in the rounding of the places of its ends? Only in single precision, of points very near each other:
+   so near that fourth powers of the length are out of range, too. */
 static int peri__is_blurred(const peri__cloud *c, int64_t i, int64_t j, double length) {
     const peri__model *m = c->model;
     double square = 0.0;
     if (!c->body->f32) return 0;
     for (int32_t d = 0; d < m->dim; ++d)
         square += peri__square(peri__get_real(m->x, 1, d * m->stride + j) - peri__get_real(m->x, 1, d * m->stride + i));
-    return fabs(sqrt(square) - length) > PERI_BLUR * length;
+    return length < PERI_BLUR || fabs(sqrt(square) - length) > PERI_BLUR * length;
 }
 
 /* Weights of a block of rows. sums->bad with sums->n = status; sums->a: blurred bonds. */

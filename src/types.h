@@ -134,6 +134,7 @@ typedef struct peri__model {
                             room of peri__row, and where single precision blurs it                                       */
     void      *centroid; /* real [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
     float     *part;     /* [entries] beta V_j; NULL for whole cells                                                     */
+    int32_t    slots;    /* reals per record of body->pack: 4 or 8; 0 where k_list.inl does not serve                    */
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
@@ -286,6 +287,8 @@ typedef struct peri__ledger { /* inner units of energy                          
 } peri__ledger;
 
 struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn, on a peri__step unless said       */
+    void (*pack)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or respond on the list     */
+    void (*pack_response)(void *, int64_t, int64_t, peri__sums *); /* p; before share                                   */
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* bond-based                                               */
     void (*respond)(void *, int64_t, int64_t, peri__sums *); /* state-based: what each point makes of its family, then   */
     void (*respond_rows)(void *, int64_t, int64_t, peri__sums *);
@@ -319,6 +322,8 @@ struct peri_body {
     peri__model      *model; /* NULL before peri_build                                                                   */
     const peri__ops  *ops;
     void     *u, *v, *f;     /* real [dim][stride]; f: force density                                                     */
+    void     *pack;          /* real [points][slots] for k_list.inl: x, u, then p and q of state-based laws, or the material; NULL where
+                                slots is 0. Scratch: filled before each pass                                             */
     uint32_t *alive;         /* [points][words] bond carries force; NULL where nothing can break and nothing is cut      */
     uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
     uint32_t *before;        /* [points][words] alive before the step, for break events; NULL without a callback         */
