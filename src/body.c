@@ -76,9 +76,11 @@ static void peri__free_list(peri__model *m, size_t real) {
     peri__delete(&m->memory, m->bond, entries, real);
     peri__delete(&m->memory, m->centroid, entries * m->dim, real);
     peri__delete(&m->memory, m->part, entries, sizeof *m->part);
-    peri__delete(&m->memory, m->start, m->points + 1, sizeof *m->start);
+    peri__delete(&m->memory, m->start, m->points, sizeof *m->start);
+    peri__delete(&m->memory, m->order, m->points, sizeof *m->order);
     m->entries = 0;
     m->start = NULL;
+    m->order = NULL;
     m->ids = NULL;
     m->weight = m->bond = m->back = m->centroid = NULL;
     m->part = NULL;

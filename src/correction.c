@@ -159,7 +159,7 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
     peri__model *m = f->cloud->model;
     (void)sums;
     for (int64_t i = begin; i < end; ++i)
-        for (int64_t at = m->start[i]; at < m->start[i + 1]; ++at) {
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
             int64_t j = m->ids[at];
             double own = f->factor[at], other = f->factor[m->start[j] + peri__find_listed(m, j, i)];
             double weight = peri__get_real(m->weight, b->f32, at);

@@ -84,7 +84,8 @@ static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *
 static void PERI_FN(force_list)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = step->body->model;
     peri_r *force = (peri_r *)step->body->f;
-    for (int64_t i = begin; i < end; ++i) {
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
         peri_r f[PERI_D];
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride + i];
         if (PERI_ON_LANES(m->lanes.isa, list_force, (step, i, f))) PERI_FN(force_rows)(step, i, i + 1, sums);

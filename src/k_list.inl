@@ -36,8 +36,8 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(chunk)(PERI_LANES_FN(piece) *s,
     for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) PERI_LANES_FN(span)(s + n, pack, slots, ids + n * PERI_WIDTH, own, linear);
 }
 
-/* product: |xi| |y|; returns R = |xi| (|y| + |xi|). Then |xi| e = |xi|^2 along/R, and LPS, whose gauge is |xi|, needs no square root but that
-   of |xi|^2 |y|^2: `bond` is |xi|^2 with LPS, and |xi| else. */
+/* product: |xi| |y|; returns R = |xi| (|y| + |xi|). Then |xi| e = |xi|^2 along/R, and LPS, whose gauge is |xi|, needs no square root but
+   that of |xi|^2 |y|^2: `bond` is |xi|^2 with LPS, and |xi| else. */
 PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(roots)(const PERI_LANES_FN(piece) *s, PERI_VECTOR *bond, PERI_VECTOR *product,
                                                                const int model, const int linear) {
     PERI_NO_CONTRACTION
@@ -69,7 +69,7 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->start[i + 1] - first;
+    const int64_t first = m->start[i], count = m->count[i];
     const int states = model != PERI_BOND_BASED, mixed = PERI_D == 2 ? m->slots > 4 : m->materials > 1;
     const int32_t slots = states || PERI_D == 3 ? 8 : m->slots;
     const peri_r *pack = (const peri_r *)b->pack, *own = pack + i * slots;
@@ -140,7 +140,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, i
 PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b, int64_t i, const int model, const int linear) {
     PERI_NO_CONTRACTION
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->start[i + 1] - first;
+    const int64_t first = m->start[i], count = m->count[i];
     const peri_r *pack = (const peri_r *)b->pack, *weights = (const peri_r *)m->weight + first;
     const int32_t *ids = &m->ids[first];
     PERI_LANES_FN(piece) next[PERI_CHUNK / PERI_WIDTH];

@@ -160,7 +160,8 @@ static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t e
 static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     const peri__model *m = step->body->model;
-    for (int64_t i = begin; m->slots && i < end; ++i) {
+    for (int64_t k = begin; m->slots && k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
         peri_r *force = (peri_r *)step->body->f + i, f[PERI_D];
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
         if (PERI_ON_LANES(m->lanes.isa, list_share, (step, i, f))) PERI_FN(share_rows)(step, i, i + 1, sums);
@@ -399,7 +400,8 @@ static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, per
 static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri_body *b = ((const peri__step *)context)->body;
     const peri__model *m = b->model;
-    for (int64_t i = begin; m->slots && i < end; ++i) {
+    for (int64_t k = begin; m->slots && k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
         const peri_r *constant = (const peri_r *)b->constant + m->margin + i, press = constant[PERI__PRESS * m->stride];
         ((peri_r *)b->response)[m->margin + i] =
             press == 0 ? 0 : press * (constant[PERI__DILATE * m->stride] * PERI_ON_LANES(m->lanes.isa, list_stretched, (b, i)));

@@ -113,11 +113,43 @@ static void peri__count_block(void *context, int64_t begin, int64_t end, peri__s
     }
 }
 
+#define PERI_BRICK 4 /* cells per edge                                                                                    */
+
+/* Where the points come in no order, neighbours are far apart in memory. Passes over the list then go by bricks of cells. 0 where memory
+   is short. */
+static int peri__choose_order(const peri__cloud *c) {
+    peri__model *m = c->model;
+    int64_t jumps = 0, last = 0, at[3], bricks[3], done = 0, *n = at;
+    for (int64_t i = 0; i < m->points; ++i) {
+        const int64_t cell = peri__cell_of(c, &c->x[i * m->dim], at);
+        jumps += cell < last - 1 || cell > last + 1;
+        last = cell;
+    }
+    if (2 * jumps <= m->points) return 1;
+    m->order = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->order);
+    if (!m->order) return 0;
+    for (int32_t d = 0; d < 3; ++d) bricks[d] = d < m->dim ? (c->cells[d] + PERI_BRICK - 1) / PERI_BRICK : 1;
+    for (int64_t brick = 0; brick < bricks[0] * bricks[1] * bricks[2]; ++brick)
+        for (int64_t cell = 0; cell < PERI_BRICK * PERI_BRICK * PERI_BRICK; ++cell) {
+            n[0] = brick % bricks[0] * PERI_BRICK + cell % PERI_BRICK;
+            n[1] = brick / bricks[0] % bricks[1] * PERI_BRICK + cell / PERI_BRICK % PERI_BRICK;
+            n[2] = brick / (bricks[0] * bricks[1]) * PERI_BRICK + cell / (PERI_BRICK * PERI_BRICK);
+            if (n[0] >= c->cells[0] || n[1] >= c->cells[1] || n[2] >= (m->dim == 3 ? c->cells[2] : 1)) continue;
+            const int64_t line = ((m->dim == 3 ? n[2] * c->cells[1] : 0) + n[1]) * c->cells[0] + n[0];
+            for (int32_t k = c->start[line]; k < c->start[line + 1]; ++k) m->order[done++] = c->order[k];
+        }
+    return 1;
+}
+
+/* The point that comes k-th in passes over the list. */
+static int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
+
 static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     peri__model *m = c->model;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i) {
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
         int32_t *row = &m->ids[m->start[i]];
         peri__sort_row(row, peri__visit_family(c, i, row, m->count[i]));
     }
@@ -125,14 +157,16 @@ static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__su
 
 /* Room for the rows, by m->count. 0 where memory is short. */
 static int peri__make_rows(peri__model *m) {
-    m->start = (int64_t *)peri__new(&m->memory, m->points + 1, sizeof *m->start);
+    m->start = (int64_t *)peri__new(&m->memory, m->points, sizeof *m->start);
     if (!m->start) return 0;
     m->width = 1;
-    for (int64_t i = 0; i < m->points; ++i) {
-        m->start[i + 1] = m->start[i] + m->count[i];
+    m->bonds = 0;
+    for (int64_t k = 0; k < m->points; ++k) {
+        const int64_t i = peri__nth(m, k);
+        m->start[i] = m->bonds;
+        m->bonds += m->count[i];
         if (m->count[i] > m->width) m->width = m->count[i];
     }
-    m->bonds = m->start[m->points];
     m->entries = m->bonds + PERI_LANES;
     m->ids = (int32_t *)peri__new(&m->memory, m->entries, sizeof *m->ids);
     return m->ids != NULL;
@@ -206,7 +240,7 @@ static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sum
     peri__for_points(b, m->points, 256, peri__count_block, c, sums);
     for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].bad >= 0) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", sums[k].bad, sums[k].a);
-    if (!peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    if (!peri__choose_order(c) || !peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     peri__for_points(b, m->points, 4 * m->width, peri__fill_block, c, NULL);
     return PERI_OK;
 }

@@ -89,7 +89,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     peri__clear_parts(&parts);
     for (int64_t i = begin; i < end; ++i) {
         double total = 0.0, stiff = 0.0;
-        for (int64_t at = m->start[i]; at < m->start[i + 1]; ++at) {
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
             int finite = peri__weigh_bond(c, &parts, i, m->ids[at], &bond);
             peri__put_real(m->weight, b->f32, at, bond.weight);
             if (!finite || !peri__finite(peri__get_real(m->weight, b->f32, at))) { /* the second: beyond the range of float */
@@ -118,7 +118,7 @@ static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__su
     const peri__model *m = c->model;
     for (int64_t i = begin; i < end; ++i) {
         double rate = 0.0;
-        for (int64_t at = m->start[i]; at < m->start[i + 1]; ++at)
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
             rate += m->pairs[m->material[i] * m->materials + m->material[m->ids[at]]].c
                   * fabs(peri__get_real(m->weight, c->body->f32, at)) / peri__listed_length(c, i, at);
         rate *= 2.0 / m->rho[m->material[i]];
@@ -132,7 +132,8 @@ static int32_t peri__keep_lengths(peri_body *b, const peri__cloud *c) {
     void *bond = peri__new(&m->memory, m->entries, b->f32 ? sizeof(float) : sizeof(double));
     if (!bond) return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
     for (int64_t i = 0; i < m->points; ++i)
-        for (int64_t at = m->start[i]; at < m->start[i + 1]; ++at) peri__put_real(bond, b->f32, at, peri__listed_length(c, i, at));
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
+            peri__put_real(bond, b->f32, at, peri__listed_length(c, i, at));
     m->bond = bond;
     return PERI_OK;
 }

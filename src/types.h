@@ -125,7 +125,9 @@ typedef struct peri__model {
     uint8_t   *material; /* [points]                                                                                     */
     int32_t   *count;    /* [points] family sizes                                                                        */
     peri__lanes lanes;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
-    int64_t   *start;    /* [points+1] entries of the rows before: row i is entries start[i] to start[i+1] of the list   */
+    int32_t   *order;    /* [points] points by cells of the search grid: the order of the rows in the list, and of the passes over
+                            it; NULL where that of the points does                                                       */
+    int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
     int64_t    entries;  /* bonds, and PERI_LANES more that kernels may read                                             */
     int32_t   *ids;      /* [entries] Ibond without its padding: ascending ids                                           */
     void      *weight;   /* real [entries] w(|xi|) beta V_j                                                              */
