@@ -62,11 +62,15 @@ static const bench_case cases[] = {
     { "3D m=3, f64, damage", PERI_BOND_BASED, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
     { "3D m=3, f32, damage", PERI_BOND_BASED, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
     { "3D m=3, f64, damage, perturbed", PERI_BOND_BASED, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 1, 40, 3 },
+    { "3D m=3, f32, damage, perturbed", PERI_BOND_BASED, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 1, 1, 40, 3 },
+    { "2D m=3, f64, damage, perturbed", PERI_BOND_BASED, PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 1, 1, 1, 300, 3 },
     { "3D m=3, f64, damage, 2 threads", PERI_BOND_BASED, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 2, 1, 0, 40, 3 },
     { "LPS 2D m=3, f64, damage", PERI_LPS, PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 300, 3 },
     { "LPS 3D m=3, f64, damage", PERI_LPS, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
     { "LPS 3D m=3, f32, damage", PERI_LPS, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
     { "LPS 3D m=3, f64, damage, perturbed", PERI_LPS, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 1, 40, 3 },
+    { "LPS 3D m=3, f32, damage, perturbed", PERI_LPS, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 1, 1, 40, 3 },
+    { "LPS 2D m=3, f64, damage, perturbed", PERI_LPS, PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 1, 1, 1, 300, 3 },
     { "correspondence 3D m=3, f64, damage", PERI_CORRESPONDENCE, PERI_SOLID, PERI_F64, PERI_NONLINEAR, 1, 1, 0, 40, 3 },
 };
 

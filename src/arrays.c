@@ -23,7 +23,7 @@ typedef struct peri__array {
     size_t  size;
     int     wanted;
 } peri__array;
-#define PERI_ARRAYS 21
+#define PERI_ARRAYS 22
 
 static void *peri__array_of(const peri_body *b, const peri__array *array) {
     void *pointer;
@@ -37,12 +37,13 @@ static void peri__set_array(peri_body *b, const peri__array *array, void *pointe
 
 static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const peri__model *m = b->model;
-    const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = n * m->width;
+    const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = m->entries;
     const int64_t constants = m->tensors ? PERI__INVERSE + PERI_PACKED(m->dim) : PERI__VECTOR;
     const int32_t states = m->states, breaks = m->states && m->breakable;
     const size_t real = peri__real(b);
 #define PERI_ARRAY_(member, number, bytes, want) { offsetof(peri_body, member), number, bytes, want }
     const peri__array arrays[PERI_ARRAYS] = {
+        PERI_ARRAY_(pack, n * m->slots, real, m->slots > 0),
         PERI_ARRAY_(alive, flags, sizeof(uint32_t), 0),
         PERI_ARRAY_(lanes_alive, m->lanes.columns, sizeof(uint16_t), 0),
         PERI_ARRAY_(uncut, flags, sizeof(uint32_t), 0),

@@ -68,15 +68,19 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
 
 /* ---- the shared model --------------------------------------------------------------------------------------------- */
 
-/* The list of families; width: of its rows. */
-static void peri__free_list(peri__model *m, int64_t width, size_t real) {
-    const int64_t entries = m->points * width;
+static void peri__free_list(peri__model *m, size_t real) {
+    const int64_t entries = m->entries;
     if (m->back != m->weight) peri__delete(&m->memory, m->back, entries, real);
     peri__delete(&m->memory, m->ids, entries, sizeof *m->ids);
     peri__delete(&m->memory, m->weight, entries, real);
     peri__delete(&m->memory, m->bond, entries, real);
     peri__delete(&m->memory, m->centroid, entries * m->dim, real);
     peri__delete(&m->memory, m->part, entries, sizeof *m->part);
+    peri__delete(&m->memory, m->start, m->points, sizeof *m->start);
+    peri__delete(&m->memory, m->order, m->points, sizeof *m->order);
+    m->entries = 0;
+    m->start = NULL;
+    m->order = NULL;
     m->ids = NULL;
     m->weight = m->bond = m->back = m->centroid = NULL;
     m->part = NULL;
@@ -89,7 +93,7 @@ static void peri__release_model(peri__model *m, size_t real) {
     peri__delete(&memory, m->volume, m->points, sizeof *m->volume);
     peri__delete(&memory, m->material, m->points, sizeof *m->material);
     peri__delete(&memory, m->count, m->points, sizeof *m->count);
-    peri__free_list(m, m->width, real);
+    peri__free_list(m, real);
     peri__free_lanes(m);
     peri__delete(&memory, m->pairs, (int64_t)m->materials * m->materials, sizeof *m->pairs);
     peri__delete(&memory, m, 1, sizeof *m);
@@ -161,9 +165,8 @@ static int32_t peri__fill_families(peri_body *b, peri__model *m, peri__cloud *cl
     if (status < 0 || made) return status < 0 ? status : PERI_OK;
     status = peri__fill_list(b, m, cloud, sums);
     if (status < 0 || !listed) return status;
-    const int64_t width = m->width;
     made = peri__build_lanes(b, cloud);
-    if (made > 0) peri__free_list(m, width, peri__real(b));
+    if (made > 0) peri__free_list(m, peri__real(b));
     return made < 0 ? made : PERI_OK;
 }
 
@@ -203,6 +206,8 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     m->lanes.isa = peri__isa();
     m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
     m->words = (m->width + 31) / 32;
+    if (m->start && !m->bond && !b->desc.reference && (!m->states || (m->ordinary && !m->works && !m->nodes)))
+        m->slots = dim == 2 && !m->states && m->materials == 1 ? 4 : 8;
     return status;
 }
 
@@ -520,8 +525,8 @@ PERI_API int32_t peri_reset(peri_body *b) {
         b->stale = m->states;
     }
     if (b->work) {
-        memset(b->work, 0, (size_t)(m->points * m->width) * peri__real(b));
-        memset(b->pull, 0, (size_t)(m->points * m->width * m->dim) * peri__real(b));
+        memset(b->work, 0, (size_t)m->entries * peri__real(b));
+        memset(b->pull, 0, (size_t)(m->entries * m->dim) * peri__real(b));
         memset(b->worked, 0, vector);
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)

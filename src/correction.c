@@ -29,7 +29,7 @@ static int peri__quartics(int32_t dim, const double *n, double *monomial, double
 
 typedef struct peri__fitter {
     peri__cloud *cloud;
-    double      *factor; /* [points][width] of the own half of each bond                                                 */
+    double      *factor; /* [entries] of the own half of each bond                                                       */
     double       full;   /* sum w |xi| V over a full horizon                                                             */
     double       whole;  /* its volume                                                                                   */
 } peri__fitter;
@@ -37,7 +37,7 @@ typedef struct peri__fitter {
 /* What bond k of point i adds to m, and its direction. */
 static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n) {
     const peri__model *m = f->cloud->model;
-    int64_t at = i * m->width + k, j = m->ids[at];
+    int64_t at = m->start[i] + k, j = m->ids[at];
     double bond = 0.0, weight = peri__get_real(m->weight, f->cloud->body->f32, at);
     for (int32_t d = 0; d < m->dim; ++d) {
         n[d] = f->cloud->x[j * m->dim + d] - f->cloud->x[i * m->dim + d];
@@ -54,7 +54,7 @@ static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n
 static double peri__fit_row(const peri__fitter *f, int64_t i, double total, double soft) {
     const peri__model *m = f->cloud->model;
     double lambda[PERI_QUARTICS] = { 0.0 }, isotropic[PERI_QUARTICS], psi[PERI_QUARTICS], step[PERI_QUARTICS];
-    double n[3] = { 0.0, 0.0, 0.0 }, *x = &f->factor[i * m->width], missed = 0.0, largest = 0.0, value = HUGE_VAL, scale = 0.0, sum = 0.0;
+    double n[3] = { 0.0, 0.0, 0.0 }, *x = &f->factor[m->start[i]], missed = 0.0, largest = 0.0, value = HUGE_VAL, scale = 0.0, sum = 0.0;
     int terms = peri__quartics(m->dim, n, psi, isotropic);
     for (int d = 0; d < PERI_QUARTICS; ++d) step[d] = 0.0;
     for (int newton = 0; newton < 60; ++newton) {
@@ -120,7 +120,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
     const peri__model *m = f->cloud->model;
     int64_t fitted = -1;
     for (int64_t i = begin; i < end; ++i) {
-        double n[3], total = 0.0, least = 0.0, *x = &f->factor[i * m->width];
+        double n[3], total = 0.0, least = 0.0, *x = &f->factor[m->start[i]];
         int bonds = m->laws[m->material[i]].model == PERI_BOND_BASED;
         for (int64_t k = 0; k < m->count[i]; ++k) {
             double stiff = peri__stiff(f, i, k, n);
@@ -131,7 +131,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
         if (b->desc.correction == PERI_VOLUME_CORRECTION) {
             double volume = m->volume[i] + peri__family_volume(m, i);
             for (int64_t k = 0; bonds && k < m->count[i]; ++k) {
-                int64_t j = m->ids[i * m->width + k];
+                int64_t j = m->ids[m->start[i] + k];
                 x[k] = 2.0 * f->whole / (volume + m->volume[j] + peri__family_volume(m, j));
             }
             continue;
@@ -139,7 +139,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
         if (!(total > 0.0)) continue; /* refused later */
         if (b->desc.correction == PERI_MOMENT_CORRECTION && least >= 0.0) {
             if (fitted >= 0 && peri__same_family(f, i, fitted)) {
-                memcpy(x, &f->factor[fitted * m->width], (size_t)m->count[i] * sizeof *x);
+                memcpy(x, &f->factor[m->start[fitted]], (size_t)m->count[i] * sizeof *x);
                 continue;
             }
             fitted = i;
@@ -159,9 +159,9 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
     peri__model *m = f->cloud->model;
     (void)sums;
     for (int64_t i = begin; i < end; ++i)
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t at = i * m->width + k, j = m->ids[at];
-            double own = f->factor[at], other = f->factor[j * m->width + peri__find_listed(m, j, i)];
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
+            int64_t j = m->ids[at];
+            double own = f->factor[at], other = f->factor[m->start[j] + peri__find_listed(m, j, i)];
             double weight = peri__get_real(m->weight, b->f32, at);
             if (m->states) peri__put_real(m->back, b->f32, at, weight * other);
             peri__put_real(m->weight, b->f32, at, weight * (m->states ? own : 0.5 * (own + other)));
@@ -179,16 +179,16 @@ static int peri__corrects(const peri_body *b, const peri__model *m) {
 static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__model *m = c->model;
     peri__fitter f;
-    int64_t entries = m->points * m->width, missed = 0;
+    int64_t missed = 0;
     double h = m->horizon, moment = 0.0;
     size_t real = b->f32 ? sizeof(float) : sizeof(double);
     m->back = m->weight;
     if (!peri__corrects(b, m)) return PERI_OK;
-    if (m->states) m->back = peri__new(&m->memory, entries, real);
+    if (m->states) m->back = peri__new(&m->memory, m->entries, real);
     f.cloud = c;
-    f.factor = (double *)peri__new(&m->memory, entries, sizeof *f.factor);
+    f.factor = (double *)peri__new(&m->memory, m->entries, sizeof *f.factor);
     if (!f.factor || !m->back) {
-        peri__delete(&m->memory, f.factor, entries, sizeof *f.factor);
+        peri__delete(&m->memory, f.factor, m->entries, sizeof *f.factor);
         return peri__fail(b, PERI_ERROR_MEMORY, "correction", -1, 0.0);
     }
     (void)peri__moment(&b->desc, m->dim, 0.5 * m->spacing / h, &moment);
@@ -198,6 +198,6 @@ static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     missed = peri__total(sums, m->points).n;
     if (missed > 0) peri__log(b, 0, "moment correction: some families near surfaces have no isotropic weights; the nearest are taken");
     peri__for_points(b, m->points, 8 * m->width, peri__apply_block, &f, sums);
-    peri__delete(&m->memory, f.factor, entries, sizeof *f.factor);
+    peri__delete(&m->memory, f.factor, m->entries, sizeof *f.factor);
     return PERI_OK;
 }

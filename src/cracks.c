@@ -381,7 +381,7 @@ PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
 /* Stretch of bond k of point i at the present displacement. */
 static double peri__stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k) {
     const peri__model *m = b->model;
-    int64_t at = i * m->width + k, j = row->ids[k];
+    int64_t at = row->first + k, j = row->ids[k];
     double along = 0.0, square = 0.0, bond = peri__get_real(row->bond, b->f32, k);
     int linear = b->desc.geometry == PERI_LINEAR;
     for (int32_t d = 0; d < m->dim; ++d) {

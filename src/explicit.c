@@ -48,12 +48,7 @@ PERI_API double peri_stable_step(const peri_body *b) {
    them where step->working. */
 static void peri__bond_forces(peri_body *b, peri__step *step) {
     const peri__model *m = b->model;
-    if (!m->states) {
-        peri__for_points(b, m->points, m->width, b->ops->force, step, b->sums);
-        return;
-    }
-    if (m->dilates || m->tensors || m->nodes) peri__for_points(b, m->points, m->width, b->ops->respond, step, NULL);
-    peri__for_points(b, m->points, m->width, b->ops->share, step, b->sums);
+    peri__sum_bonds(b, step, b->sums);
     if (step->working) memcpy(b->worked, b->u, (size_t)(m->stride * m->dim) * peri__real(b));
 }
 

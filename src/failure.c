@@ -20,7 +20,8 @@ static int64_t peri__mark_dying(peri_body *b) {
     peri__row row;
     for (int64_t block = 0; block < m->blocks; ++block) {
         if (b->sums[block].n == 0) continue;
-        for (int64_t i = block * PERI_BLOCK; i < peri__min((block + 1) * PERI_BLOCK, m->points); ++i) {
+        for (int64_t n = block * PERI_BLOCK; n < peri__min((block + 1) * PERI_BLOCK, m->points); ++n) {
+            const int64_t i = m->slots ? peri__nth(m, n) : n;
             peri__read_row(m, b->f32, i, &row);
             for (int64_t k = 0; k < row.count; ++k) {
                 if (!(b->dying[i * m->words + k / 32] >> (k % 32) & 1)) continue;

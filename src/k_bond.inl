@@ -48,7 +48,7 @@ PERI_INLINE const peri__pair *PERI_FN(pair)(const peri_body *b, int64_t i, int64
 /* Stretch of bond (i, j) as point j sees it. With centroid bonds the two ends differ; the end of lower id decides for both. */
 static peri_r PERI_FN(other_stretch)(const peri_body *b, int64_t i, int64_t j) {
     const peri__model *m = b->model;
-    int64_t at = j * m->width + peri__find_bond(m, j, i); /* centroid bonds are only in the list */
+    int64_t at = m->start[j] + peri__find_bond(m, j, i); /* centroid bonds are only in the list */
     peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, bond = ((const peri_r *)m->bond)[at];
     PERI_FN(bond_vectors)(b, j, at, i, xi, eta);
     (void)PERI_FN(extension)(b->desc.geometry == PERI_LINEAR, xi, eta, bond, &e, y);
@@ -63,7 +63,7 @@ static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, co
     int linear = b->desc.geometry == PERI_LINEAR;
     int32_t broke = 0;
     for (int64_t k = 0; k < row->count; ++k) {
-        int64_t at = i * m->width + k, j = row->ids[k];
+        int64_t at = row->first + k, j = row->ids[k];
         uint32_t *flags = b->alive ? &b->alive[i * m->words + k / 32] : NULL, flag = (uint32_t)1 << (k % 32);
         const peri__pair *pair = PERI_FN(pair)(b, i, j);
         peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, s, length, force;

@@ -1,4 +1,34 @@
-/* k_force.inl - the pass that adds bond forces and breaks bonds: on columns where there are any, else by rows. */
+/* k_force.inl - the pass that adds bond forces and breaks bonds: on columns where there are any, else on the list or by rows; and what goes
+   before it on the list. */
+
+/* Records of k_list.inl. */
+static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri_body *b = ((const peri__step *)context)->body;
+    const peri__model *m = b->model;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response + m->margin;
+    const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * m->stride;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        peri_r *record = (peri_r *)b->pack + i * m->slots;
+        for (int d = 0; d < PERI_D; ++d) {
+            record[d] = x[d * m->stride + i];
+            record[PERI_D + d] = u[d * m->stride + i];
+        }
+        if (m->states) {
+            record[2 * PERI_D] = p[i];
+            record[2 * PERI_D + 1] = q[i];
+        } else if (m->slots > 2 * PERI_D)
+            record[2 * PERI_D] = (peri_r)m->material[i];
+    }
+}
+
+static void PERI_FN(pack_response)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri_body *b = ((const peri__step *)context)->body;
+    const peri__model *m = b->model;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i)
+        ((peri_r *)b->pack)[i * m->slots + 2 * PERI_D] = ((const peri_r *)b->response)[m->margin + i];
+}
 
 /* Rows [begin, end), one by one. */
 static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
@@ -50,10 +80,25 @@ static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *
         for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
 }
 
+/* Rows by the list, or one by one where a bond is about to break. */
+static void PERI_FN(force_list)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__model *m = step->body->model;
+    peri_r *force = (peri_r *)step->body->f;
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        peri_r f[PERI_D];
+        for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride + i];
+        if (PERI_ON_LANES(m->lanes.isa, list_force, (step, i, f))) PERI_FN(force_rows)(step, i, i + 1, sums);
+        else
+            for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
+    }
+}
+
 /* Adds the internal force density to f and breaks bonds. sums: a energy of broken bonds, n their (directed) number. */
 static void PERI_FN(force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
-    if (!step->body->model->lanes.columns) PERI_FN(force_rows)(step, begin, end, sums);
+    if (step->body->model->slots) PERI_FN(force_list)(step, begin, end, sums);
+    else if (!step->body->model->lanes.columns) PERI_FN(force_rows)(step, begin, end, sums);
     else
         for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) PERI_FN(force_group)(step, g, sums);
 }

@@ -269,7 +269,3 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
     for (int l = 0; l < PERI_LANES; ++l) any |= (int)hit[l];
     return any;
 }
-
-#undef PERI_LANES_SQRT
-#undef PERI_LANES_FN
-#undef PERI_LANES_TARGET

@@ -34,7 +34,7 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, c
     if (step->breaking)
         for (int32_t k = 0; k < m->words; ++k) b->dying[i * m->words + k] = 0;
     for (int64_t k = 0; k < row->count; ++k) {
-        const int64_t at = i * m->width + k, j = row->ids[k];
+        const int64_t at = row->first + k, j = row->ids[k];
         peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], t[PERI_D], e, central = 0, length;
         const peri_r bond = ((const peri_r *)row->bond)[k];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
@@ -160,6 +160,15 @@ static void PERI_FN(share_rows)(const peri__step *step, int64_t begin, int64_t e
 static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     const peri__model *m = step->body->model;
+    for (int64_t k = begin; m->slots && k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        peri_r *force = (peri_r *)step->body->f + i, f[PERI_D];
+        for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
+        if (PERI_ON_LANES(m->lanes.isa, list_share, (step, i, f))) PERI_FN(share_rows)(step, i, i + 1, sums);
+        else
+            for (int d = 0; d < PERI_D; ++d) force[d * m->stride] = f[d];
+    }
+    if (m->slots) return;
     if (!m->lanes.columns) {
         PERI_FN(share_rows)(step, begin, end, sums);
         return;
@@ -208,7 +217,7 @@ static void PERI_FN(shape)(const peri_body *b, int64_t i, const peri__row *row, 
         const peri_r weight = ((const peri_r *)row->weight)[k];
         peri_r xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, i * m->width + k, row->ids[k], xi, eta);
+        PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
         for (int a = 0; a < PERI_D; ++a)
             for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
     }
@@ -271,7 +280,7 @@ static double PERI_FN(stretched)(const peri_body *b, int64_t i, const peri__row 
         const peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
         peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, i * m->width + k, row->ids[k], xi, eta);
+        PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
         (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         sum += weight * (oterkus ? 1 : bond) * e;
         squares += (double)weight * (double)e * (double)e;
@@ -326,7 +335,7 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
     double density = 0.0, square = 0.0;
     if (law->model == PERI_BOND_BASED) {
         for (int64_t k = 0; k < row->count; ++k) {
-            const int64_t at = i * m->width + k, j = row->ids[k];
+            const int64_t at = row->first + k, j = row->ids[k];
             peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
             const peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
             if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
@@ -352,7 +361,7 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
     for (int64_t k = 0; k < row->count; ++k) { /* sum w |Y - F xi|^2 V */
         peri_r xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, i * m->width + k, row->ids[k], xi, eta);
+        PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
         for (int a = 0; a < PERI_D; ++a) {
             peri_r z = eta[a];
             for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * xi[d];
@@ -391,6 +400,13 @@ static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, per
 static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri_body *b = ((const peri__step *)context)->body;
     const peri__model *m = b->model;
+    for (int64_t k = begin; m->slots && k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        const peri_r *constant = (const peri_r *)b->constant + m->margin + i, press = constant[PERI__PRESS * m->stride];
+        ((peri_r *)b->response)[m->margin + i] =
+            press == 0 ? 0 : press * (constant[PERI__DILATE * m->stride] * PERI_ON_LANES(m->lanes.isa, list_stretched, (b, i)));
+    }
+    if (m->slots) return;
     if (!m->lanes.columns) {
         PERI_FN(respond_rows)(context, begin, end, sums);
         return;

@@ -5,6 +5,7 @@
 #define peri_r double
 #define peri_i int64_t
 #define PERI_SQRT sqrt
+#define PERI_CHUNK 8 /* bonds of a row that are worked on at once                                                       */
 #define PERI_NEAR 1e-12 /* relative; kernels on lanes leave bonds this near their critical stretch to the rows            */
 #define PERI_TINY 1e-290 /* keeps 0/0 out of a bond whose ends meet; far below any length                                */
 #if PERI_T_DIM == 2
@@ -16,6 +17,7 @@
 #define peri_r float
 #define peri_i int32_t
 #define PERI_SQRT sqrtf
+#define PERI_CHUNK 16
 #define PERI_NEAR 1e-5
 #define PERI_TINY 1e-30f
 #if PERI_T_DIM == 2
@@ -50,19 +52,55 @@ PERI_INLINE void PERI_FN(sqrt_plain)(peri_r *a) {
 }
 #endif
 
+#define PERI_PLAIN_add(a, b) ((a) + (b))
+#define PERI_PLAIN_sub(a, b) ((a) - (b))
+#define PERI_PLAIN_mul(a, b) ((a) * (b))
+#define PERI_PLAIN_div(a, b) ((a) / (b))
+#define PERI_PLAIN_sqrt(a) PERI_SQRT(a)
+#define PERI_PLAIN_set1(a) (a)
+#define PERI_PLAIN_loadu(a) (*(a))
+#define PERI_PLAIN_storeu(a, value) (*(a) = (value))
+
+/* The least critical stretch that a bond of point i may have. */
+static double PERI_FN(least_stretch)(const peri_body *b, int64_t i) {
+    const peri__pair *pairs = b->cls ? &b->pairs[b->cls[i] * b->classes] : b->pairs;
+    double least = pairs->s0;
+    for (int32_t k = 1; b->cls && k < b->classes; ++k)
+        if (pairs[k].s0 < least) least = pairs[k].s0;
+    return least;
+}
+
 #define PERI_LANES_TARGET PERI_VECTOR_CODE
 #define PERI_LANES_FN(name) PERI_FN(name##_plain)
 #define PERI_LANES_SQRT PERI_FN(sqrt_plain)
+#define PERI_V_ISA 0
 #include "k_lanes.inl"
+#include "k_vector.inl"
+#include "k_list.inl"
+#undef PERI_LANES_SQRT
+#undef PERI_LANES_FN
+#undef PERI_LANES_TARGET
 #ifdef PERI_ISA
 #define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_AVX2
 #define PERI_LANES_FN(name) PERI_FN(name##_avx2)
 #define PERI_LANES_SQRT PERI_FN(sqrt_avx2)
+#define PERI_V_ISA 1
 #include "k_lanes.inl"
+#include "k_vector.inl"
+#include "k_list.inl"
+#undef PERI_LANES_SQRT
+#undef PERI_LANES_FN
+#undef PERI_LANES_TARGET
 #define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_AVX512
 #define PERI_LANES_FN(name) PERI_FN(name##_avx512)
 #define PERI_LANES_SQRT PERI_FN(sqrt_avx512)
+#define PERI_V_ISA 2
 #include "k_lanes.inl"
+#include "k_vector.inl"
+#include "k_list.inl"
+#undef PERI_LANES_SQRT
+#undef PERI_LANES_FN
+#undef PERI_LANES_TARGET
 #endif
 
 #ifdef PERI_ISA
@@ -72,15 +110,25 @@ PERI_INLINE void PERI_FN(sqrt_plain)(peri_r *a) {
 #define PERI_ON_LANES(isa, name, arguments) PERI_FN(name##_plain) arguments
 #endif
 
+#undef PERI_PLAIN_add
+#undef PERI_PLAIN_sub
+#undef PERI_PLAIN_mul
+#undef PERI_PLAIN_div
+#undef PERI_PLAIN_sqrt
+#undef PERI_PLAIN_set1
+#undef PERI_PLAIN_loadu
+#undef PERI_PLAIN_storeu
+
 #include "k_force.inl"
 #include "k_state.inl"
 #include "k_march.inl"
 #include "k_solve.inl"
 
 static const peri__ops PERI_FN(ops) = {
-    PERI_FN(force), PERI_FN(respond), PERI_FN(respond_rows), PERI_FN(share), PERI_FN(exchange), PERI_FN(energy), PERI_FN(kick),
-    PERI_FN(kinetic), PERI_FN(tangent_respond), PERI_FN(tangent_share), PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force),
-    PERI_FN(krylov_blocks), PERI_FN(krylov_norm), PERI_FN(krylov_dot)
+    PERI_FN(pack), PERI_FN(pack_response), PERI_FN(force), PERI_FN(respond), PERI_FN(respond_rows), PERI_FN(share),
+    PERI_FN(exchange), PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic), PERI_FN(tangent_respond), PERI_FN(tangent_share),
+    PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force), PERI_FN(krylov_blocks), PERI_FN(krylov_norm),
+    PERI_FN(krylov_dot)
 };
 
 #undef PERI_ON_LANES
@@ -88,6 +136,7 @@ static const peri__ops PERI_FN(ops) = {
 #undef peri_i
 #undef PERI_NEAR
 #undef PERI_SQRT
+#undef PERI_CHUNK
 #undef PERI_TINY
 #undef PERI_FN
 #undef PERI_D

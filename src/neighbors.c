@@ -1,5 +1,5 @@
-/* neighbors.c - points to families: the N x M array Ibond of [T] 3.11. Row i holds the ids of the family of i, ascending, and is padded
-   with i. Found by a grid of cells no smaller than the reach, so in O(N) for any cloud; or checked where the caller gave them. */
+/* neighbors.c - points to families: the array Ibond of [T] 3.11, its rows without padding. Row i holds the ids of the family of i,
+   ascending. Found by a grid of cells no smaller than the reach, so in O(N) for any cloud; or checked where the caller gave them. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -110,25 +110,71 @@ static void peri__count_block(void *context, int64_t begin, int64_t end, peri__s
             count = 0;
         }
         c->model->count[i] = (int32_t)count;
-        sums->n += count;
     }
 }
+
+#define PERI_BRICK 4 /* cells per edge                                                                                    */
+
+/* Where the points come in no order, neighbours are far apart in memory. Passes over the list then go by bricks of cells. 0 where memory
+   is short. */
+static int peri__choose_order(const peri__cloud *c) {
+    peri__model *m = c->model;
+    int64_t jumps = 0, last = 0, at[3], bricks[3], done = 0, *n = at;
+    for (int64_t i = 0; i < m->points; ++i) {
+        const int64_t cell = peri__cell_of(c, &c->x[i * m->dim], at);
+        jumps += cell < last - 1 || cell > last + 1;
+        last = cell;
+    }
+    if (2 * jumps <= m->points) return 1;
+    m->order = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->order);
+    if (!m->order) return 0;
+    for (int32_t d = 0; d < 3; ++d) bricks[d] = d < m->dim ? (c->cells[d] + PERI_BRICK - 1) / PERI_BRICK : 1;
+    for (int64_t brick = 0; brick < bricks[0] * bricks[1] * bricks[2]; ++brick)
+        for (int64_t cell = 0; cell < PERI_BRICK * PERI_BRICK * PERI_BRICK; ++cell) {
+            n[0] = brick % bricks[0] * PERI_BRICK + cell % PERI_BRICK;
+            n[1] = brick / bricks[0] % bricks[1] * PERI_BRICK + cell / PERI_BRICK % PERI_BRICK;
+            n[2] = brick / (bricks[0] * bricks[1]) * PERI_BRICK + cell / (PERI_BRICK * PERI_BRICK);
+            if (n[0] >= c->cells[0] || n[1] >= c->cells[1] || n[2] >= (m->dim == 3 ? c->cells[2] : 1)) continue;
+            const int64_t line = ((m->dim == 3 ? n[2] * c->cells[1] : 0) + n[1]) * c->cells[0] + n[0];
+            for (int32_t k = c->start[line]; k < c->start[line + 1]; ++k) m->order[done++] = c->order[k];
+        }
+    return 1;
+}
+
+/* The point that comes k-th in passes over the list. */
+static int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
 
 static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     peri__model *m = c->model;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i) {
-        int32_t *row = &m->ids[i * m->width];
-        int64_t count = peri__visit_family(c, i, row, m->width);
-        peri__sort_row(row, count);
-        for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        int32_t *row = &m->ids[m->start[i]];
+        peri__sort_row(row, peri__visit_family(c, i, row, m->count[i]));
     }
+}
+
+/* Room for the rows, by m->count. 0 where memory is short. */
+static int peri__make_rows(peri__model *m) {
+    m->start = (int64_t *)peri__new(&m->memory, m->points, sizeof *m->start);
+    if (!m->start) return 0;
+    m->width = 1;
+    m->bonds = 0;
+    for (int64_t k = 0; k < m->points; ++k) {
+        const int64_t i = peri__nth(m, k);
+        m->start[i] = m->bonds;
+        m->bonds += m->count[i];
+        if (m->count[i] > m->width) m->width = m->count[i];
+    }
+    m->entries = m->bonds + PERI_LANES;
+    m->ids = (int32_t *)peri__new(&m->memory, m->entries, sizeof *m->ids);
+    return m->ids != NULL;
 }
 
 /* Place of j in row i of the list, or -1. */
 static int64_t peri__find_listed(const peri__model *m, int64_t i, int64_t j) {
-    const int32_t *row = &m->ids[i * m->width];
+    const int32_t *row = &m->ids[m->start[i]];
     int64_t lo = 0, hi = m->count[i];
     while (lo < hi) {
         int64_t mid = (lo + hi) / 2;
@@ -155,14 +201,10 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
         int64_t i = k / s->ibond_width, j = s->ibond[k];
         if (j < 0 || j >= m->points) return peri__fail(b, PERI_ERROR_IBOND, "ibond", k, (double)j);
         m->count[i] += j != i;
-        m->bonds += j != i;
-        if (m->count[i] > m->width) m->width = m->count[i];
     }
-    if (m->width == 0) m->width = 1;
-    m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
-    if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    if (!peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     for (int64_t i = 0; i < m->points; ++i) {
-        int32_t *row = &m->ids[i * m->width];
+        int32_t *row = &m->ids[m->start[i]];
         int64_t count = 0;
         for (int64_t k = i * s->ibond_width; k < (i + 1) * s->ibond_width; ++k)
             if (s->ibond[k] != i) row[count++] = s->ibond[k];
@@ -170,11 +212,10 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
         for (int64_t k = 1; k < count; ++k)
             if (row[k] == row[k - 1])
                 return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, row[k]), (double)row[k]);
-        for (int64_t k = count; k < m->width; ++k) row[k] = (int32_t)i;
     }
     for (int64_t i = 0; i < m->points; ++i)
         for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t j = m->ids[i * m->width + k];
+            int64_t j = m->ids[m->start[i] + k];
             double square = 0.0;
             if (peri__find_listed(m, j, i) < 0)
                 return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, j), (double)j);
@@ -197,15 +238,9 @@ static int32_t peri__sort_cloud(peri_body *b, peri__cloud *c) {
 static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__model *m = c->model;
     peri__for_points(b, m->points, 256, peri__count_block, c, sums);
-    peri__sums total = peri__total(sums, m->points);
-    m->bonds = total.n;
     for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].bad >= 0) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", sums[k].bad, sums[k].a);
-    for (int64_t i = 0; i < m->points; ++i)
-        if (m->count[i] > m->width) m->width = m->count[i];
-    if (m->width == 0) m->width = 1;
-    m->ids = (int32_t *)peri__new(&m->memory, m->points * m->width, sizeof(int32_t));
-    if (!m->ids) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    if (!peri__choose_order(c) || !peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     peri__for_points(b, m->points, 4 * m->width, peri__fill_block, c, NULL);
     return PERI_OK;
 }

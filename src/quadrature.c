@@ -3,6 +3,8 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+#define PERI_BLUR 1e-3
+
 static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
     if (f32) ((float *)array)[at] = (float)value;
     else ((double *)array)[at] = value;
@@ -22,7 +24,7 @@ static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, do
 static double peri__family_volume(const peri__model *m, int64_t i) {
     double sum = 0.0;
     for (int64_t k = 0; k < m->count[i]; ++k)
-        sum += m->part ? (double)m->part[i * m->width + k] : m->volume[m->ids[i * m->width + k]];
+        sum += m->part ? (double)m->part[m->start[i] + k] : m->volume[m->ids[m->start[i] + k]];
     return sum;
 }
 
@@ -34,6 +36,14 @@ typedef struct peri__bond { /* what is known of a bond (i, j), inner units      
 
 static void peri__bond_vector(const peri__cloud *c, int64_t i, int64_t j, double *xi) {
     for (int32_t d = 0; d < c->model->dim; ++d) xi[d] = c->x[j * c->model->dim + d] - c->x[i * c->model->dim + d];
+}
+
+/* |xi| of entry `at` of the list, bond (i, j); or of the bond to the centroid. */
+static double peri__listed_length(const peri__cloud *c, int64_t i, int64_t at) {
+    double xi[3];
+    if (c->model->bond) return peri__get_real(c->model->bond, c->body->f32, at);
+    peri__bond_vector(c, i, c->model->ids[at], xi);
+    return sqrt(peri__dot(xi, xi, c->model->dim));
 }
 
 /* 0 where the influence function is not finite. */
@@ -58,7 +68,18 @@ static int peri__weigh_bond(const peri__cloud *c, peri__parts *parts, int64_t i,
     return peri__finite(w);
 }
 
-/* Weights of a block of rows. sums->bad with sums->n = status. */
+/* Is the length of bond (i, j) lost in the rounding of the places of its ends? Only in single precision, of points very near each other:
+   so near that fourth powers of the length are out of range, too. */
+static int peri__is_blurred(const peri__cloud *c, int64_t i, int64_t j, double length) {
+    const peri__model *m = c->model;
+    double square = 0.0;
+    if (!c->body->f32) return 0;
+    for (int32_t d = 0; d < m->dim; ++d)
+        square += peri__square(peri__get_real(m->x, 1, d * m->stride + j) - peri__get_real(m->x, 1, d * m->stride + i));
+    return length < PERI_BLUR || fabs(sqrt(square) - length) > PERI_BLUR * length;
+}
+
+/* Weights of a block of rows. sums->bad with sums->n = status; sums->a: blurred bonds. */
 static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     const peri_body *b = c->body;
@@ -68,22 +89,18 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     peri__clear_parts(&parts);
     for (int64_t i = begin; i < end; ++i) {
         double total = 0.0, stiff = 0.0;
-        for (int64_t k = 0; k < m->width; ++k) {
-            int64_t at = i * m->width + k, j = m->ids[at];
-            if (k >= m->count[i]) { /* padding: no weight, and a length that is safe to divide by */
-                peri__put_real(m->bond, b->f32, at, 1.0);
-                continue;
-            }
-            int finite = peri__weigh_bond(c, &parts, i, j, &bond);
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
+            int finite = peri__weigh_bond(c, &parts, i, m->ids[at], &bond);
             peri__put_real(m->weight, b->f32, at, bond.weight);
             if (!finite || !peri__finite(peri__get_real(m->weight, b->f32, at))) { /* the second: beyond the range of float */
                 sums->bad = i;
                 sums->n = PERI_ERROR_INFLUENCE;
                 return;
             }
-            peri__put_real(m->bond, b->f32, at, bond.length);
+            if (m->bond) peri__put_real(m->bond, b->f32, at, bond.length);
             if (m->part) m->part[at] = (float)bond.share;
             for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->f32, at * m->dim + d, bond.centre[d]);
+            sums->a += peri__is_blurred(c, i, m->ids[at], bond.length);
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
         }
@@ -101,26 +118,35 @@ static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__su
     const peri__model *m = c->model;
     for (int64_t i = begin; i < end; ++i) {
         double rate = 0.0;
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            int64_t at = i * m->width + k;
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
             rate += m->pairs[m->material[i] * m->materials + m->material[m->ids[at]]].c
-                  * fabs(peri__get_real(m->weight, c->body->f32, at)) / peri__get_real(m->bond, c->body->f32, at);
-        }
+                  * fabs(peri__get_real(m->weight, c->body->f32, at)) / peri__listed_length(c, i, at);
         rate *= 2.0 / m->rho[m->material[i]];
         if (rate > sums->a) sums->a = rate;
     }
 }
 
+/* Keeps the lengths of bonds. */
+static int32_t peri__keep_lengths(peri_body *b, const peri__cloud *c) {
+    peri__model *m = c->model;
+    void *bond = peri__new(&m->memory, m->entries, b->f32 ? sizeof(float) : sizeof(double));
+    if (!bond) return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
+            peri__put_real(bond, b->f32, at, peri__listed_length(c, i, at));
+    m->bond = bond;
+    return PERI_OK;
+}
+
 static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__model *m = c->model;
     size_t real = b->f32 ? sizeof(float) : sizeof(double);
-    int64_t entries = m->points * m->width;
-    m->weight = peri__new(&m->memory, entries, real);
-    m->bond = peri__new(&m->memory, entries, real);
-    if (b->desc.quadrature != PERI_FULL_VOLUME) m->part = (float *)peri__new(&m->memory, entries, sizeof(float));
-    if (b->desc.quadrature == PERI_PARTIAL_CENTROID) m->centroid = peri__new(&m->memory, entries * m->dim, real);
-    if (!m->weight || !m->bond || (b->desc.quadrature != PERI_FULL_VOLUME && !m->part)
-        || (b->desc.quadrature == PERI_PARTIAL_CENTROID && !m->centroid))
+    const int parts = b->desc.quadrature != PERI_FULL_VOLUME, centroids = b->desc.quadrature == PERI_PARTIAL_CENTROID;
+    m->weight = peri__new(&m->memory, m->entries, real);
+    if (centroids) m->bond = peri__new(&m->memory, m->entries, real);
+    if (parts) m->part = (float *)peri__new(&m->memory, m->entries, sizeof(float));
+    if (centroids) m->centroid = peri__new(&m->memory, m->entries * m->dim, real);
+    if (!m->weight || (parts && !m->part) || (centroids && (!m->bond || !m->centroid)))
         return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
     if (b->desc.influence == PERI_INFLUENCE_USER) { /* the caller's function runs on the caller's thread */
         for (int64_t k = 0; k < m->blocks; ++k) {
@@ -133,5 +159,6 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     }
     for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].bad >= 0) return peri__fail(b, (int32_t)sums[k].n, "influence", sums[k].bad, 0.0);
-    return PERI_OK;
+    const int kept = m->bond != NULL, needed = m->width > PERI_VECTOR_LIMIT || peri__total(sums, m->points).a > 0.0;
+    return needed && !kept ? peri__keep_lengths(b, c) : PERI_OK;
 }

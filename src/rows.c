@@ -24,25 +24,46 @@ static void peri__expand_row(const peri__model *m, int f32, int64_t i, peri__row
         ++n;
     }
     row->count = n;
+    row->first = 0;
     row->ids = row->ids_room;
     row->weight = row->back = &row->weight_room;
     row->bond = &row->bond_room;
     row->part = lanes->parts ? row->part_room : NULL;
 }
 
+/* |xi| of the bonds of row i, from the places of points. Seen from either end the same, to the last bit. */
+#define PERI_MEASURE(real, room, root)                                                                                 \
+    for (int64_t k = 0; k < row->count; ++k) {                                                                         \
+        const real *x = (const real *)m->x;                                                                            \
+        real square = 0;                                                                                               \
+        for (int32_t d = 0; d < m->dim; ++d, x += m->stride) square += (x[row->ids[k]] - x[i]) * (x[row->ids[k]] - x[i]); \
+        room[k] = root(square);                                                                                        \
+    }
+static void peri__measure_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
+    if (f32) {
+        PERI_MEASURE(float, row->bond_room.f32, sqrtf)
+    } else {
+        PERI_MEASURE(double, row->bond_room.f64, sqrt)
+    }
+    row->bond = &row->bond_room;
+}
+#undef PERI_MEASURE
+
 /* Row i: ids ascending, and what each bond weighs. Valid while `row` and the model are. */
 static void peri__read_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
-    const size_t at = (size_t)(i * m->width) * (f32 ? sizeof(float) : sizeof(double));
+    const size_t real = f32 ? sizeof(float) : sizeof(double);
     if (m->lanes.columns) {
         peri__expand_row(m, f32, i, row);
         return;
     }
     row->count = m->count[i];
-    row->ids = &m->ids[i * m->width];
-    row->weight = (const char *)m->weight + at;
-    row->bond = (const char *)m->bond + at;
-    row->back = (const char *)m->back + at;
-    row->part = m->part ? &m->part[i * m->width] : NULL;
+    row->first = m->start[i];
+    row->ids = &m->ids[row->first];
+    row->weight = (const char *)m->weight + (size_t)row->first * real;
+    row->back = (const char *)m->back + (size_t)row->first * real;
+    row->part = m->part ? &m->part[row->first] : NULL;
+    if (m->bond) row->bond = (const char *)m->bond + (size_t)row->first * real;
+    else peri__measure_row(m, f32, i, row);
 }
 
 /* Place of j in row i, or -1. */

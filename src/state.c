@@ -16,6 +16,21 @@ static double peri__kinetic_energy(peri_body *b) {
     return peri__total(b->sums, b->model->points).a;
 }
 
+/* Adds the force of all bonds to b->f, by b->u. */
+static void peri__sum_bonds(peri_body *b, peri__step *step, peri__sums *sums) {
+    const peri__model *m = b->model;
+    if (m->slots) peri__for_points(b, m->points, 2, b->ops->pack, step, NULL);
+    if (!m->states) {
+        peri__for_points(b, m->points, m->width, b->ops->force, step, sums);
+        return;
+    }
+    if (m->dilates || m->tensors || b->node) {
+        peri__for_points(b, m->points, m->width, b->ops->respond, step, NULL);
+        if (m->slots) peri__for_points(b, m->points, 1, b->ops->pack_response, step, NULL);
+    }
+    peri__for_points(b, m->points, m->width, b->ops->share, step, sums);
+}
+
 /* Energy of the intact bonds; per point to density[points] where it is not NULL. */
 static double peri__elastic_energy(peri_body *b, double *density) {
     peri__step step = peri__no_step(b);

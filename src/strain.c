@@ -143,7 +143,7 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, 
     for (int a = 0; a < 3; ++a)
         for (int c = 0; c < 3; ++c) p[a][c] = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
-        int64_t at = i * m->width + k;
+        int64_t at = row->first + k;
         double xi[3], eta[3], t[3] = { 0.0, 0.0, 0.0 }, length = 0.0, central;
         double w = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k), e;
         if (!peri__is_alive(b, i, k)) continue;

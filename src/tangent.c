@@ -21,12 +21,7 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
         other.node = NULL;
         other.desc.geometry = PERI_LINEAR;
         memset(t->q, 0, (size_t)(m->stride * m->dim) * peri__real(b));
-        if (!m->states) {
-            peri__for_points(b, m->points, m->width, b->ops->force, &step, NULL);
-            return;
-        }
-        if (m->dilates || m->tensors) peri__for_points(b, m->points, m->width, b->ops->respond, &step, NULL);
-        peri__for_points(b, m->points, m->width, b->ops->share, &step, NULL);
+        peri__sum_bonds(&other, &step, NULL);
         return;
     }
     if (m->dilates || m->tensors) peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_respond, (void *)t, NULL);

@@ -125,12 +125,18 @@ typedef struct peri__model {
     uint8_t   *material; /* [points]                                                                                     */
     int32_t   *count;    /* [points] family sizes                                                                        */
     peri__lanes lanes;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
-    int32_t   *ids;      /* [points][width] Ibond: ascending ids, padded with the row's own                              */
-    void      *weight;   /* real [points][width] w(|xi|) beta V_j, 0 in the padding                                      */
-    void      *bond;     /* real [points][width] |xi|, 1 in the padding                                                  */
-    void      *back;     /* real [points][width] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal */
-    void      *centroid; /* real [points][width][dim] bond to the centroid of the part; NULL but for that rule           */
-    float     *part;     /* [points][width] beta V_j; NULL for whole cells                                               */
+    int32_t   *order;    /* [points] points by cells of the search grid: the order of the rows in the list, and of the passes over
+                            it; NULL where that of the points does                                                       */
+    int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
+    int64_t    entries;  /* bonds, and PERI_LANES more that kernels may read                                             */
+    int32_t   *ids;      /* [entries] Ibond without its padding: ascending ids                                           */
+    void      *weight;   /* real [entries] w(|xi|) beta V_j                                                              */
+    void      *back;     /* real [entries] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal  */
+    void      *bond;     /* real [entries] |xi|; NULL where x tells: not with the centroid rule, for families larger than the
+                            room of peri__row, and where single precision blurs it                                       */
+    void      *centroid; /* real [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
+    float     *part;     /* [entries] beta V_j; NULL for whole cells                                                     */
+    int32_t    slots;    /* reals per record of body->pack: 4 or 8; 0 where k_list.inl does not serve                    */
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
@@ -152,7 +158,7 @@ typedef union peri__reals {
 } peri__reals;
 
 typedef struct peri__row { /* the family of a point, see peri__read_row; 25 kB, and not to be copied                      */
-    int64_t        count;
+    int64_t        count, first;          /* first: its entry in the list; 0 on columns                                   */
     const int32_t *ids;                   /* ascending                                                                    */
     const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
     const float   *part;                  /* NULL for whole cells                                                         */
@@ -284,6 +290,8 @@ typedef struct peri__ledger { /* inner units of energy                          
 } peri__ledger;
 
 struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn, on a peri__step unless said       */
+    void (*pack)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or respond on the list     */
+    void (*pack_response)(void *, int64_t, int64_t, peri__sums *); /* p; before share                                   */
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* bond-based                                               */
     void (*respond)(void *, int64_t, int64_t, peri__sums *); /* state-based: what each point makes of its family, then   */
     void (*respond_rows)(void *, int64_t, int64_t, peri__sums *);
@@ -317,6 +325,8 @@ struct peri_body {
     peri__model      *model; /* NULL before peri_build                                                                   */
     const peri__ops  *ops;
     void     *u, *v, *f;     /* real [dim][stride]; f: force density                                                     */
+    void     *pack;          /* real [points][slots] for k_list.inl: x, u, then p and q of state-based laws, or the material; NULL where
+                                slots is 0. Scratch: filled before each pass                                             */
     uint32_t *alive;         /* [points][words] bond carries force; NULL where nothing can break and nothing is cut      */
     uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
     uint32_t *before;        /* [points][words] alive before the step, for break events; NULL without a callback         */
@@ -338,8 +348,8 @@ struct peri_body {
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
     uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
-    void     *work;          /* real [points][width] work done on bonds; NULL, like the next, without that criterion     */
-    void     *pull;          /* real [points][width][dim] force density of bonds when last worked out                    */
+    void     *work;          /* real [entries] work done on bonds; NULL, like the next, without that criterion           */
+    void     *pull;          /* real [entries][dim] force density of bonds when last worked out                          */
     void     *worked;        /* real [dim][stride] displacement then                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
