@@ -620,8 +620,8 @@ typedef struct peri_statics {
     double            criticality;    /* [0, 1]: of the bonds over their limit those break that are over criticality times the largest
                                          excess (value/limit): 0 (default) = all, 1 = only the most critical (and its equals)   */
     double            tolerance;      /* [0, 1): 0 (default) = 1e-8, in single precision 1e-4                            */
-    double            energy_tolerance; /* > 0, PERI_NEWTON: converged also when the residual in the norm of the preconditioner has fallen by
-                                         this factor, an estimate of the error in energy. Default 0: never               */
+    double            energy_tolerance; /* > 0, PERI_NEWTON: converged also when the residual in the norm of the preconditioner has
+                                         fallen by this factor, an estimate of the error in energy. Default 0: never     */
     int64_t           iterations;     /* most iterations of the linear solver (of PERI_RELAXATION: steps) for one equilibrium.
                                          Default 20000                                                                   */
     int64_t           newton;         /* most Newton iterations for one equilibrium. Default 60                          */
@@ -768,7 +768,8 @@ typedef struct peri_energy {
     double damping;  /* dissipated by mass damping; in peri_solve, what springs free when bonds have broken              */
     double fracture; /* elastic energy that went as bonds broke. State-based: the families that are left are calibrated anew,
                         so a single break may even add some                                                              */
-    double initial;  /* put in by writing displacement or velocity (less what later cuts took out)                       */
+    double initial;  /* put in by writing displacement or velocity (less what later cuts took out), or by a peri_solve that ended on
+                        the way to an equilibrium                                                                        */
     double error;    /* initial + external + obstacle - kinetic - elastic - damping - fracture; in peri_solve O(load step^2) where
                         the geometry is not linear                                                                       */
 } peri_energy;

@@ -109,6 +109,10 @@ static void peri__mark_supports(peri__solver *s) {
     }
 }
 
+static void peri__note_bytes(peri__solver *s) {
+    if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
+}
+
 /* Marks what supports hold, then what else must not move, and makes the preconditioner for the body as it is; its coarse grids only where
    `anew`: bonds that broke since matter little to them. */
 static int32_t peri__prepare(peri__solver *s, int anew) {
@@ -121,7 +125,7 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
         peri__free_levels(s->levels);
         s->levels = NULL;
     }
-    if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
+    peri__note_bytes(s);
     s->hanging = 0;
     int32_t status = peri__find_loose(s);
     if (status < 0) return status;
@@ -132,7 +136,7 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
         if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
         s->bytes += s->levels->bytes;
     }
-    if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
+    peri__note_bytes(s);
     return peri__invert_blocks(s);
 }
 

@@ -5,7 +5,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* One step of what is free: p is the velocity, q the force before, d unused. Returns whether anything may move. */
+/* One step of what is free: p is the velocity, q the force before. */
 static void peri__relax_step(peri__solver *s, double unit, int64_t k) {
     peri_body *b = s->body;
     const peri__model *m = b->model;

@@ -174,6 +174,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     b->load_factor = factor;
     b->force_current = 0;
     int32_t status = peri__static_values(b);
+    if (status == PERI_OK) status = peri__move_obstacles(b, factor);
     double broken = s->disturbed ? peri__static_energy(b) : 0.0; /* elastic energy after bonds broke, or on_step changed the body */
     for (int64_t round = 0; status == PERI_OK; ++round) {
         status = peri__prepare(s, round == 0);
@@ -284,6 +285,7 @@ static int32_t peri__load_steps(peri__solver *s) {
     b->still = 1;
     b->force_current = 0;
     b->load_factor = from;
+    if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
     if (s->load) status = peri__note_forces(s);
     for (int64_t k = 1; k <= st->steps && status == PERI_OK; ++k) {
         double to = k < st->steps ? st->load_from + (st->load_to - st->load_from) * (double)k / (double)st->steps : st->load_to;
@@ -291,6 +293,17 @@ static int32_t peri__load_steps(peri__solver *s) {
         from = to;
     }
     return status;
+}
+
+/* A solve that ended short of an equilibrium has moved the body: like a change by the caller, to `initial`. */
+static void peri__count_stray(peri__solver *s) {
+    peri_body *b = s->body;
+    void *u = b->u;
+    if (s->report.passes == 0) return;
+    b->u = s->from;
+    double energy = peri__static_energy(b);
+    b->u = u;
+    b->ledger.initial += peri__static_energy(b) - energy;
 }
 
 PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_report *report) {
@@ -309,6 +322,7 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_r
         b->load_factor = s.report.steps > 0 ? s.report.load_factor : st->load_from;
         b->force_current = 0;
     }
+    if (status != PERI_OK && s.from) peri__count_stray(&s);
     peri__free_solver(&s);
     if (report) *report = s.report;
     return status;
