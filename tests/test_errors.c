@@ -4,28 +4,6 @@
    One story (build a body, load it, run it) is told twice, once with every wrong call in between; the bits must agree. */
 #include "test_refuse.h"
 
-static int32_t take_none(void *user, int64_t index, const double *x) {
-    (void)user;
-    (void)index;
-    (void)x;
-    return 0;
-}
-static int32_t take_left(void *user, int64_t index, const double *x) {
-    (void)user;
-    (void)index;
-    return x[0] < 0.2;
-}
-static int32_t write_nothing(void *user, const void *bytes, int64_t count) {
-    (void)bytes;
-    (void)count;
-    return user ? 0 : 1;
-}
-static int32_t stop_now(void *user, peri_body *b) {
-    (void)b;
-    ++*(int *)user;
-    return 1;
-}
-
 /* ---- descriptors -------------------------------------------------------------------------------------------------- */
 
 static void refuse_desc(const peri_body_desc *d, int32_t code, const char *field, int line) {

@@ -25,4 +25,26 @@ static void refuse(const peri_body *b, int32_t code, int64_t result, const char 
 #define REFUSE_CONST(code, call)  refuse(NULL, (code), (int64_t)(call), #call, __LINE__) /* const body: no record */
 #define FIELD_IS(name)            CHECK(seen.field && strstr(seen.field, name) != NULL)
 
+static inline int32_t take_none(void *user, int64_t index, const double *x) {
+    (void)user;
+    (void)index;
+    (void)x;
+    return 0;
+}
+static inline int32_t take_left(void *user, int64_t index, const double *x) {
+    (void)user;
+    (void)index;
+    return x[0] < 0.2;
+}
+static inline int32_t write_nothing(void *user, const void *bytes, int64_t count) {
+    (void)bytes;
+    (void)count;
+    return user ? 0 : 1;
+}
+static inline int32_t stop_now(void *user, peri_body *b) {
+    (void)b;
+    ++*(int *)user;
+    return 1;
+}
+
 #endif
