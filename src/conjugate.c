@@ -14,6 +14,8 @@ static int peri__is_linear(const peri_body *b) {
     return b->desc.geometry == PERI_LINEAR;
 }
 
+static double peri__rounding(const peri_body *b) { return b->f32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
+
 static void *peri__take(peri__solver *s, int64_t count, size_t size) {
     void *taken = peri__new(&s->body->memory, count, size);
     if (taken) s->bytes += count * (int64_t)size;
@@ -78,10 +80,12 @@ static double peri__precondition(peri__solver *s) {
 static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
     double held = sqrt(sums.b);
     s->scale = loads > held ? loads : held;
+    if (s->scale > s->top && s->scale < HUGE_VAL) s->top = s->scale;
     return sqrt(sums.a);
 }
 
-/* Is a residual no more than rounding in a body that nothing loads and no support strains? Reactions then fall with it. */
+/* Is a residual no more than rounding, of the bonds' forces or of what acted before, in a body that nothing loads and no support strains?
+   Reactions then fall with it. */
 static int peri__is_nothing(const peri__solver *s, double residual, double loads) {
     return residual <= PERI_NOTHING(s->body) || (loads == 0.0 && residual <= s->floor && s->scale <= s->floor);
 }

@@ -86,7 +86,7 @@ static void peri__note_floor(peri__solver *s) {
         if (trace > 0.0) stiff = frees / trace;
         square += stiff * stiff * moved;
     }
-    rounding = (b->f32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON) * sqrt(square);
+    rounding = peri__rounding(b) * sqrt(square);
     if (rounding > s->floor) s->floor = rounding;
 }
 
@@ -130,14 +130,19 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
     int32_t status = peri__find_loose(s);
     if (status < 0) return status;
     s->stiff = peri__fill_diagonal(b, s->blocks);
-    if (s->settings->method == PERI_RELAXATION) return PERI_OK;
+    if (s->settings->method == PERI_RELAXATION) {
+        peri__weigh_modes(s);
+        return PERI_OK;
+    }
     if (!s->levels && s->settings->preconditioner == PERI_MULTILEVEL && s->settings->method == PERI_NEWTON) {
         s->levels = peri__build_levels(s);
         if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
         s->bytes += s->levels->bytes;
     }
     peri__note_bytes(s);
-    return peri__invert_blocks(s);
+    status = peri__invert_blocks(s);
+    if (status == PERI_OK) peri__weigh_modes(s);
+    return status;
 }
 
 /* d = the way that held components still have to go to what their supports prescribe, 0 elsewhere. Returns 1 where there is any. */
@@ -257,7 +262,7 @@ static int32_t peri__newton(peri__solver *s) {
     const int linear = peri__is_linear(b);
     double last = HUGE_VAL, loads = peri__static_forces(s);
     s->negative = s->energy_done = 0;
-    s->floor = 0.0;
+    s->floor = peri__rounding(b) * s->top;
     for (int64_t k = 0;; ++k) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;

@@ -35,6 +35,30 @@ static double peri__mode(const peri_body *b, const peri__fragment *part, int64_t
     return sum;
 }
 
+/* The part of a vector at hanging point i along what its bonds resist: the range of the inverse of its block. */
+static void peri__to_resisted(const peri__solver *s, int64_t i, double *part) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    double block[6], inverse[6], range[3];
+    for (int k = 0; k < PERI_PACKED(m->dim); ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
+    (void)peri__invert(m->dim, block, 0.5 * PERI_RESISTED(b), inverse); /* what was kept is no further apart than that */
+    for (int d = 0; d < m->dim; ++d) {
+        range[d] = 0.0;
+        for (int c = 0; c < m->dim; ++c) range[d] += block[peri__packed(m->dim, d, c)] * part[c];
+    }
+    for (int d = 0; d < m->dim; ++d) {
+        part[d] = 0.0;
+        for (int c = 0; c < m->dim; ++c) part[d] += inverse[peri__packed(m->dim, d, c)] * range[c];
+    }
+}
+
+/* Free mode k of a part at point i; at a hanging point only along what its bonds resist, so that modes and hanging directions are taken out
+   one after the other, in any order. */
+static void peri__mode_at(const peri__solver *s, const peri__fragment *part, int64_t i, int32_t k, double *moved) {
+    for (int32_t d = 0; d < s->body->dim; ++d) moved[d] = peri__mode(s->body, part, i, k, d);
+    if (s->held[i] & PERI_HANGING) peri__to_resisted(s, i, moved);
+}
+
 /* The points that live bonds connect with `first`, to s->queue; their part_of becomes `mark`. Returns their number. */
 static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
     const peri_body *b = s->body;
@@ -117,19 +141,49 @@ static void peri__free_modes(const peri__solver *s, int64_t count, peri__fragmen
     }
 }
 
-/* Holds, for each free mode of the part in s->queue, the component that it moves most, and takes the mode out of the others. */
+/* Leaves the free directions of a packed matrix; returns their number. */
+static int peri__free_block(int dim, uint8_t held, double *block) {
+    int frees = 0;
+    for (int d = 0; d < dim; ++d) {
+        frees += !(held >> d & 1);
+        for (int c = 0; c < dim && (held >> d & 1); ++c) block[peri__packed(dim, d, c)] = 0.0;
+    }
+    return frees;
+}
+
+/* In how many free directions the bonds of a point resist at all, however little: the rank of the sum of n n. */
+static int peri__directions(const peri_body *b, int64_t i, uint8_t held) {
+    const peri__model *m = b->model;
+    double spread[6] = { 0.0 }, inverse[6], heaviest = 0.0;
+    peri__row row;
+    peri__read_row(m, b->f32, i, &row);
+    for (int64_t k = 0; k < row.count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row.weight, b->f32, k)));
+    for (int64_t k = 0; k < row.count; ++k) {
+        double n[3] = { 0.0 }, square;
+        if (!peri__is_alive(b, i, k) || !(fabs(peri__get_real(row.weight, b->f32, k)) > PERI_WEIGHTLESS * heaviest)) continue;
+        for (int d = 0; d < m->dim; ++d) n[d] = peri__place(b, row.ids[k], d) - peri__place(b, i, d);
+        square = peri__dot(n, n, m->dim);
+        if (square > 0.0) peri__add_dyad(m->dim, 1.0 / square, n, 0.0, spread);
+    }
+    (void)peri__free_block(m->dim, held, spread);
+    return peri__invert(m->dim, spread, b->f32 ? 1e-6 : 1e-9, inverse);
+}
+
+/* Holds, for each free mode of the part in s->queue, the component that it moves most, of a point that does not hang; and takes the mode
+   out of the others. */
 static void peri__pin(peri__solver *s, int64_t count, peri__fragment *part) {
     const peri_body *b = s->body;
     for (int32_t k = 0; k < part->modes; ++k) {
         double most = 0.0;
         int64_t at = s->queue[0];
         int32_t axis = 0;
-        for (int64_t n = 0; n < count; ++n)
+        for (int64_t n = 0; n < 2 * count && (n < count || most == 0.0); ++n) /* where all hang, any will do */
             for (int32_t d = 0; d < b->dim; ++d) {
-                double moved = fabs(peri__mode(b, part, s->queue[n], k, d));
-                if (moved <= most * (1.0 + 1e-9)) continue;
+                const int64_t i = s->queue[n % count];
+                double moved = fabs(peri__mode(b, part, i, k, d));
+                if (moved <= most * (1.0 + 1e-9) || (n < count && peri__directions(b, i, 0) < b->dim)) continue;
                 most = moved;
-                at = s->queue[n];
+                at = i;
                 axis = d;
             }
         s->held[at] = (uint8_t)(s->held[at] | 1 << axis);
@@ -145,28 +199,37 @@ static void peri__pin(peri__solver *s, int64_t count, peri__fragment *part) {
 static void peri__weigh_modes(peri__solver *s) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
-    for (int64_t p = 0; p < s->part_count; ++p) memset(s->parts[p].inverse, 0, sizeof s->parts[p].inverse);
+    for (int64_t p = 0; p < s->part_count; ++p) {
+        memset(s->parts[p].inverse, 0, sizeof s->parts[p].inverse);
+        s->parts[p].sum[0] = 0.0; /* the mass of the part */
+    }
     for (int64_t i = 0; i < m->points; ++i) {
         peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
+        double mode[PERI_RIGID][3];
+        if (part) part->sum[0] += m->rho[m->material[i]] * m->volume[i];
+        for (int32_t k = 0; part && k < part->modes; ++k) peri__mode_at(s, part, i, k, mode[k]);
         for (int32_t d = 0; part && d < m->dim; ++d) {
             double moved[PERI_RIGID];
-            for (int32_t k = 0; k < part->modes; ++k) moved[k] = peri__mode(b, part, i, k, d);
+            for (int32_t k = 0; k < part->modes; ++k) moved[k] = mode[k][d];
             const double mass = m->rho[m->material[i]] * m->volume[i];
             for (int32_t p = 0; p < part->modes; ++p)
                 for (int32_t q = 0; q < part->modes; ++q) part->inverse[p][q] += mass * moved[p] * moved[q];
         }
     }
-    for (int64_t n = 0; n < s->part_count; ++n) {
+    for (int64_t n = 0; n < s->part_count; ++n) { /* modes of hanging points alone have no mass left: they are none any more */
         peri__fragment *part = &s->parts[n];
-        double mass[PERI_RIGID][PERI_RIGID], copy[PERI_RIGID][PERI_RIGID];
-        memcpy(mass, part->inverse, sizeof mass);
-        for (int q = 0; q < part->modes; ++q) {
-            double unit[PERI_RIGID] = { 0.0 }, column[PERI_RIGID];
-            unit[q] = 1.0;
-            memcpy(copy, mass, sizeof copy);
-            peri__solve(part->modes, PERI_RIGID, copy[0], unit, column);
-            for (int p = 0; p < part->modes; ++p) part->inverse[p][q] = column[p];
-        }
+        const int modes = part->modes;
+        double mass[PERI_RIGID * PERI_RIGID], v[PERI_RIGID * PERI_RIGID];
+        for (int p = 0; p < modes; ++p)
+            for (int q = 0; q < modes; ++q) mass[p * modes + q] = part->inverse[p][q];
+        peri__jacobi(modes, mass, v);
+        for (int p = 0; p < modes; ++p)
+            for (int q = 0; q < modes; ++q) {
+                part->inverse[p][q] = 0.0;
+                for (int e = 0; e < modes; ++e)
+                    if (mass[e * (modes + 1)] > 1e-9 * part->sum[0])
+                        part->inverse[p][q] += v[p * modes + e] * v[q * modes + e] / mass[e * (modes + 1)];
+            }
     }
 }
 
@@ -194,7 +257,6 @@ static int32_t peri__find_loose(peri__solver *s) {
         for (int64_t n = 0; n < count; ++n) s->part_of[s->queue[n]] = (int32_t)s->part_count;
         s->parts[s->part_count++] = part;
     }
-    peri__weigh_modes(s);
     return PERI_OK;
 }
 
@@ -207,9 +269,11 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
     for (int64_t i = 0; i < m->points; ++i) {
         peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
         double mass = forces ? 1.0 : m->rho[m->material[i]] * m->volume[i];
-        for (int32_t k = 0; part && k < part->modes; ++k)
-            for (int32_t d = 0; d < m->dim; ++d)
-                part->sum[k] += mass * peri__mode(b, part, i, k, d) * peri__get_real(vector, b->f32, d * m->stride + i);
+        for (int32_t k = 0; part && k < part->modes; ++k) {
+            double moved[3] = { 0.0 };
+            peri__mode_at(s, part, i, k, moved);
+            for (int32_t d = 0; d < m->dim; ++d) part->sum[k] += mass * moved[d] * peri__get_real(vector, b->f32, d * m->stride + i);
+        }
     }
     for (int64_t p = 0; p < s->part_count; ++p) {
         double share[PERI_RIGID] = { 0.0 };
@@ -220,41 +284,15 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
     for (int64_t i = 0; i < m->points; ++i) {
         const peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
         double mass = forces ? m->rho[m->material[i]] * m->volume[i] : 1.0;
-        for (int32_t d = 0; part && d < m->dim; ++d) {
-            double sum = 0.0;
-            for (int32_t k = 0; k < part->modes; ++k) sum += part->sum[k] * peri__mode(b, part, i, k, d);
-            int64_t at = d * m->stride + i;
-            peri__put_real(vector, b->f32, at, peri__get_real(vector, b->f32, at) - mass * sum);
+        for (int32_t k = 0; part && k < part->modes; ++k) {
+            double moved[3] = { 0.0 };
+            peri__mode_at(s, part, i, k, moved);
+            for (int32_t d = 0; d < m->dim; ++d) {
+                int64_t at = d * m->stride + i;
+                peri__put_real(vector, b->f32, at, peri__get_real(vector, b->f32, at) - mass * part->sum[k] * moved[d]);
+            }
         }
     }
-}
-
-/* Leaves the free directions of a packed matrix; returns their number. */
-static int peri__free_block(int dim, uint8_t held, double *block) {
-    int frees = 0;
-    for (int d = 0; d < dim; ++d) {
-        frees += !(held >> d & 1);
-        for (int c = 0; c < dim && (held >> d & 1); ++c) block[peri__packed(dim, d, c)] = 0.0;
-    }
-    return frees;
-}
-
-/* In how many free directions the bonds of a point resist at all, however little: the rank of the sum of n n. */
-static int peri__directions(const peri_body *b, int64_t i, uint8_t held) {
-    const peri__model *m = b->model;
-    double spread[6] = { 0.0 }, inverse[6], heaviest = 0.0;
-    peri__row row;
-    peri__read_row(m, b->f32, i, &row);
-    for (int64_t k = 0; k < row.count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row.weight, b->f32, k)));
-    for (int64_t k = 0; k < row.count; ++k) {
-        double n[3] = { 0.0 }, square;
-        if (!peri__is_alive(b, i, k) || !(fabs(peri__get_real(row.weight, b->f32, k)) > PERI_WEIGHTLESS * heaviest)) continue;
-        for (int d = 0; d < m->dim; ++d) n[d] = peri__place(b, row.ids[k], d) - peri__place(b, i, d);
-        square = peri__dot(n, n, m->dim);
-        if (square > 0.0) peri__add_dyad(m->dim, 1.0 / square, n, 0.0, spread);
-    }
-    (void)peri__free_block(m->dim, held, spread);
-    return peri__invert(m->dim, spread, b->f32 ? 1e-6 : 1e-9, inverse);
 }
 
 /* Inverts the diagonal blocks on what is free. Points whose bonds do not resist in all free directions are refused, or marked; those
@@ -300,19 +338,11 @@ static void peri__drop_hanging(peri__solver *s, void *vector) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
     for (int64_t i = 0; s->hanging > 0 && i < m->points; ++i) {
-        double block[6], inverse[6], force[3], range[3], kept[3];
+        double part[3] = { 0.0 };
         if (!(s->held[i] & PERI_HANGING)) continue;
-        for (int k = 0; k < PERI_PACKED(m->dim); ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
-        (void)peri__invert(m->dim, block, 0.5 * PERI_RESISTED(b), inverse); /* what was kept is no further apart than that */
-        for (int d = 0; d < m->dim; ++d) force[d] = peri__get_real(vector, b->f32, d * m->stride + i);
-        for (int d = 0; d < m->dim; ++d) { /* inverse of the inverse times the inverse: the projector on its range */
-            range[d] = 0.0;
-            for (int c = 0; c < m->dim; ++c) range[d] += block[peri__packed(m->dim, d, c)] * force[c];
-        }
-        for (int d = 0; d < m->dim; ++d) {
-            kept[d] = 0.0;
-            for (int c = 0; c < m->dim; ++c) kept[d] += inverse[peri__packed(m->dim, d, c)] * range[c];
-            if (!(s->held[i] >> d & 1)) peri__put_real(vector, b->f32, d * m->stride + i, kept[d]);
-        }
+        for (int d = 0; d < m->dim; ++d) part[d] = peri__get_real(vector, b->f32, d * m->stride + i);
+        peri__to_resisted(s, i, part);
+        for (int d = 0; d < m->dim; ++d)
+            if (!(s->held[i] >> d & 1)) peri__put_real(vector, b->f32, d * m->stride + i, part[d]);
     }
 }

@@ -37,7 +37,7 @@ static int32_t peri__relax(peri__solver *s) {
     peri_body *b = s->body;
     double unit = 1.1 / peri__square(peri__stable(b));
     double loads, residual;
-    s->floor = 0.0;
+    s->floor = peri__rounding(b) * s->top;
     if (peri__gap(s)) peri__move(s, 1.0);
     memset(s->k.p, 0, peri__vector_bytes(b));
     for (int64_t k = 0;; ++k) {

@@ -167,6 +167,15 @@ static int32_t peri__note_forces(peri__solver *s) {
     return PERI_OK;
 }
 
+/* Takes the velocities, once: not before the first solve is known to be possible. */
+static void peri__stand_still(peri__solver *s) {
+    peri_body *b = s->body;
+    if (s->begun) return;
+    s->begun = 1;
+    if (b->desc.ledger) b->ledger.damping += peri__kinetic_energy(b);
+    memset(b->v, 0, peri__vector_bytes(b));
+}
+
 /* Equilibrium at a load factor, with all that breaks there. */
 static int32_t peri__static_step(peri__solver *s, double factor) {
     peri_body *b = s->body;
@@ -178,6 +187,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     double broken = s->disturbed ? peri__static_energy(b) : 0.0; /* elastic energy after bonds broke, or on_step changed the body */
     for (int64_t round = 0; status == PERI_OK; ++round) {
         status = peri__prepare(s, round == 0);
+        if (status == PERI_OK) peri__stand_still(s);
         s->left = s->settings->iterations;
         s->energy0 = 0.0;
         if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
@@ -278,10 +288,8 @@ static int32_t peri__load_steps(peri__solver *s) {
     const peri_statics *st = s->settings;
     int32_t status = peri__take_solver(s);
     if (status < 0) return status;
-    double kinetic = peri__kinetic_energy(b), from = st->load_from;
+    double from = st->load_from;
     if (b->desc.ledger) peri__settle(b);
-    b->ledger.damping += b->desc.ledger ? kinetic : 0.0;
-    memset(b->v, 0, peri__vector_bytes(b));
     b->still = 1;
     b->force_current = 0;
     b->load_factor = from;
@@ -299,7 +307,6 @@ static int32_t peri__load_steps(peri__solver *s) {
 static void peri__count_stray(peri__solver *s) {
     peri_body *b = s->body;
     void *u = b->u;
-    if (s->report.passes == 0) return;
     b->u = s->from;
     double energy = peri__static_energy(b);
     b->u = u;
@@ -315,14 +322,17 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_r
     memset(&s, 0, sizeof s);
     s.body = b;
     s.settings = st;
+    const double factor = b->load_factor;
+    const int32_t still = b->still;
     b->running = 2;
     status = peri__load_steps(&s);
     b->running = 0;
     if (status < 0) {
-        b->load_factor = s.report.steps > 0 ? s.report.load_factor : st->load_from;
+        b->load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? st->load_from : factor;
+        b->still = s.begun ? 1 : still;
         b->force_current = 0;
     }
-    if (status != PERI_OK && s.from) peri__count_stray(&s);
+    if (status != PERI_OK && s.from && s.begun) peri__count_stray(&s);
     peri__free_solver(&s);
     if (report) *report = s.report;
     return status;

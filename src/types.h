@@ -273,10 +273,12 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     double              softest;  /* the smallest trace of a diagonal block                                              */
     double              scale;    /* the larger of |loads| and |reactions|                                               */
     double              slope;    /* r.d of the last linear solve, r as it was before                                     */
+    double              top;      /* the largest scale of this call                                                      */
     double              widest;   /* the longest way that a held component still had to go                                */
     double              floor;    /* |r| that is rounding, of bonds over displacements                                   */
     double              energy0;  /* r.z at the start of this equilibrium                                                */
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
+    int32_t             begun;    /* 1: the body has been changed                                                        */
     int32_t             disturbed; /* 1: on_step has changed what acts, or the bonds                                      */
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
     int64_t             bytes;    /* taken now                                                                           */
