@@ -650,7 +650,7 @@ typedef struct peri_statics_report {
     int64_t curve_rows;   /* rows of the curve, written or not                                                           */
     int64_t loose;        /* rigid motions that were pinned or balanced in the last equilibrium                          */
     int64_t bytes;        /* most memory that the solver took at a time, beside the body                                 */
-    double  residual;     /* of the last equilibrium, over its scale                                                     */
+    double  residual;     /* of the last equilibrium, over its scale; 0 where nothing acts                               */
     double  load_factor;  /* of the last equilibrium                                                                     */
 } peri_statics_report;
 

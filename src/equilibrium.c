@@ -90,8 +90,11 @@ static void peri__note_floor(peri__solver *s) {
     if (rounding > s->floor) s->floor = rounding;
 }
 
-static int peri__is_settled(const peri__solver *s, double residual, double loads) {
-    return residual <= peri__solve_tolerance(s) * s->scale || peri__is_nothing(s, residual, loads);
+static int peri__is_settled(peri__solver *s, double residual, double loads) {
+    if (residual <= peri__solve_tolerance(s) * s->scale) return 1;
+    if (!peri__is_nothing(s, residual, loads)) return 0;
+    s->report.residual = 0.0; /* rounding over rounding tells nothing */
+    return 1;
 }
 
 static void peri__tell_residual(peri__solver *s, double residual) {
