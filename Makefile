@@ -21,7 +21,7 @@ SOURCES = peri.h peri_impl.c $(wildcard src/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 
-.PHONY: all demo test validate bench examples lib dist lint clean
+.PHONY: all demo programs test validate bench examples lib dist lint clean
 all: lib
 
 build/peri.o: $(SOURCES)
@@ -56,10 +56,14 @@ examples: $(EXAMPLES:%=build/examples/%)
 	@mkdir -p out
 	@for e in $(EXAMPLES); do echo "== $$e"; build/examples/$$e || exit 1; done
 
-test: $(TESTS:%=build/tests/%) $(EXAMPLES:%=build/examples/%) build/libperi.so
+programs: $(TESTS:%=build/tests/%) $(EXAMPLES:%=build/examples/%) build/libperi.so
+
+test:
+	@$(MAKE) --no-print-directory -j2 programs
 	@CC="$(CC)" OPENMP="$(OPENMP)" sh tests/run.sh
 
-validate: $(TESTS:%=build/tests/%)
+validate:
+	@$(MAKE) --no-print-directory -j2 programs
 	@sh tests/run.sh --long
 
 bench: build/bench/bench build/bench/statics

@@ -8,47 +8,52 @@ mkdir -p build/checks build/san
 # ---- the examples run as they are
 for source in examples/*.c; do
     name=$(basename "$source" .c)
-    check "example_$name" "build/examples/$name"
+    queue "example_$name" "build/examples/$name"
 done
 check example_length sh -c 'for e in examples/*.c; do
     lines=$(wc -l < $e); [ $lines -lt 80 ] || { echo "$e: $lines lines"; exit 1; }; done'
 
-# ---- under sanitizers, what is quick enough
+# ---- every way to compile it
+sanitized=""
 if echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; then
-    check sanitized_library $CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o
     sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
         test_loadsteps test_loose test_memory test_output test_quadrature test_random test_solvers"
-    printf '%s\n' $sanitized |
-        xargs -P 2 -I % sh -c "$CC $STRICT $SANITIZE $OPENMP -I. tests/%.c build/san/peri.o -o build/san/% -lm"
-    programs build/san sanitized_ $sanitized
+    queue sanitized_library "$CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o"
 else
     skip sanitized "no sanitizers on this machine"
 fi
-
-# ---- every way to compile it
 for compiler in gcc clang; do
     if ! command -v $compiler > /dev/null; then skip "strict_$compiler" "no $compiler on this machine"; continue; fi
-    check "strict_$compiler" $compiler $STRICT -O1 -c peri_impl.c -o "build/checks/$compiler.o"
-    check "strict_${compiler}_header_only" $compiler $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c peri.h -o "build/checks/$compiler.h.o"
-    check "strict_${compiler}_no_stdio" $compiler $STRICT -O0 -DPERI_NO_STDIO -c peri_impl.c -o "build/checks/$compiler.n.o"
-    check "static_in_two_units_$compiler" sh -c "$compiler $STRICT -O0 -I. tests/static_a.c tests/static_b.c -o build/checks/static_$compiler -lm &&
-        build/checks/static_$compiler"
+    out=build/checks/$compiler
+    queue "strict_$compiler" "$compiler $STRICT -O1 -c peri_impl.c -o $out.o"
+    queue "strict_${compiler}_header_only" "$compiler $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c peri.h -o $out.h.o"
+    queue "strict_${compiler}_no_stdio" "$compiler $STRICT -O0 -DPERI_NO_STDIO -c peri_impl.c -o $out.n.o"
+    queue "static_in_two_units_$compiler" "$compiler $STRICT -O0 -I. tests/static_a.c tests/static_b.c -o $out.static -lm && $out.static"
 done
 if command -v g++ > /dev/null; then
-    check cxx11 sh -c "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/peri.o \
+    queue cxx11 "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/peri.o \
         -o build/checks/cxx $OPENMP -lm && build/checks/cxx"
 else
     skip cxx11 "no g++ on this machine"
 fi
 if command -v tcc > /dev/null; then
-    check tcc tcc -I. -c peri_impl.c -o build/checks/tcc.o
+    queue tcc "tcc -I. -c peri_impl.c -o build/checks/tcc.o"
 else
     skip tcc "no tcc on this machine"
 fi
+queue dist "sh tests/check_dist.sh"
+run_queue
+
+# ---- under sanitizers, what is quick enough
+if [ -n "$sanitized" ]; then
+    printf '%s\n' $sanitized |
+        xargs -P 2 -I % sh -c "$CC $STRICT $SANITIZE $OPENMP -I. tests/%.c build/san/peri.o -o build/san/% -lm"
+    programs build/san sanitized_ $sanitized
+fi
+
 if command -v python3 > /dev/null; then
     check ctypes_build $CC $STRICT -O2 -I. tests/ctypes_scene.c build/peri.o -o build/checks/ctypes_scene $OPENMP -lm
     program test_ctypes python3 tests/test_ctypes.py build/libperi.so build/checks/ctypes_scene
 else
     skip test_ctypes "no python3 on this machine"
 fi
-check dist sh tests/check_dist.sh

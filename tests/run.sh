@@ -42,19 +42,36 @@ programs() { # programs DIRECTORY PREFIX NAME...: two at a time
 check() { # check NAME COMMAND...: passes when the command does
     name=$1
     shift
-    if "$@" > "build/$name.log" 2>&1; then
+    "$@" > "build/$name.log" 2>&1
+    verdict "$name" $?
+}
+
+verdict() { # verdict NAME STATUS, of what has left its log
+    if [ "$2" -eq 0 ]; then
         passed=$((passed + 1))
-        echo "pass $name"
+        echo "pass $1"
     else
         failed=$((failed + 1))
-        echo "FAIL $name"
-        tail -n 20 "build/$name.log"
+        echo "FAIL $1"
+        tail -n 20 "build/$1.log"
     fi
+}
+
+queued=""
+queue() { # queue NAME COMMAND: a check for run_queue, COMMAND one line of shell
+    echo "$2" > "build/queue/$1.sh"
+    queued="$queued $1"
+}
+
+run_queue() { # two at a time
+    printf '%s\n' $queued | xargs -P 2 -I % sh -c 'sh build/queue/%.sh > build/%.log 2>&1; echo $? > build/queue/%.status'
+    for name in $queued; do verdict "$name" "$(cat "build/queue/$name.status")"; done
+    queued=""
 }
 
 skip() { echo "skip $1: $2"; }
 
-mkdir -p build out
+mkdir -p build/queue out
 programs build/tests "" $(basename -s .c tests/test_*.c)
 
 if [ -z "$long" ]; then
