@@ -4,48 +4,7 @@
    hook), and the most that it holds during peri_build; and beside it the textbook loop over stored ids, weights and lengths in the same
    run, so that the ratio holds on a noisy machine.
    Figures are for one thread unless the row says otherwise. */
-#include "../peri.h"
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
-static double seconds(void) {
-#ifdef _OPENMP
-    return omp_get_wtime();
-#else
-    return (double)clock() / CLOCKS_PER_SEC;
-#endif
-}
-
-static uint64_t bytes_now, bytes_most;
-
-static void *count_allocate(void *user, uint64_t bytes) {
-    (void)user;
-    bytes_now += bytes;
-    if (bytes_now > bytes_most) bytes_most = bytes_now;
-    return malloc((size_t)bytes);
-}
-
-static void count_release(void *user, void *pointer, uint64_t bytes) {
-    (void)user;
-    bytes_now -= bytes;
-    free(pointer);
-}
-
-static void need(peri_body *body, int64_t result) {
-    peri_error error;
-    char text[256];
-    if (result >= 0) return;
-    (void)peri_last_error(body, &error);
-    (void)peri_error_format(&error, text, sizeof text);
-    fprintf(stderr, "bench: %s\n", text);
-    exit(1);
-}
+#include "bench.h"
 
 typedef struct bench_case {
     const char *name;

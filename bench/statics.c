@@ -9,48 +9,7 @@
    3  with --large: a block of 100^3, pulled alike
 
    Bytes are counted by an allocator hook: the body with all of its state, and the most that there was at a time. */
-#include "../peri.h"
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
-static double seconds(void) {
-#ifdef _OPENMP
-    return omp_get_wtime();
-#else
-    return (double)clock() / CLOCKS_PER_SEC;
-#endif
-}
-
-static uint64_t bytes_now, bytes_most;
-
-static void *count_allocate(void *user, uint64_t bytes) {
-    (void)user;
-    bytes_now += bytes;
-    if (bytes_now > bytes_most) bytes_most = bytes_now;
-    return malloc((size_t)bytes);
-}
-
-static void count_release(void *user, void *pointer, uint64_t bytes) {
-    (void)user;
-    if (pointer) bytes_now -= bytes;
-    free(pointer);
-}
-
-static void need(peri_body *body, int64_t result) {
-    peri_error error;
-    char text[256];
-    if (result >= 0) return;
-    (void)peri_last_error(body, &error);
-    (void)peri_error_format(&error, text, sizeof text);
-    fprintf(stderr, "statics: %s\n", text);
-    exit(1);
-}
+#include "bench.h"
 
 static peri_body *block(int32_t space, int64_t edge, double poisson, int32_t precision) {
     const double lo[3] = { 0, 0, 0 }, hi[3] = { 1, 1, 1 };
