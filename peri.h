@@ -240,9 +240,9 @@ typedef enum peri_break_timing {
 /* What makes good for the part of a family that is missing at a surface, and for the coarseness of a sum over few points.
    Without it a bond-based body is soft near its surfaces. State-based laws divide by moments of the family as it is, and so are
    calibrated point by point as they stand: LPS without correction acts like bond-based with PERI_ENERGY_CORRECTION. Costs set-up
-   time; and bonds near surfaces then differ one by one, so that such bodies keep the list of families instead of columns: 12 bytes per bond,
-   and with the moment correction 1.3 times the time per step in 3D, 1.5 (bond-based) to 1.8 times (LPS) in 2D. Measured, plane stress,
-   horizon of 3 spacings:
+   time; and bonds near surfaces then differ one by one, so that such bodies keep the list of families instead of columns: 12 bytes per
+   bond, and with the moment correction 1.3 times the time per step in 3D, 1.5 (bond-based) to 1.8 times (LPS) in 2D. Measured, plane
+   stress, horizon of 3 spacings:
                                             none   volume  energy  moment   LPS, none  LPS, moment  correspondence
      bulk energy, mean error over strains   3.8 %   2.2 %   1.4 %     0        1.5 %       0            0
      the same at faces                       22 %    17 %    17 %    13 %       12 %       0            0
