@@ -226,6 +226,17 @@ static void peri__delete_vector(const peri_body *b, void *vector) {
 
 /* ---- state -------------------------------------------------------------------------------------------------------- */
 
+static void peri__free_load(const peri_body *b, peri__load *load) {
+    peri__delete(&b->memory, load->value, load->count * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->force, PERI__HELD_PLANES * load->count * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->spread, load->count * b->dim * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->owned, load->count, 1);
+    peri__delete(&b->memory, load->all, load->count, sizeof *load->all);
+    load->value = load->force = load->spread = NULL;
+    load->owned = NULL;
+    load->all = NULL;
+}
+
 static void peri__free_state(peri_body *b) {
     const peri__memory *memory = &b->memory;
     const peri__model *m = b->model;
@@ -249,13 +260,7 @@ static void peri__free_state(peri_body *b) {
         peri__delete(memory, b->sets[k].points, b->sets[k].count, sizeof(int32_t));
     }
     peri__delete(memory, b->sets, b->set_capacity, sizeof *b->sets);
-    for (int64_t k = 0; k < b->load_count; ++k) {
-        peri__delete(memory, b->loads[k].value, b->loads[k].count * m->dim, sizeof(double));
-        peri__delete(memory, b->loads[k].force, PERI__HELD_PLANES * b->loads[k].count * m->dim, sizeof(double));
-        peri__delete(memory, b->loads[k].all, b->loads[k].count, sizeof(int32_t));
-        peri__delete(memory, b->loads[k].spread, b->loads[k].count * m->dim * m->dim, sizeof(double));
-        peri__delete(memory, b->loads[k].owned, b->loads[k].count, 1);
-    }
+    for (int64_t k = 0; k < b->load_count; ++k) peri__free_load(b, &b->loads[k]);
     peri__delete(memory, b->loads, b->load_capacity, sizeof *b->loads);
     peri__delete(memory, b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
     b->sets = NULL;

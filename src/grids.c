@@ -137,14 +137,14 @@ static void peri__multiply_grid(const peri__multilevel *l, const peri_body *b, p
     peri__for_points(b, g->count, 8 * l->around, peri__grid_product, &t, NULL);
 }
 
-/* out = inverse in, of one grid. */
-static void peri__grid_scale(const peri__multilevel *l, const peri__grid *g, const double *in, double *out) {
+/* out = keep out + gain inverse in, of one grid. */
+static void peri__grid_scale(const peri__multilevel *l, const peri__grid *g, double keep, double gain, const double *in, double *out) {
     const int dim = l->dim;
     for (int64_t n = 0; n < g->count; ++n)
         for (int p = 0; p < dim; ++p) {
             double sum = 0.0;
             for (int q = 0; q < dim; ++q) sum += (double)g->inverse[(n * dim + p) * dim + q] * in[n * dim + q];
-            out[n * dim + p] = sum;
+            out[n * dim + p] = keep * out[n * dim + p] + gain * sum;
         }
 }
 
@@ -168,7 +168,7 @@ static void peri__prepare_grid(const peri__multilevel *l, const peri_body *b, pe
     for (int power = 0; power < 12; ++power) {
         double norm = 0.0;
         peri__multiply_grid(l, b, g, g->x, g->product);
-        peri__grid_scale(l, g, g->product, g->x);
+        peri__grid_scale(l, g, 0.0, 1.0, g->product, g->x);
         for (int64_t k = 0; k < n; ++k) norm = fabs(g->x[k]) > norm ? fabs(g->x[k]) : norm;
         if (!(norm > 0.0)) break;
         g->largest = norm;
@@ -189,13 +189,7 @@ static void peri__smooth(const peri__multilevel *l, const peri_body *b, peri__gr
         double next = k == 0 ? rho : 1.0 / (2.0 * middle / half - rho), keep = k == 0 ? 0.0 : next * rho;
         double gain = k == 0 ? 1.0 / middle : 2.0 * next / half;
         for (int64_t i = 0; i < n; ++i) g->product[i] = g->r[i] - g->product[i];
-        const int dim = l->dim;
-        for (int64_t i = 0; i < g->count; ++i)
-            for (int p = 0; p < dim; ++p) {
-                double sum = 0.0;
-                for (int q = 0; q < dim; ++q) sum += (double)g->inverse[(i * dim + p) * dim + q] * g->product[i * dim + q];
-                g->step[i * dim + p] = keep * g->step[i * dim + p] + gain * sum;
-            }
+        peri__grid_scale(l, g, keep, gain, g->product, g->step);
         for (int64_t i = 0; i < n; ++i) g->x[i] += g->step[i];
         rho = next;
     }

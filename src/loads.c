@@ -32,17 +32,6 @@ static void peri__assign_supports(peri_body *b) {
     }
 }
 
-static void peri__free_load(const peri_body *b, peri__load *load) {
-    peri__delete(&b->memory, load->value, load->count * b->dim, sizeof(double));
-    peri__delete(&b->memory, load->force, PERI__HELD_PLANES * load->count * b->dim, sizeof(double));
-    peri__delete(&b->memory, load->spread, load->count * b->dim * b->dim, sizeof(double));
-    peri__delete(&b->memory, load->owned, load->count, 1);
-    peri__delete(&b->memory, load->all, load->count, sizeof *load->all);
-    load->value = load->force = load->spread = NULL;
-    load->owned = NULL;
-    load->all = NULL;
-}
-
 static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
                               void *user) {
     peri__load load;

@@ -59,6 +59,12 @@ static void peri__mode_at(const peri__solver *s, const peri__fragment *part, int
     if (s->held[i] & PERI_HANGING) peri__to_resisted(s, i, moved);
 }
 
+static double peri__heaviest(const peri_body *b, const peri__row *row) {
+    double heaviest = 0.0;
+    for (int64_t k = 0; k < row->count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row->weight, b->f32, k)));
+    return heaviest;
+}
+
 /* The points that live bonds connect with `first`, to s->queue; their part_of becomes `mark`. Returns their number. */
 static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
     const peri_body *b = s->body;
@@ -69,8 +75,7 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
         int64_t i = s->queue[n];
         peri__row row;
         peri__read_row(b->model, b->f32, i, &row);
-        double heaviest = 0.0;
-        for (int64_t k = 0; k < row.count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row.weight, b->f32, k)));
+        const double heaviest = peri__heaviest(b, &row);
         for (int64_t k = 0; k < row.count; ++k)
             if (s->part_of[row.ids[k]] < -1 && peri__is_alive(b, i, k)
                 && fabs(peri__get_real(row.weight, b->f32, k)) + fabs(peri__get_real(row.back, b->f32, k)) > PERI_WEIGHTLESS * heaviest) {
@@ -85,12 +90,10 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
 static void peri__hold_contact(const peri_body *b, const peri__fragment *part, int64_t i, double *held) {
     const int dim = b->dim, motions = dim * (dim + 1) / 2;
     for (int64_t k = 0; k < b->obstacle_count; ++k) {
-        double push[3] = { 0.0, 0.0, 0.0 }, along[PERI_RIGID] = { 0.0 }, size;
-        peri__push(b, &b->obstacles[k], i, push);
-        size = sqrt(peri__dot(push, push, dim));
-        if (!(size > 0.0)) continue;
+        double normal[3], along[PERI_RIGID] = { 0.0 };
+        if (!peri__touches(b, &b->obstacles[k], i, normal)) continue;
         for (int r = 0; r < motions; ++r)
-            for (int d = 0; d < dim; ++d) along[r] += push[d] / size * peri__rigid(b, part, i, r, d);
+            for (int d = 0; d < dim; ++d) along[r] += normal[d] * peri__rigid(b, part, i, r, d);
         for (int r = 0; r < motions; ++r)
             for (int c = 0; c < motions; ++c) held[r * motions + c] += along[r] * along[c];
     }
@@ -154,10 +157,10 @@ static int peri__free_block(int dim, uint8_t held, double *block) {
 /* In how many free directions the bonds of a point resist at all, however little: the rank of the sum of n n. */
 static int peri__directions(const peri_body *b, int64_t i, uint8_t held) {
     const peri__model *m = b->model;
-    double spread[6] = { 0.0 }, inverse[6], heaviest = 0.0;
+    double spread[6] = { 0.0 }, inverse[6];
     peri__row row;
     peri__read_row(m, b->f32, i, &row);
-    for (int64_t k = 0; k < row.count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row.weight, b->f32, k)));
+    const double heaviest = peri__heaviest(b, &row);
     for (int64_t k = 0; k < row.count; ++k) {
         double n[3] = { 0.0 }, square;
         if (!peri__is_alive(b, i, k) || !(fabs(peri__get_real(row.weight, b->f32, k)) > PERI_WEIGHTLESS * heaviest)) continue;
@@ -199,6 +202,7 @@ static void peri__pin(peri__solver *s, int64_t count, peri__fragment *part) {
 static void peri__weigh_modes(peri__solver *s) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
+    if (s->part_count == 0) return;
     for (int64_t p = 0; p < s->part_count; ++p) {
         memset(s->parts[p].inverse, 0, sizeof s->parts[p].inverse);
         s->parts[p].sum[0] = 0.0; /* the mass of the part */

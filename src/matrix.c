@@ -358,15 +358,13 @@ static void peri__add_contact(peri_matrix *a, const peri_body *b) {
     const int dim = a->dim;
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         for (int64_t i = 0; b->obstacles[k].kind && i < a->points; ++i) {
-            double push[3] = { 0.0, 0.0, 0.0 }, square;
+            double normal[3];
             int64_t at = a->start[i];
-            peri__push(b, &b->obstacles[k], i, push);
-            square = peri__dot(push, push, dim);
-            if (!(square > 0.0)) continue;
+            if (!peri__touches(b, &b->obstacles[k], i, normal)) continue;
             while (a->column[at] != i) ++at;
             for (int r = 0; r < dim; ++r)
                 for (int c = 0; c < dim; ++c)
-                    a->block[(at * dim + r) * dim + c] += b->model->volume[i] * b->obstacles[k].stiffness * push[r] * push[c] / square;
+                    a->block[(at * dim + r) * dim + c] += b->model->volume[i] * b->obstacles[k].stiffness * normal[r] * normal[c];
         }
 }
 

@@ -164,7 +164,7 @@ PERI_INLINE void peri__shapes(const peri__multilevel *l, int64_t o, const int di
         }
 }
 
-/* out of the nodes = P^T r of the points, the held ones left out: first what each cell gives to its corners, then the sum of cells. */
+/* r of the nodes = P^T r of the points, the held ones left out: first what each cell gives to its corners, then the sum of cells. */
 static void peri__restrict_cells(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__transfer *t = (const peri__transfer *)context;
     const peri__multilevel *l = t->levels;

@@ -65,14 +65,9 @@ static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, 
     return excess;
 }
 
-typedef struct peri__breaker {
-    peri_body *body;
-    double     limit; /* excess from which bonds break; 0: only the largest is looked for                                */
-} peri__breaker;
-
-/* Rows of bonds with j > i; sums->a: minus the largest excess. Both directions of a bond are decided by the row of its lower id. */
+/* sums->a: the largest excess, of bonds with j > i. Both directions of a bond are decided by the row of its lower id. */
 static void peri__excess_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri_body *b = ((const peri__breaker *)context)->body;
+    const peri_body *b = (const peri_body *)context;
     for (int64_t i = begin; i < end; ++i) {
         peri__row row;
         peri__read_row(b->model, b->f32, i, &row);
@@ -89,11 +84,9 @@ static int peri__may_break(const peri__solver *s) {
 static int64_t peri__break_static(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
-    peri__breaker breaker;
     double most = 0.0, limit = 1.0;
     int64_t count = 0;
-    breaker.body = b;
-    peri__for_points(b, m->points, 2 * m->width, peri__excess_block, &breaker, b->sums);
+    peri__for_points(b, m->points, 2 * m->width, peri__excess_block, b, b->sums);
     for (int64_t k = 0; k < m->blocks; ++k) most = fmax(most, b->sums[k].a);
     if (!(most > 1.0)) return 0;
     if (s->settings->criticality * most * (1.0 - 1e-6) > limit) limit = s->settings->criticality * most * (1.0 - 1e-6);

@@ -25,7 +25,7 @@ static void peri__stress_force(const peri__tangent *t, const peri__law *law, dou
     peri__apply_tangent(t, 1);
 }
 
-/* The set, its one law, and the scratch for products; spread is filled by `fill`. Adds the load. */
+/* A load on a surface in the making. */
 typedef struct peri__surface {
     int32_t       set;
     const double *normal; /* unit; NULL: pressure                                                                        */
