@@ -15,7 +15,8 @@
        cc -c peri_impl.c                 and link peri_impl.o; every other file only includes peri.h
        #define PERI_STATIC               together with PERI_IMPLEMENTATION, in as many files as you like: private copies
      The implementation is C99 (compile it as C); the declarations are also C++11. Link with -lm. With -fopenmp the loops
-     run on all cores. Other switches: PERI_NO_STDIO (no FILE helpers), PERI_NO_OPENMP, PERI_API (your own linkage).
+     run on all cores. Other switches: PERI_NO_STDIO (no FILE helpers), PERI_NO_OPENMP, PERI_PLAIN (C99
+     alone, no vector instructions), PERI_API (your own linkage).
 
    STEP BY STEP
      1  peri_body_desc d;  peri_body_desc_init(&d);  d.space = PERI_PLANE_STRESS;  d.horizon = 1e-3;
@@ -189,7 +190,7 @@ typedef enum peri_space {
     PERI_SOLID        = 3  /* 3D, Poisson ratio 1/4 when bond-based                                                     */
 } peri_space;
 
-typedef enum peri_type { PERI_F64 = 1, PERI_F32 = 2, PERI_I32 = 3 } peri_type;
+typedef enum peri_type { PERI_F64 = 1, PERI_F32 = 2, PERI_I32 = 3, PERI_MIXED = 4 } peri_type; /* I32: of views; MIXED: of bodies */
 
 typedef enum peri_geometry {
     PERI_NONLINEAR = 1, /* extension e = |xi+eta| - |xi|, force along xi+eta: any rotation, any stretch  ([T] 1.23)     */
@@ -265,10 +266,26 @@ typedef enum peri_correction {
                                    the bulk of lattices, to 1 % at faces                                                 */
 } peri_correction;
 
+/* How bonds are worked on; results agree to the rounding of sums. To check one by another, and to measure what each is worth. */
+typedef enum peri_kernel {
+    PERI_KERNEL_BEST      = 0, /* families of lattices packed by columns of 16 points, where that serves; else as a list */
+    PERI_KERNEL_REFERENCE = 1, /* every quantity by its formula, bond by bond: slow                                      */
+    PERI_KERNEL_LIST      = 2  /* the list of families, as clouds have it                                                */
+} peri_kernel;
+
+/* Vector instructions of x86-64, the same bits from each; elsewhere kernels are plain loops, and this has no effect. */
+typedef enum peri_instructions {
+    PERI_BASELINE = 1, /* SSE2                                                                                           */
+    PERI_AVX2     = 2,
+    PERI_AVX512   = 3  /* F, VL, DQ and BW                                                                               */
+} peri_instructions;
+
 typedef struct peri_body_desc {
     uint64_t          cookie;           /* set by peri_body_desc_init                                                    */
     int32_t           space;            /* peri_space. Required                                                          */
-    int32_t           precision;        /* PERI_F64 (default) or PERI_F32: 0.65 of the memory, faster; strains < 1e-6 lose digits*/
+    int32_t           precision;        /* PERI_F64 (default); PERI_F32: faster, 0.65 of the memory, but strains < 1e-6 lose digits; or
+                                           PERI_MIXED: the state as F64, bonds and their weights as F32: any strain to 7 digits,
+                                           momentum as F64; clouds take little more memory than as F32                   */
     int32_t           geometry;         /* peri_geometry. Default PERI_NONLINEAR                                         */
     int32_t           influence;        /* peri_influence. Default PERI_INFLUENCE_CONSTANT                               */
     int32_t           quadrature;       /* peri_quadrature. Default PERI_FULL_VOLUME                                     */
@@ -276,10 +293,12 @@ typedef struct peri_body_desc {
     int32_t           threads;          /* 0 = as OpenMP says (default), 1 = serial, n = n OpenMP threads. Small bodies run
                                            serially. Where other work shares the machine, waiting OpenMP threads can cost
                                            more than they give: set OMP_WAIT_POLICY=passive, or threads = 1              */
-    int32_t           reference;        /* 1 = plain textbook kernels (slow, for checking). Default 0                    */
+    int32_t           kernel;           /* peri_kernel. Default PERI_KERNEL_BEST                                         */
+    int32_t           instructions;     /* peri_instructions, the most that kernels may use; 0 (default): what the machine has */
     int32_t           ledger;           /* 1 (default) = account for external work, damping and obstacles while running;
                                            0 = do not: peri_read_energy then gives kinetic, elastic and fracture only    */
     int32_t           correction;       /* peri_correction. Default PERI_NO_CORRECTION                                   */
+    int32_t           reserved;         /* 0                                                                             */
     double            horizon;          /* [L] > 0. Required. 3 to 4 spacings is usual; cost grows as (horizon/spacing)^dim.
                                            Points nearer than this to a free face have part of a family: see correction.
                                            Comparisons have a relative tolerance of 1e-8 built in: 3*spacing means 3     */
@@ -424,6 +443,10 @@ PERI_API int64_t peri_cut_count(const peri_body *body);      /* bonds (pairs) cu
 PERI_API int64_t peri_broken_count(const peri_body *body);   /* bonds (pairs) broken by a criterion, or cut, since then  */
 PERI_API int64_t peri_step_count(const peri_body *body);     /* steps and load steps since build or reset                */
 PERI_API double  peri_time(const peri_body *body);           /* [T] since build or reset                                 */
+
+/* How the bonds are worked on: "columns, AVX-512", "list, SSE2", ...; "rows": one by one, which is what several models in one body and
+   the energy criteria ask for; "reference". Constant text, "" before peri_build. */
+PERI_API const char *peri_kernel_text(const peri_body *body);
 
 /* Largest stable time step [T], 2/sqrt(lambda) with lambda bounded by the stiffness of the actual bonds of each point
    ([T] 2.11: sqrt(2 rho / sum c V / |xi|)) and of the obstacles. Safe, not sharp: the true limit is up to 1.5 times larger, in

@@ -36,21 +36,34 @@
 #include "src/rows.c"       /* the family of a point, wherever it is stored                                */
 
 #define PERI_T_REAL 64
+#define PERI_T_BOND 64
 #define PERI_T_DIM 2
-#include "src/kernels.inl"  /* the numerical kernels: one text, four instantiations -> peri__ops_d2 ...     */
+#include "src/kernels.inl"  /* the numerical kernels: one text, six instantiations -> peri__ops_d2 ...      */
 #define PERI_T_REAL 64
+#define PERI_T_BOND 64
+#define PERI_T_DIM 3
+#include "src/kernels.inl"
+#define PERI_T_REAL 64
+#define PERI_T_BOND 32
+#define PERI_T_DIM 2
+#include "src/kernels.inl"
+#define PERI_T_REAL 64
+#define PERI_T_BOND 32
 #define PERI_T_DIM 3
 #include "src/kernels.inl"
 #define PERI_T_REAL 32
+#define PERI_T_BOND 32
 #define PERI_T_DIM 2
 #include "src/kernels.inl"
 #define PERI_T_REAL 32
+#define PERI_T_BOND 32
 #define PERI_T_DIM 3
 #include "src/kernels.inl"
 
 #include "src/response.c"   /* live families                   -> constants of state-based laws            */
 #include "src/arrays.c"     /* what a body keeps                                                           */
-#include "src/body.c"       /* create, build, clone, reset, destroy                                        */
+#include "src/body.c"       /* create, build, reset, destroy                                               */
+#include "src/clone.c"      /* copies; counts                                                              */
 #include "src/sets.c"       /* selections of points                                                        */
 #include "src/state.c"      /* access to the state in the user's units; energies                           */
 #include "src/cracks.c"     /* initial cracks, no-fail zones, break events                                 */

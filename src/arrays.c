@@ -3,8 +3,6 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-static size_t peri__real(const peri_body *b) { return b->f32 ? sizeof(float) : sizeof(double); }
-
 /* Numbers per point of a field, 0 where there is no such field. */
 static int32_t peri__components(int32_t field, int32_t dim) {
     switch (field) {
@@ -40,7 +38,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = m->entries;
     const int64_t constants = m->tensors ? PERI__INVERSE + PERI_PACKED(m->dim) : PERI__VECTOR;
     const int32_t states = m->states, breaks = m->states && m->breakable;
-    const size_t real = peri__real(b);
+    const size_t real = peri__real(b), bond = peri__bond_real(b);
 #define PERI_ARRAY_(member, number, bytes, want) { offsetof(peri_body, member), number, bytes, want }
     const peri__array arrays[PERI_ARRAYS] = {
         PERI_ARRAY_(pack, n * m->slots, real, m->slots > 0),
@@ -53,8 +51,8 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof(peri__pair), 0),
         PERI_ARRAY_(sums, m->blocks, sizeof(peri__sums), 0),
         PERI_ARRAY_(push, vector, sizeof(double), 0),
-        PERI_ARRAY_(constant, constants * m->stride + 2 * m->margin, real, states),
-        PERI_ARRAY_(response, (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin, real, states),
+        PERI_ARRAY_(constant, constants * m->stride + 2 * m->margin, bond, states),
+        PERI_ARRAY_(response, (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin, bond, states),
         PERI_ARRAY_(rate, n, sizeof(double), states),
         PERI_ARRAY_(wide, n, sizeof(double), states),
         PERI_ARRAY_(central, n / PERI_LANES + 1, 1, m->tensors),

@@ -11,10 +11,10 @@
 #define PERI_INLINE static
 #endif
 
-/* Kernels on lanes are loops that a compiler turns into vector instructions. Products and sums stay apart (no contraction), so that
-   every instruction set gives the same bits. gcc gets its options here, whatever the user's flags; clang vectorises from -O2 on. On
-   x86-64 the best instruction set is chosen at run time. Builds with gcc's address sanitizer take the plain text alone: vector code takes
-   minutes to instrument. */
+/* Kernels on columns and on the list work on vectors (k_vector.inl): on x86-64 with the best instruction set, chosen at run time; elsewhere
+   by plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the same bits. gcc gets
+   its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which costs half the speed
+   and more. Builds with gcc's address sanitizer, or with PERI_PLAIN, take the plain text alone: vector code takes minutes to instrument. */
 #if defined(__clang__)
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION _Pragma("clang fp contract(off)")
@@ -27,11 +27,12 @@
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION
 #endif
-#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(__TINYC__) && !defined(__SANITIZE_ADDRESS__)
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(__TINYC__) && !defined(__SANITIZE_ADDRESS__) \
+    && !defined(PERI_PLAIN)
 #define PERI_ISA
 #include <immintrin.h>
-#define PERI_AVX2 __attribute__((target("avx2")))
-#define PERI_AVX512 __attribute__((target(PERI_WIDE)))
+#define PERI_TARGET_AVX2 __attribute__((target("avx2")))
+#define PERI_TARGET_AVX512 __attribute__((target(PERI_WIDE)))
 #endif
 
 /* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted. */

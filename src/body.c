@@ -1,4 +1,4 @@
-/* body.c - create, build, clone, reset, destroy. */
+/* body.c - create, build, reset, destroy. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -22,7 +22,7 @@ PERI_API void peri_body_desc_init(peri_body_desc *d) {
 /* The name of the first field out of range, or NULL. */
 static const char *peri__bad_choice(const peri_body_desc *d) {
     if (d->space < PERI_PLANE_STRESS || d->space > PERI_SOLID) return "space";
-    if (d->precision != PERI_F64 && d->precision != PERI_F32) return "precision";
+    if (d->precision != PERI_F64 && d->precision != PERI_F32 && d->precision != PERI_MIXED) return "precision";
     if (d->geometry != PERI_NONLINEAR && d->geometry != PERI_LINEAR) return "geometry";
     if (d->influence < PERI_INFLUENCE_CONSTANT || d->influence > PERI_INFLUENCE_USER) return "influence";
     if (d->influence == PERI_INFLUENCE_USER && !d->influence_fn) return "influence_fn";
@@ -32,6 +32,8 @@ static const char *peri__bad_choice(const peri_body_desc *d) {
     if (d->correction < PERI_NO_CORRECTION || d->correction > PERI_MOMENT_CORRECTION) return "correction";
     if (d->correction != PERI_NO_CORRECTION && d->quadrature >= PERI_PARTIAL_CENTROID) return "correction";
     if (d->threads < 0) return "threads";
+    if (d->kernel < PERI_KERNEL_BEST || d->kernel > PERI_KERNEL_LIST) return "kernel";
+    if (d->instructions < 0 || d->instructions > PERI_AVX512) return "instructions";
     if ((d->allocate == NULL) != (d->release == NULL)) return "allocate, release";
     return NULL;
 }
@@ -60,6 +62,7 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
     b->memory = memory;
     b->dim = desc->space == PERI_SOLID ? 3 : 2;
     b->f32 = desc->precision == PERI_F32;
+    b->b32 = desc->precision != PERI_F64;
     b->load_factor = 1.0;
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
     *body = b;
@@ -68,7 +71,7 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
 
 /* ---- the shared model --------------------------------------------------------------------------------------------- */
 
-static void peri__free_list(peri__model *m, size_t real) {
+static void peri__free_list(peri__model *m, size_t real) { /* real: of bonds */
     const int64_t entries = m->entries;
     if (m->back != m->weight) peri__delete(&m->memory, m->back, entries, real);
     peri__delete(&m->memory, m->ids, entries, sizeof *m->ids);
@@ -86,14 +89,14 @@ static void peri__free_list(peri__model *m, size_t real) {
     m->part = NULL;
 }
 
-static void peri__release_model(peri__model *m, size_t real) {
+static void peri__release_model(peri__model *m, size_t real, size_t bond_real) {
     const peri__memory memory = m->memory;
     if (peri__count_users(&m->users, -1) > 0) return;
     peri__delete(&memory, m->x, m->stride * m->dim, real);
     peri__delete(&memory, m->volume, m->points, sizeof *m->volume);
     peri__delete(&memory, m->material, m->points, sizeof *m->material);
     peri__delete(&memory, m->count, m->points, sizeof *m->count);
-    peri__free_list(m, real);
+    peri__free_list(m, bond_real);
     peri__free_lanes(m);
     peri__delete(&memory, m->pairs, (int64_t)m->materials * m->materials, sizeof *m->pairs);
     peri__delete(&memory, m, 1, sizeof *m);
@@ -101,13 +104,12 @@ static void peri__release_model(peri__model *m, size_t real) {
 
 /* What a material that is used asks of the body. */
 static void peri__note_law(peri__model *m, const peri__law *law, int32_t criterion) {
-    int ordinary = law->model == PERI_LPS || law->model == PERI_OTERKUS;
     if (law->model != PERI_BOND_BASED) m->states = 1;
     if (law->model == PERI_CORRESPONDENCE) m->tensors = 1;
     if (law->model == PERI_OTERKUS || (law->model == PERI_LPS && law->a != 0.0)) m->dilates = 1;
     if (criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
     if (criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
-    m->ordinary = ordinary && (m->ordinary == 0 || m->ordinary == law->model) ? law->model : -1; /* -1: they differ            */
+    m->uniform = m->uniform == 0 || m->uniform == law->model ? law->model : -1;
 }
 
 /* Units of stress and density, and the constants of all pairs of materials in them. */
@@ -133,7 +135,7 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
         int32_t status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
         if (status < 0) return status;
     }
-    if (m->ordinary < 0) m->ordinary = 0;
+    m->ordinary = m->uniform == PERI_LPS || m->uniform == PERI_OTERKUS ? m->uniform : 0;
     for (int32_t i = 0; i < n; ++i)
         for (int32_t j = 0; j < n; ++j) {
             peri__pair *pair = &m->pairs[i * n + j];
@@ -166,7 +168,7 @@ static int32_t peri__fill_families(peri_body *b, peri__model *m, peri__cloud *cl
     status = peri__fill_list(b, m, cloud, sums);
     if (status < 0 || !listed) return status;
     made = peri__build_lanes(b, cloud);
-    if (made > 0) peri__free_list(m, peri__real(b));
+    if (made > 0) peri__free_list(m, peri__bond_real(b));
     return made < 0 ? made : PERI_OK;
 }
 
@@ -204,10 +206,11 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     if (status == PERI_OK && !m->states && !(m->rate > 1e-30 && m->rate < 1e30))
         status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
     m->lanes.isa = peri__isa();
+    if (b->desc.instructions > 0) m->lanes.isa = (int32_t)peri__min(m->lanes.isa, b->desc.instructions - PERI_BASELINE);
     m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
     m->words = (m->width + 31) / 32;
-    if (m->start && !m->bond && !b->desc.reference && (!m->states || (m->ordinary && !m->works && !m->nodes)))
-        m->slots = dim == 2 && !m->states && m->materials == 1 ? 4 : 8;
+    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && m->uniform > 0 && !m->works && !m->nodes)
+        m->slots = m->tensors ? (dim == 2 ? 12 : 16) : dim == 2 && !m->states && m->materials == 1 ? 4 : 8;
     return status;
 }
 
@@ -320,7 +323,9 @@ static int32_t peri__update_classes(peri_body *b) {
 
 static int32_t peri__new_state(peri_body *b) {
     const peri__model *m = b->model;
-    b->ops = b->f32 ? (b->dim == 3 ? &peri__ops_f3 : &peri__ops_f2) : b->dim == 3 ? &peri__ops_d3 : &peri__ops_d2;
+    b->ops = b->f32 ? (b->dim == 3 ? &peri__ops_f3 : &peri__ops_f2)
+           : b->b32 ? (b->dim == 3 ? &peri__ops_m3 : &peri__ops_m2)
+                    : b->dim == 3 ? &peri__ops_d3 : &peri__ops_d2;
     b->u = peri__new_vector(b);
     b->v = peri__new_vector(b);
     b->f = peri__new_vector(b);
@@ -378,7 +383,7 @@ PERI_API int32_t peri_build(peri_body *b) {
     peri__delete(&b->memory, sums, blocks, sizeof *sums);
     b->running = 0;
     if (status < 0) {
-        peri__release_model(m, peri__real(b));
+        peri__release_model(m, peri__real(b), peri__bond_real(b));
         return status;
     }
     peri__free_setup(b);
@@ -395,123 +400,11 @@ PERI_API void peri_body_destroy(peri_body *b) {
     memory = b->memory;
     if (b->model) {
         peri__free_state(b);
-        peri__release_model(b->model, peri__real(b));
+        peri__release_model(b->model, peri__real(b), peri__bond_real(b));
     }
     peri__free_setup(b);
     peri__delete(&memory, b->interfaces, b->interface_capacity, sizeof *b->interfaces);
     peri__delete(&memory, b, 1, sizeof *b);
-}
-
-/* Copies the state of `from` into the empty body b, which shares its model. 0 where memory is short. */
-static int peri__copy_state(peri_body *b, const peri_body *from) {
-    const peri__memory *memory = &b->memory;
-    const peri__model *m = b->model;
-    int64_t vector = m->stride * m->dim;
-    peri__array arrays[PERI_ARRAYS];
-    int ok = 1;
-#define PERI_COPY_(member, count, size)                                                                                \
-    if (from->member) {                                                                                                \
-        void *copy_ = peri__copy(memory, from->member, count, size);                                                   \
-        ok = ok && copy_;                                                                                              \
-        memcpy(&b->member, &copy_, sizeof copy_);                                                                      \
-    }
-    b->u = peri__new_vector(b);
-    b->v = peri__new_vector(b);
-    b->f = peri__new_vector(b);
-    ok = b->u && b->v && b->f;
-    if (ok) {
-        memcpy(b->u, from->u, (size_t)vector * peri__real(b));
-        memcpy(b->v, from->v, (size_t)vector * peri__real(b));
-        memcpy(b->f, from->f, (size_t)vector * peri__real(b));
-    }
-    peri__list_arrays(b, arrays);
-    for (int k = 0; k < PERI_ARRAYS; ++k) {
-        const void *own = peri__array_of(from, &arrays[k]);
-        void *made = own ? peri__copy(memory, own, arrays[k].count, arrays[k].size) : NULL;
-        ok = ok && (made || !own);
-        peri__set_array(b, &arrays[k], made);
-    }
-    PERI_COPY_(obstacles, from->obstacle_capacity, sizeof *b->obstacles)
-    b->obstacle_count = from->obstacle_count;
-    b->obstacle_capacity = b->obstacles ? from->obstacle_capacity : 0;
-
-    b->sets = (peri__set *)peri__new(memory, from->set_capacity, sizeof *b->sets);
-    b->loads = (peri__load *)peri__new(memory, from->load_capacity, sizeof *b->loads);
-    if (b->sets) b->set_capacity = from->set_capacity;
-    if (b->loads) b->load_capacity = from->load_capacity;
-    for (int64_t k = 0; b->sets && k < from->set_count; ++k) {
-        b->sets[k] = from->sets[k];
-        b->sets[k].name = NULL;
-        b->sets[k].points = NULL;
-        PERI_COPY_(sets[k].name, from->sets[k].name_bytes, 1)
-        PERI_COPY_(sets[k].points, from->sets[k].count, sizeof(int32_t))
-        b->set_count = k + 1;
-    }
-    for (int64_t k = 0; b->loads && k < from->load_count; ++k) {
-        b->loads[k] = from->loads[k];
-        b->loads[k].value = b->loads[k].force = b->loads[k].spread = NULL;
-        b->loads[k].owned = NULL;
-        b->loads[k].all = NULL;
-        PERI_COPY_(loads[k].all, from->loads[k].count, sizeof(int32_t))
-        PERI_COPY_(loads[k].value, from->loads[k].count * m->dim, sizeof(double))
-        PERI_COPY_(loads[k].force, PERI__HELD_PLANES * from->loads[k].count * m->dim, sizeof(double))
-        PERI_COPY_(loads[k].spread, from->loads[k].count * m->dim * m->dim, sizeof(double))
-        PERI_COPY_(loads[k].owned, from->loads[k].count, 1)
-        b->load_count = k + 1;
-    }
-#undef PERI_COPY_
-    return ok && b->sets && b->loads;
-}
-
-PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error *error) {
-    peri_body *b;
-    (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
-    if (copy) *copy = NULL;
-    if (!from || !copy) return peri__set_error(error, PERI_ERROR_ARGUMENT, from ? "copy" : "body", -1, 0.0);
-    if (!from->model) return peri__set_error(error, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
-    if (from->running > 1) return peri__set_error(error, PERI_ERROR_ORDER, "callback", -1, 0.0);
-    b = (peri_body *)peri__new(&from->memory, 1, sizeof *b);
-    if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
-    b->desc = from->desc;
-    b->memory = from->memory;
-    b->dim = from->dim;
-    b->f32 = from->f32;
-    memcpy(b->materials, from->materials, sizeof b->materials);
-    b->material_count = from->material_count;
-    b->model = from->model;
-    b->ops = from->ops;
-    b->classes = from->classes;
-    b->lanes_stale = from->lanes_stale;
-    b->stale = from->stale;
-    b->fastest = from->fastest;
-    b->on_break = from->on_break;
-    b->break_user = from->break_user;
-    b->cut = from->cut;
-    b->broken = from->broken;
-    b->steps = from->steps;
-    b->time = from->time;
-    b->load_factor = from->load_factor;
-    b->still = from->still;
-    b->force_current = from->force_current;
-    b->ledger = from->ledger;
-    (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
-    (void)peri__count_users(&b->model->users, 1);
-    int ok = peri__copy_state(b, from);
-    if (ok && from->interface_count > 0) {
-        b->interfaces = (peri__interface *)peri__copy(&b->memory, from->interfaces, from->interface_capacity,
-                                                      sizeof *b->interfaces);
-        ok = b->interfaces != NULL;
-        if (ok) {
-            b->interface_count = from->interface_count;
-            b->interface_capacity = from->interface_capacity;
-        }
-    }
-    if (!ok) {
-        peri_body_destroy(b);
-        return peri__set_error(error, PERI_ERROR_MEMORY, "state", -1, 0.0);
-    }
-    *copy = b;
-    return PERI_OK;
 }
 
 PERI_API int32_t peri_reset(peri_body *b) {
@@ -543,44 +436,5 @@ PERI_API int32_t peri_reset(peri_body *b) {
     b->still = 0;
     b->force_current = 0;
     memset(&b->ledger, 0, sizeof b->ledger);
-    return PERI_OK;
-}
-
-/* ---- counts ------------------------------------------------------------------------------------------------------- */
-
-PERI_API int32_t peri_dimension(const peri_body *b) { return b ? b->dim : PERI_ERROR_ARGUMENT; }
-
-PERI_API int64_t peri_point_count(const peri_body *b) {
-    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->points : b->setup.point_count;
-}
-
-PERI_API int32_t peri_family_width(const peri_body *b) {
-    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->width : 0;
-}
-
-PERI_API int64_t peri_bond_count(const peri_body *b) { return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->bonds : 0; }
-
-PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->cut / 2 : PERI_ERROR_ARGUMENT; }
-
-PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->broken / 2 : PERI_ERROR_ARGUMENT; }
-
-PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->steps : PERI_ERROR_ARGUMENT; }
-
-PERI_API double peri_time(const peri_body *b) { return b ? b->time : 0.0; }
-
-PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows, int64_t capacity) {
-    PERI_NEED_BUILT(b);
-    PERI_NEED(b, rows, "rows");
-    if (first < 0 || count < 0 || first > b->model->points || count > b->model->points - first)
-        return peri__fail(b, PERI_ERROR_ID, "first, count", first, (double)count);
-    if (capacity < count * b->model->width)
-        return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)(count * b->model->width));
-    for (int64_t i = first; i < first + count; ++i) {
-        peri__row row;
-        peri__read_row(b->model, b->f32, i, &row);
-        memcpy(rows, row.ids, (size_t)row.count * sizeof *rows);
-        for (int64_t k = row.count; k < b->model->width; ++k) rows[k] = (int32_t)i;
-        rows += b->model->width;
-    }
     return PERI_OK;
 }

@@ -6,7 +6,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_NOTHING(b) ((b)->f32 ? 1e-30 : 1e-140) /* forces whose squares underflow; inner units                         */
+#define PERI_NOTHING(b) ((b)->b32 ? 1e-30 : 1e-140) /* forces whose squares underflow; inner units                         */
 
 static int peri__is_linear(const peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -14,7 +14,7 @@ static int peri__is_linear(const peri_body *b) {
     return b->desc.geometry == PERI_LINEAR;
 }
 
-static double peri__rounding(const peri_body *b) { return b->f32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
+static double peri__rounding(const peri_body *b) { return b->b32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
 
 static void *peri__take(peri__solver *s, int64_t count, size_t size) {
     void *taken = peri__new(&s->body->memory, count, size);
@@ -36,7 +36,7 @@ static void peri__free_solver(peri__solver *s) {
     void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->from, s->load };
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, vectors[k]);
     peri__delete(&b->memory, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
-    peri__delete(&b->memory, s->t.change, peri__response_reals(m), peri__real(b));
+    peri__delete(&b->memory, s->t.change, peri__response_reals(m), peri__bond_real(b));
     peri__delete(&b->memory, s->held, m->points, 1);
     peri__delete(&b->memory, s->part_of, m->points, sizeof *s->part_of);
     peri__delete(&b->memory, s->queue, m->points, sizeof *s->queue);
@@ -104,7 +104,7 @@ static int32_t peri__count_iteration(peri__solver *s, double residual) {
 static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int at_rest) {
     peri_body *b = s->body;
     /* differences of displacements are exact: rigid motions bend by the square of the rounding unit, others by the unit itself */
-    const double none = b->f32 ? 1e-12 : 1e-27, less = b->f32 ? -1e-7 : -1e-14;
+    const double none = b->b32 ? 1e-12 : 1e-27, less = b->b32 ? -1e-7 : -1e-14;
     double rz = 0.0, first = 0.0;
     s->slope = 0.0;
     memset(s->k.p, 0, peri__vector_bytes(b));

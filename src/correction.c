@@ -38,7 +38,7 @@ typedef struct peri__fitter {
 static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n) {
     const peri__model *m = f->cloud->model;
     int64_t at = m->start[i] + k, j = m->ids[at];
-    double bond = 0.0, weight = peri__get_real(m->weight, f->cloud->body->f32, at);
+    double bond = 0.0, weight = peri__get_real(m->weight, f->cloud->body->b32, at);
     for (int32_t d = 0; d < m->dim; ++d) {
         n[d] = f->cloud->x[j * m->dim + d] - f->cloud->x[i * m->dim + d];
         bond += n[d] * n[d];
@@ -162,9 +162,9 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
             int64_t j = m->ids[at];
             double own = f->factor[at], other = f->factor[m->start[j] + peri__find_listed(m, j, i)];
-            double weight = peri__get_real(m->weight, b->f32, at);
-            if (m->states) peri__put_real(m->back, b->f32, at, weight * other);
-            peri__put_real(m->weight, b->f32, at, weight * (m->states ? own : 0.5 * (own + other)));
+            double weight = peri__get_real(m->weight, b->b32, at);
+            if (m->states) peri__put_real(m->back, b->b32, at, weight * other);
+            peri__put_real(m->weight, b->b32, at, weight * (m->states ? own : 0.5 * (own + other)));
         }
 }
 
@@ -181,7 +181,7 @@ static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__fitter f;
     int64_t missed = 0;
     double h = m->horizon, moment = 0.0;
-    size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    size_t real = peri__bond_real(b);
     m->back = m->weight;
     if (!peri__corrects(b, m)) return PERI_OK;
     if (m->states) m->back = peri__new(&m->memory, m->entries, real);

@@ -112,7 +112,7 @@ static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sum
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {
         double xi[3], xj[3];
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int32_t d = 0; d < dim; ++d) xi[d] = peri__get_real(m->x, b->f32, d * m->stride + i);
         for (int64_t k = 0; k < row.count; ++k) {
             int64_t j = row.ids[k];
@@ -316,7 +316,7 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
     b->running = 2;
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
             int64_t j = row.ids[k];
             double xi[3], xj[3];
@@ -382,12 +382,12 @@ PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
 static double peri__stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k) {
     const peri__model *m = b->model;
     int64_t at = row->first + k, j = row->ids[k];
-    double along = 0.0, square = 0.0, bond = peri__get_real(row->bond, b->f32, k);
+    double along = 0.0, square = 0.0, bond = peri__get_real(row->bond, b->b32, k);
     int linear = b->desc.geometry == PERI_LINEAR;
     for (int32_t d = 0; d < m->dim; ++d) {
         double xi = peri__get_real(m->x, b->f32, d * m->stride + j) - peri__get_real(m->x, b->f32, d * m->stride + i);
         double eta = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);
-        if (m->centroid) xi = peri__get_real(m->centroid, b->f32, at * m->dim + d);
+        if (m->centroid) xi = peri__get_real(m->centroid, b->b32, at * m->dim + d);
         along += linear ? xi * eta : (2.0 * xi + eta) * eta;
         square += peri__square(xi + eta);
     }
@@ -402,7 +402,7 @@ static void peri__report_breaks(peri_body *b) {
     for (int64_t i = 0; i < m->points; ++i) {
         if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
         peri__row row;
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
             int64_t at = i * m->words + k / 32, j = row.ids[k];
             if (j < i || !((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;

@@ -23,7 +23,7 @@ static int32_t peri__take_solver(peri__solver *s) {
         s->load = peri__take_vector(s);
         ok = ok && s->from && s->load;
     }
-    if (m->states) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__real(b))) != NULL;
+    if (m->states) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__bond_real(b))) != NULL;
     s->blocks = peri__take(s, PERI_PACKED(m->dim) * m->stride, peri__real(b));
     s->held = (uint8_t *)peri__take(s, m->points, 1);
     s->part_of = (int32_t *)peri__take(s, m->points, sizeof *s->part_of);

@@ -22,7 +22,7 @@ static int64_t peri__mark_dying(peri_body *b) {
         if (b->sums[block].n == 0) continue;
         for (int64_t n = block * PERI_BLOCK; n < peri__min((block + 1) * PERI_BLOCK, m->points); ++n) {
             const int64_t i = m->slots ? peri__nth(m, n) : n;
-            peri__read_row(m, b->f32, i, &row);
+            peri__read_row(b, i, &row);
             for (int64_t k = 0; k < row.count; ++k) {
                 if (!(b->dying[i * m->words + k / 32] >> (k % 32) & 1)) continue;
                 int64_t j = row.ids[k], back = peri__find_bond(m, j, i);
@@ -34,7 +34,7 @@ static int64_t peri__mark_dying(peri_body *b) {
     }
     for (int64_t n = 0, losing = count; n < losing; ++n) {
         int64_t i = b->near_dying[n];
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k)
             if (peri__is_alive(b, i, k)) peri__mark(b, row.ids[k], 2, &count);
     }
@@ -71,7 +71,7 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
         if (b->marked[i] == 1) {
             if (b->lanes_alive) peri__group_masks(m, i / PERI_LANES, b->alive, b->lanes_alive);
             peri__row row;
-            peri__read_row(m, b->f32, i, &row);
+            peri__read_row(b, i, &row);
             peri__set_constants(b, i, &row);
             peri__set_wide(b, i, &row);
         }

@@ -15,7 +15,7 @@ static double peri__damage(const peri_body *b, int64_t i, int uncut_only) {
     const peri__model *m = b->model;
     double all = 0.0, intact = 0.0;
     peri__row row;
-    peri__read_row(m, b->f32, i, &row);
+    peri__read_row(b, i, &row);
     for (int64_t k = 0; k < row.count; ++k) {
         double part = row.part ? (double)row.part[k] : m->volume[row.ids[k]];
         if (uncut_only && b->uncut && !(b->uncut[i * m->words + k / 32] >> (k % 32) & 1)) continue;

@@ -9,19 +9,19 @@
    bit (only signs differ), so both find it broken in the same step without telling each other. */
 
 /* Bond (i, j), entry `at`: reference bond xi and relative displacement eta. */
-PERI_INLINE void PERI_FN(bond_vectors)(const peri_body *b, int64_t i, int64_t at, int64_t j, peri_r *xi, peri_r *eta) {
+PERI_INLINE void PERI_FN(bond_vectors)(const peri_body *b, int64_t i, int64_t at, int64_t j, peri_b *xi, peri_b *eta) {
     const peri__model *m = b->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *xd = x + d * m->stride, *ud = u + d * m->stride;
-        xi[d] = m->centroid ? ((const peri_r *)m->centroid)[at * PERI_D + d] : xd[j] - xd[i];
-        eta[d] = ud[j] - ud[i];
+        xi[d] = m->centroid ? ((const peri_b *)m->centroid)[at * PERI_D + d] : (peri_b)(xd[j] - xd[i]);
+        eta[d] = (peri_b)(ud[j] - ud[i]);
     }
 }
 
 /* Extension e of a bond and the vector y along which its force acts: xi+eta, or xi where the geometry is linear. Returns |y|. */
-PERI_INLINE peri_r PERI_FN(extension)(int linear, const peri_r *xi, const peri_r *eta, peri_r bond, peri_r *e, peri_r *y) {
-    peri_r along = 0, square = 0, length;
+PERI_INLINE peri_b PERI_FN(extension)(int linear, const peri_b *xi, const peri_b *eta, peri_b bond, peri_b *e, peri_b *y) {
+    peri_b along = 0, square = 0, length;
     for (int d = 0; d < PERI_D; ++d) {
         if (linear) {
             y[d] = xi[d];
@@ -46,10 +46,10 @@ PERI_INLINE const peri__pair *PERI_FN(pair)(const peri_body *b, int64_t i, int64
 }
 
 /* Stretch of bond (i, j) as point j sees it. With centroid bonds the two ends differ; the end of lower id decides for both. */
-static peri_r PERI_FN(other_stretch)(const peri_body *b, int64_t i, int64_t j) {
+static peri_b PERI_FN(other_stretch)(const peri_body *b, int64_t i, int64_t j) {
     const peri__model *m = b->model;
     int64_t at = m->start[j] + peri__find_bond(m, j, i); /* centroid bonds are only in the list */
-    peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, bond = ((const peri_r *)m->bond)[at];
+    peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e, bond = ((const peri_b *)m->bond)[at];
     PERI_FN(bond_vectors)(b, j, at, i, xi, eta);
     (void)PERI_FN(extension)(b->desc.geometry == PERI_LINEAR, xi, eta, bond, &e, y);
     return e / bond;
@@ -66,14 +66,14 @@ static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, co
         int64_t at = row->first + k, j = row->ids[k];
         uint32_t *flags = b->alive ? &b->alive[i * m->words + k / 32] : NULL, flag = (uint32_t)1 << (k % 32);
         const peri__pair *pair = PERI_FN(pair)(b, i, j);
-        peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e, s, length, force;
-        peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
+        peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e, s, length, force;
+        peri_b bond = ((const peri_b *)row->bond)[k], weight = ((const peri_b *)row->weight)[k];
         if (flags && !(*flags & flag)) continue;
         PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
         length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         s = e / bond;
-        force = (peri_r)pair->c * s * weight;
-        if (step->breaking && flags && (m->centroid && j < i ? PERI_FN(other_stretch)(b, i, j) : s) > (peri_r)pair->s0) {
+        force = (peri_b)pair->c * s * weight;
+        if (step->breaking && flags && (m->centroid && j < i ? PERI_FN(other_stretch)(b, i, j) : s) > (peri_b)pair->s0) {
             *flags &= ~flag;
             broke++;
             *lost += 0.25 * pair->c * (double)weight * (double)s * (double)s * (double)bond * m->volume[i];
@@ -93,12 +93,12 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
     peri_body *b = step->body;
     const peri__model *m = b->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
-    const peri_r *bonds = (const peri_r *)row->bond, *weights = (const peri_r *)row->weight;
+    const peri_b *bonds = (const peri_b *)row->bond, *weights = (const peri_b *)row->weight;
     const int32_t *ids = row->ids;
     const uint8_t *cls = b->cls;
     const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
     const int64_t stride = m->stride;
-    peri_r c = (peri_r)pairs->c, s0 = step->breaking ? (peri_r)pairs->s0 : (peri_r)PERI_NEVER;
+    peri_b c = (peri_b)pairs->c, s0 = step->breaking ? (peri_b)pairs->s0 : (peri_b)PERI_NEVER;
     int32_t broke = 0, count = (int32_t)row->count;
     peri_r xi_[PERI_D], ui[PERI_D], sum[PERI_D];
     for (int d = 0; d < PERI_D; ++d) {
@@ -112,16 +112,16 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
         int32_t chunk = count - first < 32 ? count - first : 32;
         for (int32_t k = 0; k < chunk; ++k) {
             int64_t j = ids[first + k];
-            peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], along = 0, square = 0, length, scale, reach;
-            peri_r bond = bonds[first + k], weight = weights[first + k];
+            peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], along = 0, square = 0, length, scale, reach;
+            peri_b bond = bonds[first + k], weight = weights[first + k];
             if (flagged && !(live >> k & 1)) continue;
             if (cls) {
-                c = (peri_r)pairs[cls[j]].c;
-                s0 = step->breaking ? (peri_r)pairs[cls[j]].s0 : (peri_r)PERI_NEVER;
+                c = (peri_b)pairs[cls[j]].c;
+                s0 = step->breaking ? (peri_b)pairs[cls[j]].s0 : (peri_b)PERI_NEVER;
             }
             for (int d = 0; d < PERI_D; ++d) {
-                xi[d] = x[d * stride + j] - xi_[d];
-                eta[d] = u[d * stride + j] - ui[d];
+                xi[d] = (peri_b)(x[d * stride + j] - xi_[d]);
+                eta[d] = (peri_b)(u[d * stride + j] - ui[d]);
                 if (linear) {
                     y[d] = xi[d];
                     along += xi[d] * eta[d];
@@ -134,7 +134,11 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
             /* e = along/reach, force along y: c weight e/(bond |y|) */
             length = linear ? bond : PERI_SQRT(square);
             reach = linear ? bond : length + bond;
-            scale = c * weight * along / (reach * bond * length + PERI_TINY);
+            if (linear) {
+                const peri_b inverse = 1 / bond;
+                scale = c * weight * (inverse * inverse * inverse) * along;
+            } else
+                scale = c * weight * along / (reach * bond * length + PERI_TINY);
             if (flagged && along > s0 * bond * reach) {
                 double s = (double)along / ((double)reach * (double)bond);
                 dead |= (uint32_t)1 << k;

@@ -5,8 +5,8 @@
 static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri_body *b = ((const peri__step *)context)->body;
     const peri__model *m = b->model;
-    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response + m->margin;
-    const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * m->stride;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
+    const peri_b *p = (const peri_b *)b->response + m->margin, *q = (const peri_b *)b->constant + m->margin + PERI__SPRING * m->stride;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         peri_r *record = (peri_r *)b->pack + i * m->slots;
@@ -14,20 +14,27 @@ static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums 
             record[d] = x[d * m->stride + i];
             record[PERI_D + d] = u[d * m->stride + i];
         }
-        if (m->states) {
+        if (m->ordinary) {
             record[2 * PERI_D] = p[i];
             record[2 * PERI_D + 1] = q[i];
-        } else if (m->slots > 2 * PERI_D)
+        } else if (!m->states && m->slots > 2 * PERI_D)
             record[2 * PERI_D] = (peri_r)m->material[i];
     }
 }
 
+/* And what points respond with: p, or Q and k. */
 static void PERI_FN(pack_response)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri_body *b = ((const peri__step *)context)->body;
     const peri__model *m = b->model;
+    const peri_b *response = (const peri_b *)b->response + m->margin, *constant = (const peri_b *)b->constant + m->margin;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i)
-        ((peri_r *)b->pack)[i * m->slots + 2 * PERI_D] = ((const peri_r *)b->response)[m->margin + i];
+    for (int64_t i = begin; i < end; ++i) {
+        peri_r *record = (peri_r *)b->pack + i * m->slots + 2 * PERI_D;
+        record[0] = response[i];
+        if (!m->tensors) continue;
+        for (int k = 0; k < PERI_D * PERI_D; ++k) record[k] = response[(1 + k) * m->stride + i];
+        record[PERI_D * PERI_D] = constant[PERI__VECTOR * m->stride + i];
+    }
 }
 
 /* Rows [begin, end), one by one. */
@@ -35,12 +42,12 @@ static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t e
     peri_body *b = step->body;
     const peri__model *m = b->model;
     peri_r *force = (peri_r *)b->f, *v = (peri_r *)b->v;
-    int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->centroid != NULL;
+    int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.kernel == PERI_KERNEL_REFERENCE || m->centroid != NULL;
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {
         peri_r f[PERI_D], impulse[PERI_D];
         int32_t broke;
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int d = 0; d < PERI_D; ++d) {
             f[d] = force[d * m->stride + i];
             impulse[d] = 0;

@@ -1,224 +1,259 @@
-/* k_lanes.inl - bond-based and ordinary state-based force on columns (lanes.c): the equations of k_bond.inl and k_state.inl for PERI_LANES
-   points at once, operation by operation in the same order, so with the same result. Included per real type, dimension and instruction
-   set; PERI_LANES_FN names it. Arguments `masked`, `linear`, ... are constants where these are inlined. */
+/* k_lanes.inl - the laws on columns (lanes.c): the equations of k_bond.inl and k_state.inl for PERI_LANES points at once, in pieces of
+   PERI_WIDTH by the operations of k_vector.inl, operation by operation in the same order as by rows, so with the same result. Included per
+   precision, dimension and instruction set; PERI_LANES_FN names it. `linear`, ... are constants where these are inlined.
 
-/* One column: bond vector xi. along = (2 xi + eta).eta, or xi.eta; length = |y|. */
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(extend)(const peri_r *xi, peri_r bond, const peri_r *const *uj,
-                                                         peri_r ui[PERI_D][PERI_LANES], peri_r y[PERI_D][PERI_LANES],
-                                                         peri_r along[PERI_LANES], peri_r length[PERI_LANES], const int linear) {
-    PERI_NO_CONTRACTION
-    for (int l = 0; l < PERI_LANES; ++l) {
-        along[l] = length[l] = 0;
-        for (int d = 0; d < PERI_D; ++d) {
-            peri_r eta = uj[d][l] - ui[d][l];
-            y[d][l] = linear ? xi[d] : xi[d] + eta;
-            along[l] += (linear ? xi[d] : 2 * xi[d] + eta) * eta;
-            length[l] += y[d][l] * y[d][l];
-        }
-    }
-    if (!linear) PERI_LANES_SQRT(length);
-    for (int l = 0; linear && l < PERI_LANES; ++l) length[l] = bond;
+   Bonds near their critical stretch are left to the rows. A dead lane may read anything, so its part is left out by a choice; columns
+   where all lanes live, which most do, skip that. */
+
+#define PERI_PIECES (PERI_LANES / PERI_WIDTH)
+#define PERI_WHOLE 0xFFFF
+
+typedef struct PERI_LANES_FN(group) { /* the columns of a group, the points of the group, and what they have now           */
+    const peri__column *column, *end;
+    const uint16_t     *alive; /* masks of the columns from the next on, or NULL                                         */
+    const double       *table;
+    const peri_r       *u;     /* [dim][stride] from the first point on                                                  */
+    int64_t             stride;
+    int                 breaking;
+    PERI_STATE          own[PERI_D][PERI_PIECES];
+} PERI_LANES_FN(group);
+
+typedef struct PERI_LANES_FN(bond) { /* a column: what its bonds have in common                                            */
+    PERI_VECTOR   xi[PERI_D], twice[PERI_D]; /* xi, 2 xi                                                                 */
+    peri_b        length, inverse, weight;   /* |xi|, 1/|xi|, w beta V                                                   */
+    peri_b        limit;                     /* critical stretch, with a margin                                          */
+    const double *row;                       /* of the table                                                             */
+    int64_t       offset;
+    uint32_t      mask;
+} PERI_LANES_FN(bond);
+
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(enter)(PERI_LANES_FN(group) *s, const peri_body *b, int64_t g, int breaking) {
+    const peri__model *m = b->model;
+    const peri__lanes *lanes = &m->lanes;
+    s->column = &lanes->column[lanes->first[g]];
+    s->end = s->column + (lanes->begin[g + 1] - lanes->begin[g]);
+    s->alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
+    s->u = (const peri_r *)b->u + g * PERI_LANES;
+    s->table = lanes->table;
+    s->stride = m->stride;
+    s->breaking = breaking;
+    for (int d = 0; d < PERI_D; ++d)
+        for (int n = 0; n < PERI_PIECES; ++n) s->own[d][n] = PERI_LANES_FN(take)(s->u + d * s->stride + n * PERI_WIDTH);
 }
 
-/* One column of bond-based bonds: |xi| = bond, weight = c w beta V, breaking beyond along > limit*reach. */
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(column)(const peri_r *xi, peri_r bond, peri_r weight, peri_r limit, peri_i mask,
-                                                         const peri_r *const *uj, peri_r ui[PERI_D][PERI_LANES],
-                                                         peri_r sum[PERI_D][PERI_LANES], peri_i *hit, const int masked,
-                                                         const int linear) {
+/* The next column with a live bond, or 0. */
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(next)(PERI_LANES_FN(group) *s, PERI_LANES_FN(bond) *bond) {
     PERI_NO_CONTRACTION
-    peri_r y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
-    PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, linear);
-    for (int l = 0; l < PERI_LANES; ++l) {
-        const peri_i live = masked ? mask >> l & 1 : 1;
-        peri_r reach = linear ? bond : length[l] + bond;
-        peri_r scale = weight * along[l] / (reach * bond * length[l] + PERI_TINY);
-        scale = live ? scale : 0; /* a select: what a dead lane read may be anything */
-        hit[l] |= (along[l] > limit * reach) & live;
-        for (int d = 0; d < PERI_D; ++d) sum[d][l] += scale * y[d][l];
+    do {
+        if (s->column == s->end) return 0;
+        bond->mask = s->alive ? *s->alive++ : s->column->member;
+        bond->offset = s->column->offset;
+        bond->row = &s->table[s->column->vector * PERI_TABLE_ROW];
+        s->column++;
+    } while (bond->mask == 0);
+    for (int d = 0; d < PERI_D; ++d) {
+        bond->xi[d] = PERI_V(set1)((peri_b)bond->row[d]);
+        bond->twice[d] = bond->xi[d] + bond->xi[d];
     }
+    bond->length = (peri_b)bond->row[3];
+    bond->weight = (peri_b)bond->row[4];
+    bond->inverse = (peri_b)bond->row[6];
+    bond->limit = (peri_b)(s->breaking ? bond->row[8] * (1.0 - PERI_NEAR) : PERI_NEVER);
+    return 1;
+}
+
+/* eta of piece n. */
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(moved)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond, int n,
+                                                        PERI_VECTOR eta[PERI_D]) {
+    for (int d = 0; d < PERI_D; ++d)
+        eta[d] = PERI_LANES_FN(apart)(s->u + d * s->stride + bond->offset + n * PERI_WIDTH, s->own[d][n]);
+}
+
+/* y = xi + eta, or xi; along = (2 xi + eta).eta, or xi.eta. Returns |y|, or |xi|. */
+PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(extend)(const PERI_LANES_FN(bond) *bond, const PERI_VECTOR eta[PERI_D],
+                                                                PERI_VECTOR y[PERI_D], PERI_VECTOR *along, const int linear) {
+    PERI_NO_CONTRACTION
+    PERI_VECTOR square = PERI_V(set1)(0);
+    *along = square;
+    for (int d = 0; d < PERI_D; ++d) {
+        y[d] = PERI_IF(linear, bond->xi[d], bond->xi[d] + eta[d]);
+        *along += PERI_IF(linear, bond->xi[d], bond->twice[d] + eta[d]) * eta[d];
+        if (!linear) square += y[d] * y[d];
+    }
+    return PERI_IF(linear, PERI_V(set1)(bond->length), PERI_V(sqrt)(square));
+}
+
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(leave)(PERI_STATE sum[PERI_D][PERI_PIECES], peri_r f[PERI_D][PERI_LANES]) {
+    for (int d = 0; d < PERI_D; ++d)
+        for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&f[d][n * PERI_WIDTH], &sum[d][n]);
+}
+
+/* One column of bond-based bonds; c: the micromodulus times w beta V, where linear over |xi|^3. Returns nonzero where s > limit
+   for a live bond. */
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond, const peri_b c,
+                                                        PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear) {
+    PERI_NO_CONTRACTION
+    const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(c), tiny = PERI_V(set1)((peri_b)PERI_TINY);
+    const PERI_VECTOR most = PERI_V(set1)(bond->limit * bond->length);
+    int hit = 0;
+    for (int n = 0; n < PERI_PIECES; ++n) {
+        const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
+        PERI_VECTOR eta[PERI_D], y[PERI_D], along;
+        PERI_LANES_FN(moved)(s, bond, n, eta);
+        const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
+        const PERI_VECTOR scale = PERI_IF(linear, weight * along, weight * along / (reach * length * now + tiny));
+        hit |= (int)PERI_ABOVE(along, most * reach, live);
+        for (int d = 0; d < PERI_D; ++d) {
+            const PERI_VECTOR part = scale * y[d];
+            PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, part, PERI_KEEP(live, part)));
+        }
+    }
+    return hit;
 }
 
 /* Adds the force of all live bonds of group g to f[PERI_D][PERI_LANES]. Returns nonzero where a live bond comes so near its critical
    stretch that the rows must decide; f is then void. */
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(lanes_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
+                                                          const int linear) {
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    PERI_LANES_FN(group) s;
+    PERI_LANES_FN(bond) bond;
+    int hit = 0;
+    PERI_LANES_FN(enter)(&s, step->body, g, step->breaking);
+    for (int d = 0; d < PERI_D; ++d)
+        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+    while (PERI_LANES_FN(next)(&s, &bond)) {
+        peri_b c = (peri_b)bond.row[7] * bond.weight;
+        if (linear) c *= bond.inverse * bond.inverse * bond.inverse;
+        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 1, linear);
+        else hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 0, linear);
+    }
+    PERI_LANES_FN(leave)(sum, f);
+    return hit;
+}
+
 PERI_LANES_TARGET static int PERI_LANES_FN(lanes)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
-    const peri_body *b = step->body;
-    const peri__model *m = b->model;
-    const peri__lanes *lanes = &m->lanes;
-    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
-    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
-    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
-    const peri_r c = (peri_r)b->pairs->c, s0 = (peri_r)(step->breaking ? b->pairs->s0 * (1.0 - PERI_NEAR) : PERI_NEVER);
-    const int linear = b->desc.geometry == PERI_LINEAR;
-    peri_r ui[PERI_D][PERI_LANES], sum[PERI_D][PERI_LANES];
-    peri_i hit[PERI_LANES];
-    int any = 0;
-    for (int l = 0; l < PERI_LANES; ++l) hit[l] = 0;
-    for (int d = 0; d < PERI_D; ++d)
-        for (int l = 0; l < PERI_LANES; ++l) {
-            ui[d][l] = u[d * m->stride + l];
-            sum[d][l] = f[d][l];
-        }
-    for (const peri__column *column = columns; column < end; ++column) {
-        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
-        const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = c * (peri_r)row[4], limit = s0 * bond;
-        const peri_i mask = alive ? *alive++ : column->member;
-        peri_r xi[PERI_D];
-        for (int d = 0; d < PERI_D; ++d) {
-            xi[d] = (peri_r)row[d];
-            uj[d] = u + d * m->stride + column->offset;
-        }
-        if (mask == 0xFFFF) {
-            if (linear) PERI_LANES_FN(column)(xi, bond, weight, limit, mask, uj, ui, sum, hit, 0, 1);
-            else PERI_LANES_FN(column)(xi, bond, weight, limit, mask, uj, ui, sum, hit, 0, 0);
-        } else if (mask != 0) {
-            if (linear) PERI_LANES_FN(column)(xi, bond, weight, limit, mask, uj, ui, sum, hit, 1, 1);
-            else PERI_LANES_FN(column)(xi, bond, weight, limit, mask, uj, ui, sum, hit, 1, 0);
-        }
-    }
-    for (int l = 0; l < PERI_LANES; ++l) any |= (int)hit[l];
-    for (int d = 0; d < PERI_D; ++d)
-        for (int l = 0; l < PERI_LANES; ++l) f[d][l] = sum[d][l];
-    return any;
+    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(lanes_of)(step, g, f, 1) : PERI_LANES_FN(lanes_of)(step, g, f, 0);
 }
 
-/* sum w g e V of the points of group g to sum; weight of a column times `gauged` ? |xi| : 1. */
-PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64_t g, const int gauged, peri_r sum[PERI_LANES]) {
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
+                                                                   peri_b gauged, PERI_STATE sum[PERI_PIECES], const int whole,
+                                                                   const int linear) {
     PERI_NO_CONTRACTION
-    const peri__model *m = b->model;
-    const peri__lanes *lanes = &m->lanes;
-    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
-    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
-    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
-    const int linear = b->desc.geometry == PERI_LINEAR;
-    peri_r ui[PERI_D][PERI_LANES], y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
-    for (int l = 0; l < PERI_LANES; ++l) sum[l] = 0;
-    for (int d = 0; d < PERI_D; ++d)
-        for (int l = 0; l < PERI_LANES; ++l) ui[d][l] = u[d * m->stride + l];
-    for (const peri__column *column = columns; column < end; ++column) {
-        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
-        const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4] * (gauged ? bond : 1);
-        const peri_i mask = alive ? *alive++ : column->member;
-        peri_r xi[PERI_D];
-        if (mask == 0) continue;
-        for (int d = 0; d < PERI_D; ++d) {
-            xi[d] = (peri_r)row[d];
-            uj[d] = u + d * m->stride + column->offset;
-        }
-#define PERI_ADD(line, whole)                                                                                          \
-    PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, line);                                                   \
-    for (int l = 0; l < PERI_LANES; ++l) {                                                                             \
-        peri_r part = weight * (along[l] / ((line) ? bond : length[l] + bond));                                        \
-        sum[l] += (whole) || (mask >> l & 1) ? part : 0;                                                               \
-    }
-        if (mask == 0xFFFF) {
-            if (linear) { PERI_ADD(1, 1) } else { PERI_ADD(0, 1) }
-        } else {
-            if (linear) { PERI_ADD(1, 0) } else { PERI_ADD(0, 0) }
-        }
-#undef PERI_ADD
+    const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(gauged);
+    for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_VECTOR eta[PERI_D], y[PERI_D], along;
+        PERI_LANES_FN(moved)(s, bond, n, eta);
+        const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear);
+        const PERI_VECTOR part = PERI_IF(linear, weight * along, weight * (along / (now + length)));
+        PERI_LANES_FN(gather)(&sum[n], PERI_IF(whole, part, PERI_KEEP(PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH)), part)));
     }
 }
 
-/* One column of ordinary state-based bonds: p, q of both ends; gauge = |xi|, or 1. */
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(share_column)(const peri_r *xi, peri_r bond, peri_r weight, peri_r gauge, peri_r limit,
-                                                               peri_i mask, const peri_r *const *uj, const peri_r *pj, const peri_r *qj,
-                                                               peri_r ui[PERI_D][PERI_LANES], const peri_r *pi, const peri_r *qi,
-                                                               peri_r sum[PERI_D][PERI_LANES], peri_i *hit, const int masked,
+/* sum w g e V of the points of group g to out; g = gauged ? |xi| : 1. */
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_of)(const peri_body *b, int64_t g, const int gauged, peri_r out[PERI_LANES],
                                                                const int linear) {
-    PERI_NO_CONTRACTION
-    peri_r y[PERI_D][PERI_LANES], along[PERI_LANES], length[PERI_LANES];
-    PERI_LANES_FN(extend)(xi, bond, uj, ui, y, along, length, linear);
-    for (int l = 0; l < PERI_LANES; ++l) {
-        const peri_i live = masked ? mask >> l & 1 : 1;
-        peri_r reach = linear ? bond : length[l] + bond;
-        peri_r pull = (qi[l] + qj[l]) * along[l] + (pi[l] + pj[l]) * gauge * reach;
-        peri_r scale = weight * pull / (reach * length[l] + PERI_TINY);
-        scale = live ? scale : 0;
-        hit[l] |= (along[l] > limit * reach) & live;
-        for (int d = 0; d < PERI_D; ++d) sum[d][l] += scale * y[d][l];
+    const peri_r none[PERI_LANES] = { 0 };
+    PERI_STATE sum[PERI_PIECES];
+    PERI_LANES_FN(group) s;
+    PERI_LANES_FN(bond) bond;
+    PERI_LANES_FN(enter)(&s, b, g, 0);
+    for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
+    while (PERI_LANES_FN(next)(&s, &bond)) {
+        const peri_b weight = bond.weight * (linear ? (gauged ? 1 : bond.inverse) : gauged ? bond.length : 1);
+        if (bond.mask == PERI_WHOLE) PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 1, linear);
+        else PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 0, linear);
     }
+    for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(out + n * PERI_WIDTH, &sum[n]);
 }
 
-/* Adds the force of all live state-based bonds of group g to f. Returns nonzero where one comes near its critical stretch; f is then
-   void. */
-PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64_t g, const int gauged, peri_r sum[PERI_LANES]) {
+    if (b->desc.geometry == PERI_LINEAR) PERI_LANES_FN(stretched_of)(b, g, gauged, sum, 1);
+    else PERI_LANES_FN(stretched_of)(b, g, gauged, sum, 0);
+}
+
+/* One column of ordinary state-based bonds; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2; gauged = |xi|,
+   or 1. */
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(share_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
+                                                              const peri_b *p, const peri_b *q, peri_b weighed, peri_b gauged,
+                                                              PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear) {
+    PERI_NO_CONTRACTION
+    const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(weighed), gauge = PERI_V(set1)(gauged);
+    const PERI_VECTOR most = PERI_V(set1)(bond->limit * bond->length), tiny = PERI_V(set1)((peri_b)PERI_TINY);
+    int hit = 0;
+    for (int n = 0; n < PERI_PIECES; ++n) {
+        const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
+        const PERI_VECTOR both_p = PERI_V(loadu)(p + n * PERI_WIDTH) + PERI_V(loadu)(p + bond->offset + n * PERI_WIDTH);
+        const PERI_VECTOR both_q = PERI_V(loadu)(q + n * PERI_WIDTH) + PERI_V(loadu)(q + bond->offset + n * PERI_WIDTH);
+        PERI_VECTOR eta[PERI_D], y[PERI_D], along;
+        PERI_LANES_FN(moved)(s, bond, n, eta);
+        const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
+        const PERI_VECTOR pull = weight * (both_q * along + both_p * gauge * reach);
+        const PERI_VECTOR scale = PERI_IF(linear, pull, pull / (reach * now + tiny));
+        hit |= (int)PERI_ABOVE(along, most * reach, live);
+        for (int d = 0; d < PERI_D; ++d) {
+            const PERI_VECTOR part = scale * y[d];
+            PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, part, PERI_KEEP(live, part)));
+        }
+    }
+    return hit;
+}
+
+/* Adds the force of all live ordinary state-based bonds of group g to f. Returns nonzero where one comes near its critical stretch; f is
+   then void. */
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(share_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
+                                                          const int linear) {
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const peri__lanes *lanes = &m->lanes;
-    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
-    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
-    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *p = (const peri_r *)b->response + m->margin + g * PERI_LANES;
-    const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * m->stride + g * PERI_LANES;
-    const peri_r s0 = (peri_r)(step->breaking ? b->pairs->s0 * (1.0 - PERI_NEAR) : PERI_NEVER);
-    const int linear = b->desc.geometry == PERI_LINEAR, oterkus = m->ordinary == PERI_OTERKUS;
-    peri_r ui[PERI_D][PERI_LANES], sum[PERI_D][PERI_LANES], pi[PERI_LANES], qi[PERI_LANES];
-    peri_i hit[PERI_LANES];
-    int any = 0;
-    for (int l = 0; l < PERI_LANES; ++l) {
-        hit[l] = 0;
-        pi[l] = p[l];
-        qi[l] = q[l];
-    }
+    const peri_b *p = (const peri_b *)b->response + m->margin + g * PERI_LANES;
+    const peri_b *q = (const peri_b *)b->constant + m->margin + PERI__SPRING * m->stride + g * PERI_LANES;
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    PERI_LANES_FN(group) s;
+    PERI_LANES_FN(bond) bond;
+    int hit = 0;
+    PERI_LANES_FN(enter)(&s, b, g, step->breaking);
     for (int d = 0; d < PERI_D; ++d)
-        for (int l = 0; l < PERI_LANES; ++l) {
-            ui[d][l] = u[d * m->stride + l];
-            sum[d][l] = f[d][l];
-        }
-    for (const peri__column *column = columns; column < end; ++column) {
-        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
-        const int64_t offset = column->offset;
-        const peri_r *uj[PERI_D], bond = (peri_r)row[3], weight = (peri_r)row[4], limit = s0 * bond, gauge = oterkus ? 1 : bond;
-        const peri_i mask = alive ? *alive++ : column->member;
-        peri_r xi[PERI_D];
-        if (mask == 0) continue;
-        for (int d = 0; d < PERI_D; ++d) {
-            xi[d] = (peri_r)row[d];
-            uj[d] = u + d * m->stride + offset;
-        }
-#define PERI_COLUMN(masked, line)                                                                                      \
-    PERI_LANES_FN(share_column)(xi, bond, weight, gauge, limit, mask, uj, p + offset, q + offset, ui, pi, qi, sum, hit, masked, line)
-        if (mask == 0xFFFF) {
-            if (linear) PERI_COLUMN(0, 1);
-            else PERI_COLUMN(0, 0);
-        } else {
-            if (linear) PERI_COLUMN(1, 1);
-            else PERI_COLUMN(1, 0);
-        }
-#undef PERI_COLUMN
+        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+    while (PERI_LANES_FN(next)(&s, &bond)) {
+        const peri_b gauge = m->ordinary == PERI_OTERKUS ? 1 : bond.length;
+        const peri_b weight = linear ? bond.weight * (bond.inverse * bond.inverse) : bond.weight;
+        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 1, linear);
+        else hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 0, linear);
     }
-    for (int l = 0; l < PERI_LANES; ++l) any |= (int)hit[l];
-    for (int d = 0; d < PERI_D; ++d)
-        for (int l = 0; l < PERI_LANES; ++l) f[d][l] = sum[d][l];
-    return any;
+    PERI_LANES_FN(leave)(sum, f);
+    return hit;
+}
+
+PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(share_of)(step, g, f, 1) : PERI_LANES_FN(share_of)(step, g, f, 0);
 }
 
 /* sum w eta xi V of correspondence points. */
-PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g, peri_r n[PERI_D][PERI_D][PERI_LANES]) {
+PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g, peri_r out[PERI_D][PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
-    const peri__model *m = b->model;
-    const peri__lanes *lanes = &m->lanes;
-    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
-    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
-    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES;
-    peri_r ui[PERI_D][PERI_LANES];
+    const peri_r none[PERI_LANES] = { 0 };
+    PERI_STATE sum[PERI_D][PERI_D][PERI_PIECES];
+    PERI_LANES_FN(group) s;
+    PERI_LANES_FN(bond) bond;
+    PERI_LANES_FN(enter)(&s, b, g, 0);
     for (int a = 0; a < PERI_D; ++a)
-        for (int l = 0; l < PERI_LANES; ++l) {
-            ui[a][l] = u[a * m->stride + l];
-            for (int d = 0; d < PERI_D; ++d) n[a][d][l] = 0;
-        }
-    for (const peri__column *column = columns; column < end; ++column) {
-        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
-        const peri_r *uj = u + column->offset, weight = (peri_r)row[4];
-        const peri_i mask = alive ? *alive++ : column->member;
-        peri_r xi[PERI_D];
-        if (mask == 0) continue;
-        for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];
-        for (int a = 0; a < PERI_D; ++a)
-            for (int l = 0; l < PERI_LANES; ++l) {
-                peri_r pulled = mask >> l & 1 ? weight * (uj[a * m->stride + l] - ui[a][l]) : 0;
-                for (int d = 0; d < PERI_D; ++d) n[a][d][l] += pulled * xi[d];
+        for (int d = 0; d < PERI_D; ++d)
+            for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
+    while (PERI_LANES_FN(next)(&s, &bond)) {
+        const PERI_VECTOR weight = PERI_V(set1)(bond.weight);
+        for (int n = 0; n < PERI_PIECES; ++n) {
+            const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
+            PERI_VECTOR eta[PERI_D];
+            PERI_LANES_FN(moved)(&s, &bond, n, eta);
+            for (int a = 0; a < PERI_D; ++a) {
+                const PERI_VECTOR pulled = PERI_KEEP(live, weight * eta[a]);
+                for (int d = 0; d < PERI_D; ++d) PERI_LANES_FN(gather)(&sum[a][d][n], pulled * bond.xi[d]);
             }
+        }
     }
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d)
+            for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&out[a][d][n * PERI_WIDTH], &sum[a][d][n]);
 }
 
 /* Adds the force of all live bonds of a group of correspondence points to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta); no central bonds.
@@ -227,45 +262,41 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const peri__lanes *lanes = &m->lanes;
-    const uint16_t *alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
-    const peri__column *columns = &lanes->column[lanes->first[g]], *end = columns + (lanes->begin[g + 1] - lanes->begin[g]);
-    const peri_r *u = (const peri_r *)b->u + g * PERI_LANES, *q = (const peri_r *)b->response + m->margin + m->stride + g * PERI_LANES;
-    const peri_r *k = (const peri_r *)b->constant + m->margin + PERI__VECTOR * m->stride + g * PERI_LANES;
+    const peri_b *q = (const peri_b *)b->response + m->margin + m->stride + g * PERI_LANES;
+    const peri_b *k = (const peri_b *)b->constant + m->margin + PERI__VECTOR * m->stride + g * PERI_LANES;
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const double near_s0 = b->pairs->s0 * (1.0 - PERI_NEAR), stretched = linear ? near_s0 : near_s0 * (2.0 + near_s0);
-    peri_r ui[PERI_D][PERI_LANES], qi[PERI_D][PERI_D][PERI_LANES], ki[PERI_LANES];
-    peri_i hit[PERI_LANES];
-    int any = 0;
-    for (int l = 0; l < PERI_LANES; ++l) {
-        hit[l] = 0;
-        ki[l] = k[l];
-        for (int a = 0; a < PERI_D; ++a) {
-            ui[a][l] = u[a * m->stride + l];
-            for (int d = 0; d < PERI_D; ++d) qi[a][d][l] = q[(a * PERI_D + d) * m->stride + l];
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    PERI_LANES_FN(group) s;
+    PERI_LANES_FN(bond) bond;
+    int hit = 0;
+    PERI_LANES_FN(enter)(&s, b, g, step->breaking);
+    for (int d = 0; d < PERI_D; ++d)
+        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+    while (PERI_LANES_FN(next)(&s, &bond)) {
+        const PERI_VECTOR weight = PERI_V(set1)(bond.weight);
+        const peri_b most = linear ? bond.limit : bond.limit * (2 + bond.limit);
+        const PERI_VECTOR limit = PERI_V(set1)(most * bond.length * bond.length); /* infinite where none breaks */
+        for (int n = 0; n < PERI_PIECES; ++n) {
+            const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
+            const peri_b *const here = q + n * PERI_WIDTH, *const there = here + bond.offset;
+            const PERI_VECTOR both = PERI_V(loadu)(k + n * PERI_WIDTH) + PERI_V(loadu)(k + bond.offset + n * PERI_WIDTH);
+            PERI_VECTOR eta[PERI_D], y[PERI_D], along = PERI_V(set1)(0);
+            PERI_LANES_FN(moved)(&s, &bond, n, eta);
+            for (int a = 0; a < PERI_D; ++a) {
+                y[a] = both * eta[a];
+                for (int d = 0; d < PERI_D; ++d) {
+                    const int64_t plane = (a * PERI_D + d) * m->stride;
+                    y[a] += (PERI_V(loadu)(here + plane) + PERI_V(loadu)(there + plane)) * bond.xi[d];
+                }
+                along += PERI_IF(linear, bond.xi[a], bond.twice[a] + eta[a]) * eta[a];
+            }
+            hit |= (int)PERI_ABOVE(along, limit, live);
+            for (int a = 0; a < PERI_D; ++a) PERI_LANES_FN(gather)(&sum[a][n], PERI_KEEP(live, weight * y[a]));
         }
     }
-    for (const peri__column *column = columns; column < end; ++column) {
-        const double *row = &lanes->table[column->vector * PERI_TABLE_ROW];
-        const int64_t offset = column->offset;
-        const peri_r *uj = u + offset, *qj = q + offset, *kj = k + offset, weight = (peri_r)row[4];
-        const peri_r limit = step->breaking && b->pairs->s0 < PERI_NEVER ? (peri_r)(stretched * row[3] * row[3]) : (peri_r)PERI_NEVER;
-        const peri_i mask = alive ? *alive++ : column->member;
-        peri_r xi[PERI_D], t[PERI_D][PERI_LANES], reach[PERI_LANES];
-        if (mask == 0) continue;
-        for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_r)row[d];
-        for (int l = 0; l < PERI_LANES; ++l) reach[l] = 0;
-        for (int a = 0; a < PERI_D; ++a)
-            for (int l = 0; l < PERI_LANES; ++l) {
-                const peri_r eta = uj[a * m->stride + l] - ui[a][l];
-                t[a][l] = (ki[l] + kj[l]) * eta;
-                for (int d = 0; d < PERI_D; ++d) t[a][l] += (qi[a][d][l] + qj[(a * PERI_D + d) * m->stride + l]) * xi[d];
-                reach[l] += (linear ? xi[a] : 2 * xi[a] + eta) * eta;
-            }
-        for (int l = 0; l < PERI_LANES; ++l) hit[l] |= (reach[l] > limit) & (mask >> l & 1);
-        for (int a = 0; a < PERI_D; ++a)
-            for (int l = 0; l < PERI_LANES; ++l) f[a][l] += mask >> l & 1 ? weight * t[a][l] : 0;
-    }
-    for (int l = 0; l < PERI_LANES; ++l) any |= (int)hit[l];
-    return any;
+    PERI_LANES_FN(leave)(sum, f);
+    return hit;
 }
+
+#undef PERI_PIECES
+#undef PERI_WHOLE

@@ -3,10 +3,11 @@
    are added up in halves: the same bits from every instruction set and any number of threads. Bonds that come near their critical stretch
    are left to the rows. Included per real type, dimension and instruction set.
 
-   What is needed of a neighbour lies side by side in its record, body->pack, m->slots reals: x, u, then p and q, or its material. */
+   What is needed of a neighbour lies side by side in its record, body->pack, m->slots reals: x, u, then p and q, or Q and k, or the
+   material. */
 
 typedef struct PERI_LANES_FN(piece) { /* PERI_WIDTH bonds                                                                 */
-    PERI_VECTOR got[8];               /* the records of the neighbours                                                   */
+    PERI_VECTOR got[8];               /* the records of the neighbours, less x and u of the point                        */
     PERI_VECTOR y[PERI_D], along;     /* as in k_lanes.inl                                                               */
     PERI_VECTOR rest, now;            /* |xi|^2, |y|^2                                                                   */
 } PERI_LANES_FN(piece);
@@ -14,19 +15,18 @@ typedef struct PERI_LANES_FN(piece) { /* PERI_WIDTH bonds                       
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(span)(PERI_LANES_FN(piece) *s, const peri_r *pack, int32_t slots, const int32_t *ids,
                                                        const peri_r *own, const int linear) {
     PERI_NO_CONTRACTION
-    PERI_FETCH(pack, slots, ids, s->got);
-    if (slots > 4) PERI_FETCH(pack + 4, slots, ids, s->got + 4);
+    PERI_LANES_FN(differ)(pack, slots, ids, own, s->got);
+    if (slots > 4) PERI_LANES_FN(differ)(pack + 4, slots, ids, own + 4, s->got + 4);
     else s->got[4] = s->got[0]; /* not used, but copied */
     for (int d = 0; d < PERI_D; ++d) {
-        const PERI_VECTOR xi = PERI_V(sub)(s->got[d], PERI_V(set1)(own[d]));
-        const PERI_VECTOR eta = PERI_V(sub)(s->got[PERI_D + d], PERI_V(set1)(own[PERI_D + d]));
-        const PERI_VECTOR along = PERI_V(mul)(linear ? xi : PERI_V(add)(PERI_V(add)(xi, xi), eta), eta), rest = PERI_V(mul)(xi, xi);
-        s->y[d] = linear ? xi : PERI_V(add)(xi, eta);
-        s->along = d == 0 ? along : PERI_V(add)(s->along, along);
-        s->rest = d == 0 ? rest : PERI_V(add)(s->rest, rest);
+        const PERI_VECTOR xi = s->got[d], eta = s->got[PERI_D + d];
+        const PERI_VECTOR along = PERI_IF(linear, xi, xi + xi + eta) * eta, rest = xi * xi;
+        s->y[d] = PERI_IF(linear, xi, xi + eta);
+        s->along = PERI_IF(d == 0, along, s->along + along);
+        s->rest = PERI_IF(d == 0, rest, s->rest + rest);
         if (linear) continue;
-        const PERI_VECTOR now = PERI_V(mul)(s->y[d], s->y[d]);
-        s->now = d == 0 ? now : PERI_V(add)(s->now, now);
+        const PERI_VECTOR now = s->y[d] * s->y[d];
+        s->now = PERI_IF(d == 0, now, s->now + now);
     }
     if (linear) s->now = s->rest;
 }
@@ -41,11 +41,11 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(chunk)(PERI_LANES_FN(piece) *s,
 PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(roots)(const PERI_LANES_FN(piece) *s, PERI_VECTOR *bond, PERI_VECTOR *product,
                                                                const int model, const int linear) {
     PERI_NO_CONTRACTION
-    *bond = model == PERI_LPS ? s->rest : PERI_V(sqrt)(s->rest);
+    *bond = PERI_IF(model == PERI_LPS, s->rest, PERI_V(sqrt)(s->rest));
     if (linear) *product = s->rest;
-    else if (model == PERI_LPS) *product = PERI_V(sqrt)(PERI_V(mul)(s->rest, s->now));
-    else *product = PERI_V(mul)(*bond, PERI_V(sqrt)(s->now));
-    return linear ? s->rest : PERI_V(add)(*product, s->rest);
+    else if (model == PERI_LPS) *product = PERI_V(sqrt)(s->rest * s->now);
+    else *product = *bond * PERI_V(sqrt)(s->now);
+    return PERI_IF(linear, s->rest, *product + s->rest);
 }
 
 /* Flags of the PERI_CHUNK bonds of row i from bond k on. */
@@ -54,9 +54,9 @@ PERI_INLINE uint32_t PERI_LANES_FN(live)(const peri_body *b, int64_t i, int64_t 
     return flags & (((uint32_t)1 << (count - k < PERI_CHUNK ? count - k : PERI_CHUNK)) - 1);
 }
 
-PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(const PERI_VECTOR *sum) {
+PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(const PERI_STATE *sum) {
     peri_r lane[PERI_CHUNK];
-    for (int l = 0; l < PERI_CHUNK; l += PERI_WIDTH) PERI_V(storeu)(lane + l, sum[l / PERI_WIDTH]);
+    for (int l = 0; l < PERI_CHUNK; l += PERI_WIDTH) PERI_LANES_FN(spread)(lane + l, &sum[l / PERI_WIDTH]);
     for (int half = PERI_CHUNK / 2; half > 0; half /= 2)
         for (int l = 0; l < half; ++l) lane[l] += lane[l + half];
     return lane[0];
@@ -72,20 +72,25 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     const int64_t first = m->start[i], count = m->count[i];
     const int states = model != PERI_BOND_BASED, mixed = PERI_D == 2 ? m->slots > 4 : m->materials > 1;
     const int32_t slots = states || PERI_D == 3 ? 8 : m->slots;
-    const peri_r *pack = (const peri_r *)b->pack, *own = pack + i * slots;
-    const peri_r *weights = (const peri_r *)m->weight + first, *backs = (const peri_r *)m->back + first;
-    const PERI_VECTOR limit = PERI_V(set1)((peri_r)(step->breaking ? PERI_FN(least_stretch)(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER));
-    const PERI_VECTOR tiny = PERI_V(set1)((peri_r)PERI_TINY);
-    const PERI_VECTOR pi = PERI_V(set1)(states ? own[2 * PERI_D] : 0), qi = PERI_V(set1)(states ? own[2 * PERI_D + 1] : 0);
+    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + i * slots;
+    const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
+    const PERI_VECTOR limit = PERI_V(set1)((peri_b)(step->breaking ? peri__least_stretch(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER));
+    const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
+    const PERI_VECTOR pi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D] : 0);
+    const PERI_VECTOR qi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D + 1] : 0);
     const int32_t *ids = &m->ids[first];
     PERI_LANES_FN(piece) next[PERI_CHUNK / PERI_WIDTH];
-    PERI_VECTOR sum[PERI_D][PERI_CHUNK / PERI_WIDTH], c = PERI_V(set1)((peri_r)m->pairs->c);
-    peri_r table[PERI_MATERIAL_LIMIT], pick[PERI_WIDTH];
+    PERI_STATE sum[PERI_D][PERI_CHUNK / PERI_WIDTH];
+    PERI_VECTOR c = PERI_V(set1)((peri_b)m->pairs->c);
+    peri_b table[PERI_MATERIAL_LIMIT], pick[PERI_WIDTH];
+    peri_r own[8] = { 0 };
+    const peri_r none[PERI_WIDTH] = { 0 };
     int hit = 0;
     for (int32_t k = 0; !states && mixed && k < m->materials; ++k)
-        table[k] = (peri_r)m->pairs[m->material[i] * m->materials + k].c;
+        table[k] = (peri_b)m->pairs[m->material[i] * m->materials + k].c;
     for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n)
-        for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_V(set1)(0);
+        for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_LANES_FN(take)(none);
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
     PERI_LANES_FN(chunk)(next, pack, slots, ids, own, linear);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
@@ -101,23 +106,22 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
             reach = PERI_LANES_FN(roots)(&s, &bond, &product, model, linear);
             if (states) { /* w (p g + q e)/|y| */
                 const PERI_VECTOR back = PERI_V(loadu)(backs + at);
-                const PERI_VECTOR p = PERI_V(add)(PERI_V(mul)(weight, pi), PERI_V(mul)(back, s.got[2 * PERI_D]));
-                const PERI_VECTOR q = PERI_V(add)(PERI_V(mul)(weight, qi), PERI_V(mul)(back, s.got[2 * PERI_D + 1]));
-                scale = PERI_V(mul)(q, s.along);
-                if (model == PERI_OTERKUS) scale = PERI_V(mul)(scale, bond);
-                scale = PERI_V(mul)(bond, PERI_V(add)(scale, PERI_V(mul)(p, reach)));
+                const PERI_VECTOR p = weight * pi + back * s.got[2 * PERI_D], q = weight * qi + back * s.got[2 * PERI_D + 1];
+                scale = q * s.along;
+                if (model == PERI_OTERKUS) scale = scale * bond;
+                scale = bond * (scale + p * reach);
             } else { /* c w e/(|xi| |y|) */
                 if (mixed) {
                     PERI_V(storeu)(pick, s.got[2 * PERI_D]);
                     for (int l = 0; l < PERI_WIDTH; ++l) pick[l] = table[(int)pick[l]];
                     c = PERI_V(loadu)(pick);
                 }
-                scale = PERI_V(mul)(PERI_V(mul)(PERI_V(mul)(c, weight), s.along), bond);
+                scale = c * weight * s.along * bond;
             }
-            scale = PERI_V(div)(scale, PERI_V(add)(PERI_V(mul)(reach, product), tiny));
-            hit |= (int)PERI_ABOVE(s.along, PERI_V(mul)(limit, reach), live);
+            scale = scale / (reach * product + tiny);
+            hit |= (int)PERI_ABOVE(s.along, limit * reach, live);
             for (int d = 0; d < PERI_D; ++d) /* a choice: what a dead lane read may be anything */
-                sum[d][n] = PERI_V(add)(sum[d][n], PERI_KEEP(live, PERI_V(mul)(scale, s.y[d])));
+                PERI_LANES_FN(gather)(&sum[d][n], PERI_KEEP(live, scale * s.y[d]));
         }
     }
     for (int d = 0; d < PERI_D; ++d) f[d] += PERI_LANES_FN(added)(sum[d]);
@@ -141,26 +145,30 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     PERI_NO_CONTRACTION
     const peri__model *m = b->model;
     const int64_t first = m->start[i], count = m->count[i];
-    const peri_r *pack = (const peri_r *)b->pack, *weights = (const peri_r *)m->weight + first;
+    const peri_r *pack = (const peri_r *)b->pack;
+    const peri_b *weights = (const peri_b *)m->weight + first;
     const int32_t *ids = &m->ids[first];
     PERI_LANES_FN(piece) next[PERI_CHUNK / PERI_WIDTH];
-    PERI_VECTOR sum[PERI_CHUNK / PERI_WIDTH];
-    for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) sum[n] = PERI_V(set1)(0);
-    PERI_LANES_FN(chunk)(next, pack, 8, ids, pack + i * 8, linear);
+    PERI_STATE sum[PERI_CHUNK / PERI_WIDTH];
+    peri_r own[8] = { 0 };
+    const peri_r none[PERI_WIDTH] = { 0 };
+    for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) sum[n] = PERI_LANES_FN(take)(none);
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[i * 8 + d];
+    PERI_LANES_FN(chunk)(next, pack, 8, ids, own, linear);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
         PERI_LANES_FN(piece) now[PERI_CHUNK / PERI_WIDTH];
         for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) now[n] = next[n];
-        if (k + PERI_CHUNK < count) PERI_LANES_FN(chunk)(next, pack, 8, ids + k + PERI_CHUNK, pack + i * 8, linear);
+        if (k + PERI_CHUNK < count) PERI_LANES_FN(chunk)(next, pack, 8, ids + k + PERI_CHUNK, own, linear);
         for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) {
             PERI_VECTOR part = PERI_V(loadu)(weights + k + n * PERI_WIDTH), bond, product, reach;
             const PERI_LANES_FN(piece) s = now[n];
-            part = PERI_V(mul)(part, s.along);
+            part = part * s.along;
             if (!linear || model != PERI_LPS) {
                 reach = PERI_LANES_FN(roots)(&s, &bond, &product, model, linear);
-                part = PERI_V(div)(PERI_V(mul)(part, bond), reach);
+                part = part * bond / reach;
             }
-            sum[n] = PERI_V(add)(sum[n], PERI_KEEP(PERI_TO_LIVE(flags >> (n * PERI_WIDTH)), part));
+            PERI_LANES_FN(gather)(&sum[n], PERI_KEEP(PERI_TO_LIVE(flags >> (n * PERI_WIDTH)), part));
         }
     }
     return PERI_LANES_FN(added)(sum);
@@ -173,7 +181,90 @@ PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b
     return linear ? PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, 1) : PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, 0);
 }
 
-#undef PERI_FETCH
+/* ---- correspondence ----------------------------------------------------------------------------------------------- */
+
+#define PERI_TENSOR_SLOTS (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                              */
+#define PERI_PIECES (PERI_CHUNK / PERI_WIDTH)
+
+/* sum w eta xi V of point i. */
+PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int64_t i, peri_r shape[PERI_D][PERI_D]) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = b->model;
+    const int64_t first = m->start[i], count = m->count[i];
+    const peri_r *pack = (const peri_r *)b->pack, none[PERI_WIDTH] = { 0 };
+    const peri_b *weights = (const peri_b *)m->weight + first;
+    peri_r own[8] = { 0 };
+    PERI_STATE sum[PERI_D][PERI_D][PERI_PIECES];
+    PERI_VECTOR got[8];
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[i * PERI_TENSOR_SLOTS + d];
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d)
+            for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none);
+    for (int64_t k = 0; k < count; k += PERI_CHUNK) {
+        const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
+        for (int n = 0; n < PERI_PIECES; ++n) {
+            const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
+            const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
+            const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH);
+            PERI_LANES_FN(differ)(pack, PERI_TENSOR_SLOTS, ids, own, got);
+            if (PERI_D == 3) PERI_LANES_FN(differ)(pack + 4, PERI_TENSOR_SLOTS, ids, own + 4, got + 4);
+            for (int a = 0; a < PERI_D; ++a) {
+                const PERI_VECTOR pulled = PERI_KEEP(live, weight * got[PERI_D + a]);
+                for (int d = 0; d < PERI_D; ++d) PERI_LANES_FN(gather)(&sum[a][d][n], PERI_KEEP(live, pulled * got[d]));
+            }
+        }
+    }
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) shape[a][d] = PERI_LANES_FN(added)(sum[a][d]);
+}
+
+/* Adds the force of all live bonds of correspondence point i to f, (w_ij Q_i + w_ji Q_j) xi + (w_ij k_i + w_ji k_j) eta; no central bonds.
+   Returns nonzero where a bond comes near its critical stretch; f is then void. */
+PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *step, int64_t i, peri_r *f) {
+    PERI_NO_CONTRACTION
+    const peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const int64_t first = m->start[i], count = m->count[i];
+    const int linear = b->desc.geometry == PERI_LINEAR;
+    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + i * PERI_TENSOR_SLOTS, none[PERI_WIDTH] = { 0 };
+    const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
+    const peri_b s0 = (peri_b)(step->breaking ? peri__least_stretch(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER);
+    const PERI_VECTOR limit = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
+    peri_r own[PERI_TENSOR_SLOTS] = { 0 };
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    PERI_VECTOR got[PERI_TENSOR_SLOTS];
+    int hit = 0;
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
+    for (int d = 0; d < PERI_D; ++d)
+        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(none);
+    for (int64_t k = 0; k < count; k += PERI_CHUNK) {
+        const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
+        for (int n = 0; n < PERI_PIECES; ++n) {
+            const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
+            const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
+            const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH), back = PERI_V(loadu)(backs + k + n * PERI_WIDTH);
+            PERI_VECTOR along = PERI_V(set1)(0), rest = along;
+            for (int s = 0; s < PERI_TENSOR_SLOTS; s += 4) PERI_LANES_FN(differ)(pack + s, PERI_TENSOR_SLOTS, ids, own + s, got + s);
+            const PERI_VECTOR *xi = got, *eta = got + PERI_D, *q = got + 2 * PERI_D, vector = got[2 * PERI_D + PERI_D * PERI_D];
+            for (int d = 0; d < PERI_D; ++d) {
+                along += PERI_IF(linear, xi[d], xi[d] + xi[d] + eta[d]) * eta[d];
+                rest += xi[d] * xi[d];
+            }
+            hit |= (int)PERI_ABOVE(along, limit * rest, live);
+            for (int a = 0; a < PERI_D; ++a) {
+                const peri_r *own_q = mine + 2 * PERI_D + a * PERI_D;
+                PERI_VECTOR t = (weight * PERI_V(set1)((peri_b)mine[2 * PERI_D + PERI_D * PERI_D]) + back * vector) * eta[a];
+                for (int d = 0; d < PERI_D; ++d) t += (weight * PERI_V(set1)((peri_b)own_q[d]) + back * q[a * PERI_D + d]) * xi[d];
+                PERI_LANES_FN(gather)(&sum[a][n], PERI_KEEP(live, t));
+            }
+        }
+    }
+    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_LANES_FN(added)(sum[d]);
+    return hit;
+}
+#undef PERI_TENSOR_SLOTS
+#undef PERI_PIECES
+
 #undef PERI_VECTOR
 #undef PERI_WIDTH
 #undef PERI_V
@@ -181,3 +272,4 @@ PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b
 #undef PERI_TO_LIVE
 #undef PERI_KEEP
 #undef PERI_ABOVE
+#undef PERI_STATE

@@ -13,16 +13,17 @@ static void PERI_FN(tangent_respond)(void *context, int64_t begin, int64_t end, 
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         const peri__law *law = &m->laws[m->material[i]];
-        const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
-        peri_r *change = (peri_r *)t->change + m->margin + i, n[PERI_D][PERI_D] = { { 0 } }, dn[PERI_D][PERI_D] = { { 0 } }, sum = 0;
+        const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
+        peri_b *change = (peri_b *)t->change + m->margin + i;
+        peri_r n[PERI_D][PERI_D] = { { 0 } }, dn[PERI_D][PERI_D] = { { 0 } }, sum = 0;
         const int tensor = law->model == PERI_CORRESPONDENCE;
         peri__row row;
         change[0] = 0;
         if (law->model == PERI_BOND_BASED || (!tensor && constant[PERI__PRESS * m->stride] == 0)) continue;
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
             const int64_t j = row.ids[k];
-            const peri_r bond = ((const peri_r *)row.bond)[k], weight = ((const peri_r *)row.weight)[k];
+            const peri_r bond = ((const peri_b *)row.bond)[k], weight = ((const peri_b *)row.weight)[k];
             peri_r xi[PERI_D], eta[PERI_D], delta[PERI_D], along = 0, square = 0;
             if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
             for (int d = 0; d < PERI_D; ++d) {
@@ -32,7 +33,7 @@ static void PERI_FN(tangent_respond)(void *context, int64_t begin, int64_t end, 
                 along += (xi[d] + eta[d]) * delta[d];
                 square += (xi[d] + eta[d]) * (xi[d] + eta[d]);
             }
-            if (!tensor) sum += weight * (law->model == PERI_OTERKUS ? 1 : bond) * along / (PERI_SQRT(square) + PERI_TINY);
+            if (!tensor) sum += weight * (law->model == PERI_OTERKUS ? 1 : bond) * along / (PERI_ROOT(square) + (peri_r)PERI_TINY);
             for (int a = 0; tensor && a < PERI_D; ++a)
                 for (int d = 0; d < PERI_D; ++d) {
                     n[a][d] += weight * eta[a] * xi[d];
@@ -40,7 +41,7 @@ static void PERI_FN(tangent_respond)(void *context, int64_t begin, int64_t end, 
                 }
         }
         if (!tensor) {
-            change[0] = constant[PERI__PRESS * m->stride] * (constant[PERI__DILATE * m->stride] * sum);
+            change[0] = (peri_b)(constant[PERI__PRESS * m->stride] * (constant[PERI__DILATE * m->stride] * sum));
             continue;
         }
         peri_r h[PERI_D][PERI_D], dh[PERI_D][PERI_D], s[PERI_D][PERI_D], ds[PERI_D][PERI_D], dp[PERI_D][PERI_D], trace = 0, dtrace = 0;
@@ -70,7 +71,7 @@ static void PERI_FN(tangent_respond)(void *context, int64_t begin, int64_t end, 
             for (int d = 0; d < PERI_D; ++d) {
                 peri_r q = -constant[PERI__VECTOR * m->stride] * dh[a][d];
                 for (int c = 0; c < PERI_D; ++c) q += dp[a][c] * constant[(PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride];
-                change[(1 + a * PERI_D + d) * m->stride] = q;
+                change[(1 + a * PERI_D + d) * m->stride] = (peri_b)q;
             }
     }
 }
@@ -87,8 +88,9 @@ PERI_INLINE void PERI_FN(tangent_half)(const peri__tangent *tangent, int64_t i, 
         *dc += spring * de;
         return;
     }
-    const peri_r *constant = (const peri_r *)b->constant + m->margin + i, *response = (const peri_r *)b->response + m->margin + i;
-    const peri_r *change = (const peri_r *)tangent->change + m->margin + i, gauge = law == PERI_OTERKUS ? 1 : bond;
+    const peri_b *constant = (const peri_b *)b->constant + m->margin + i, *response = (const peri_b *)b->response + m->margin + i;
+    const peri_b *change = (const peri_b *)tangent->change + m->margin + i;
+    const peri_r gauge = law == PERI_OTERKUS ? 1 : bond;
     *c += weight * (response[0] * gauge + constant[PERI__SPRING * m->stride] * e);
     *dc += weight * (change[0] * gauge + constant[PERI__SPRING * m->stride] * de);
     if (law != PERI_CORRESPONDENCE) return;
@@ -109,25 +111,29 @@ static void PERI_FN(tangent_share)(void *context, int64_t begin, int64_t end, pe
     for (int64_t i = begin; i < end; ++i) {
         peri_r sum[PERI_D] = { 0 };
         peri__row row;
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
             const int64_t j = row.ids[k];
-            const peri_r bond = ((const peri_r *)row.bond)[k];
-            peri_r xi[PERI_D], eta[PERI_D], delta[PERI_D], y[PERI_D], t[PERI_D], e, length, de = 0, c = 0, dc = 0;
+            const peri_r bond = ((const peri_b *)row.bond)[k];
+            peri_r xi[PERI_D], eta[PERI_D], delta[PERI_D], y[PERI_D], t[PERI_D], along = 0, square = 0, e, length, de = 0, c = 0, dc = 0;
             if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
             for (int d = 0; d < PERI_D; ++d) {
                 xi[d] = x[d * m->stride + j] - x[d * m->stride + i];
                 eta[d] = u[d * m->stride + j] - u[d * m->stride + i];
                 delta[d] = p[d * m->stride + j] - p[d * m->stride + i];
                 t[d] = 0;
+                y[d] = xi[d] + eta[d];
+                along += (2 * xi[d] + eta[d]) * eta[d];
+                square += y[d] * y[d];
             }
-            length = PERI_FN(extension)(0, xi, eta, bond, &e, y) + PERI_TINY;
+            length = PERI_ROOT(square) + (peri_r)PERI_TINY;
+            e = along / (length + bond);
             for (int d = 0; d < PERI_D; ++d) {
                 y[d] /= length;
                 de += y[d] * delta[d];
             }
-            PERI_FN(tangent_half)(tangent, i, j, ((const peri_r *)row.weight)[k], xi, delta, bond, e, de, &c, &dc, t);
-            PERI_FN(tangent_half)(tangent, j, i, ((const peri_r *)row.back)[k], xi, delta, bond, e, de, &c, &dc, t);
+            PERI_FN(tangent_half)(tangent, i, j, ((const peri_b *)row.weight)[k], xi, delta, bond, e, de, &c, &dc, t);
+            PERI_FN(tangent_half)(tangent, j, i, ((const peri_b *)row.back)[k], xi, delta, bond, e, de, &c, &dc, t);
             for (int d = 0; d < PERI_D; ++d) sum[d] += t[d] + dc * y[d] + c / length * (delta[d] - y[d] * de);
         }
         for (int d = 0; d < PERI_D; ++d) ((peri_r *)tangent->q)[d * m->stride + i] = sum[d];

@@ -7,19 +7,19 @@
    Seen from j the same sum has the opposite sign, term by term: momentum is conserved whatever the laws of the two ends are. */
 
 /* The half of end i of its bond with j: adds to the central part (along M) and, correspondence, to the vector t. */
-PERI_INLINE void PERI_FN(half_bond)(const peri_body *b, int64_t i, int64_t j, peri_r weight, const peri_r *xi, const peri_r *eta,
-                                    peri_r bond, peri_r e, peri_r *central, peri_r *t) {
+PERI_INLINE void PERI_FN(half_bond)(const peri_body *b, int64_t i, int64_t j, peri_b weight, const peri_b *xi, const peri_b *eta,
+                                    peri_b bond, peri_b e, peri_b *central, peri_b *t) {
     const peri__model *m = b->model;
     const int32_t law = m->laws[m->material[i]].model;
-    const peri_r *constant = (const peri_r *)b->constant + m->margin + i, *response = (const peri_r *)b->response + m->margin + i;
+    const peri_b *constant = (const peri_b *)b->constant + m->margin + i, *response = (const peri_b *)b->response + m->margin + i;
     if (law == PERI_BOND_BASED) {
-        *central += weight * (peri_r)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
+        *central += weight * (peri_b)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
         return;
     }
     *central += weight * (response[0] * (law == PERI_OTERKUS ? 1 : bond) + constant[PERI__SPRING * m->stride] * e);
     if (law != PERI_CORRESPONDENCE) return;
     for (int a = 0; a < PERI_D; ++a) {
-        peri_r sum = constant[PERI__VECTOR * m->stride] * eta[a];
+        peri_b sum = constant[PERI__VECTOR * m->stride] * eta[a];
         for (int d = 0; d < PERI_D; ++d) sum += response[(1 + a * PERI_D + d) * m->stride] * xi[d];
         t[a] += weight * sum;
     }
@@ -35,14 +35,14 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, c
         for (int32_t k = 0; k < m->words; ++k) b->dying[i * m->words + k] = 0;
     for (int64_t k = 0; k < row->count; ++k) {
         const int64_t at = row->first + k, j = row->ids[k];
-        peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], t[PERI_D], e, central = 0, length;
-        const peri_r bond = ((const peri_r *)row->bond)[k];
+        peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], t[PERI_D], e, central = 0, length;
+        const peri_b bond = ((const peri_b *)row->bond)[k];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
         length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         for (int d = 0; d < PERI_D; ++d) t[d] = 0;
-        PERI_FN(half_bond)(b, i, j, ((const peri_r *)row->weight)[k], xi, eta, bond, e, &central, t);
-        PERI_FN(half_bond)(b, j, i, ((const peri_r *)row->back)[k], xi, eta, bond, e, &central, t);
+        PERI_FN(half_bond)(b, i, j, ((const peri_b *)row->weight)[k], xi, eta, bond, e, &central, t);
+        PERI_FN(half_bond)(b, j, i, ((const peri_b *)row->back)[k], xi, eta, bond, e, &central, t);
         for (int d = 0; d < PERI_D; ++d) {
             t[d] += central * y[d] / (length + PERI_TINY);
             f[d] += t[d];
@@ -59,7 +59,7 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, c
         if (step->breaking && e > 0) {
             const peri__pair *pair = PERI_FN(pair)(b, i, j);
             const double share = row->part ? (double)row->part[k] : m->volume[j];
-            int dies = e / bond > (peri_r)pair->s0;
+            int dies = e / bond > (peri_b)pair->s0;
             if (b->work) dies |= (double)((const peri_r *)b->work)[at] > pair->bond_energy * share;
             if (b->node) dies |= 0.5 * (b->node[i] + b->node[j]) > pair->node_energy;
             if (dies) b->dying[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
@@ -76,14 +76,15 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const 
     peri_body *b = step->body;
     const peri__model *m = b->model;
     const int64_t stride = m->stride;
-    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response + m->margin;
-    const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * stride;
-    const peri_r *bonds = (const peri_r *)row->bond, *weights = (const peri_r *)row->weight, *backs = (const peri_r *)row->back;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
+    const peri_b *p = (const peri_b *)b->response + m->margin, *q = (const peri_b *)b->constant + m->margin + PERI__SPRING * stride;
+    const peri_b *bonds = (const peri_b *)row->bond, *weights = (const peri_b *)row->weight, *backs = (const peri_b *)row->back;
     const int32_t *ids = row->ids;
     const uint8_t *cls = b->cls;
     const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
-    peri_r here[PERI_D], moved[PERI_D], sum[PERI_D], s0 = (peri_r)pairs->s0;
-    const peri_r qi = q[i], pi = p[i];
+    peri_r here[PERI_D], moved[PERI_D], sum[PERI_D];
+    peri_b s0 = (peri_b)pairs->s0;
+    const peri_b qi = q[i], pi = p[i];
     int32_t dying = 0;
     for (int d = 0; d < PERI_D; ++d) {
         here[d] = x[d * stride + i];
@@ -96,12 +97,12 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const 
         uint32_t dead = 0;
         for (int32_t k = 0; k < chunk; ++k) {
             const int64_t j = ids[first + k];
-            const peri_r bond = bonds[first + k], weight = weights[first + k], back = mirrored ? weight : backs[first + k];
-            const peri_r gauge = oterkus ? 1 : bond;
-            peri_r y[PERI_D], along = 0, square = 0, length, reach, pull;
+            const peri_b bond = bonds[first + k], gauge = oterkus ? 1 : bond;
+            peri_b weight = weights[first + k], back = mirrored ? weight : backs[first + k];
+            peri_b y[PERI_D], along = 0, square = 0, length, reach, pull;
             if (flagged && !(live >> k & 1)) continue;
             for (int d = 0; d < PERI_D; ++d) {
-                const peri_r xi = x[d * stride + j] - here[d], eta = u[d * stride + j] - moved[d];
+                const peri_b xi = (peri_b)(x[d * stride + j] - here[d]), eta = (peri_b)(u[d * stride + j] - moved[d]);
                 y[d] = linear ? xi : xi + eta;
                 along += (linear ? xi : 2 * xi + eta) * eta;
                 square += y[d] * y[d];
@@ -109,12 +110,17 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const 
             /* e = along/reach, force along y: w (p g + q e)/|y| */
             length = linear ? bond : PERI_SQRT(square);
             reach = linear ? bond : length + bond;
+            if (linear) { /* over |xi|^2 here */
+                const peri_b inverse = 1 / bond;
+                weight *= inverse * inverse;
+                back *= inverse * inverse;
+            }
             if (mirrored) pull = weight * ((qi + q[j]) * along + (pi + p[j]) * gauge * reach);
             else pull = (weight * qi + back * q[j]) * along + (weight * pi + back * p[j]) * gauge * reach;
-            pull /= reach * length + PERI_TINY;
+            if (!linear) pull /= reach * length + PERI_TINY;
             for (int d = 0; d < PERI_D; ++d) sum[d] += pull * y[d];
             if (flagged && step->breaking) {
-                if (cls) s0 = (peri_r)pairs[cls[j]].s0;
+                if (cls) s0 = (peri_b)pairs[cls[j]].s0;
                 if (along > s0 * bond * reach) {
                     dead |= (uint32_t)1 << k;
                     dying++;
@@ -131,10 +137,10 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const 
 static int32_t PERI_FN(share_force)(const peri__step *step, int64_t i, peri_r *f) {
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.reference || m->works || m->nodes;
+    const int linear = b->desc.geometry == PERI_LINEAR, plain = b->desc.kernel == PERI_KERNEL_REFERENCE || m->works || m->nodes;
     const int oterkus = m->ordinary == PERI_OTERKUS, mirrored = m->back == m->weight;
     peri__row row;
-    peri__read_row(m, b->f32, i, &row);
+    peri__read_row(b, i, &row);
     if (plain || !m->ordinary) return PERI_FN(share_row_reference)(step, i, &row, f);
     if (!b->alive)
         return linear ? PERI_FN(share_row)(step, i, &row, f, 0, 1, oterkus, mirrored)
@@ -164,7 +170,11 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
         const int64_t i = peri__nth(m, k);
         peri_r *force = (peri_r *)step->body->f + i, f[PERI_D];
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
-        if (PERI_ON_LANES(m->lanes.isa, list_share, (step, i, f))) PERI_FN(share_rows)(step, i, i + 1, sums);
+        int by_row = m->tensors && step->body->central[i / PERI_LANES];
+        if (!by_row)
+            by_row = m->tensors ? PERI_ON_LANES(m->lanes.isa, list_tensor, (step, i, f))
+                                : PERI_ON_LANES(m->lanes.isa, list_share, (step, i, f));
+        if (by_row) PERI_FN(share_rows)(step, i, i + 1, sums);
         else
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride] = f[d];
     }
@@ -214,8 +224,8 @@ static void PERI_FN(shape)(const peri_body *b, int64_t i, const peri__row *row, 
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) n[a][d] = 0;
     for (int64_t k = 0; k < row->count; ++k) {
-        const peri_r weight = ((const peri_r *)row->weight)[k];
-        peri_r xi[PERI_D], eta[PERI_D];
+        const peri_b weight = ((const peri_b *)row->weight)[k];
+        peri_b xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
         for (int a = 0; a < PERI_D; ++a)
@@ -231,7 +241,7 @@ static void PERI_FN(gradient)(const peri_body *b, int64_t i, peri_r n[PERI_D][PE
             h[a][d] = 0;
             for (int c = 0; c < PERI_D; ++c)
                 h[a][d] += n[a][c]
-                         * ((const peri_r *)b->constant)[m->margin + (PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride + i];
+                         * ((const peri_b *)b->constant)[m->margin + (PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride + i];
         }
 }
 
@@ -249,8 +259,10 @@ static void PERI_FN(respond_tensor)(peri_body *b, int64_t i, peri_r n[PERI_D][PE
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_r *constant = (const peri_r *)b->constant + m->margin + i, lambda = (peri_r)law->lambda, mu2 = (peri_r)(2.0 * law->mu);
-    peri_r *response = (peri_r *)b->response + m->margin + i, h[PERI_D][PERI_D], s[PERI_D][PERI_D], p[PERI_D][PERI_D], trace = 0;
+    const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
+    const peri_r lambda = (peri_r)law->lambda, mu2 = (peri_r)(2.0 * law->mu);
+    peri_b *response = (peri_b *)b->response + m->margin + i;
+    peri_r h[PERI_D][PERI_D], s[PERI_D][PERI_D], p[PERI_D][PERI_D], trace = 0;
     PERI_FN(gradient)(b, i, n, h);
     PERI_FN(strain)(linear, h, s);
     for (int a = 0; a < PERI_D; ++a) trace += s[a][a];
@@ -266,7 +278,7 @@ static void PERI_FN(respond_tensor)(peri_body *b, int64_t i, peri_r n[PERI_D][PE
         for (int d = 0; d < PERI_D; ++d) {
             peri_r q = -constant[PERI__VECTOR * m->stride] * h[a][d];
             for (int c = 0; c < PERI_D; ++c) q += p[a][c] * constant[(PERI__INVERSE + peri__packed(PERI_D, c, d)) * m->stride];
-            response[(1 + a * PERI_D + d) * m->stride] = q;
+            response[(1 + a * PERI_D + d) * m->stride] = (peri_b)q;
         }
 }
 
@@ -277,8 +289,8 @@ static double PERI_FN(stretched)(const peri_body *b, int64_t i, const peri__row 
     peri_r sum = 0;
     double squares = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
-        const peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
-        peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
+        const peri_b bond = ((const peri_b *)row->bond)[k], weight = ((const peri_b *)row->weight)[k];
+        peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e;
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
         (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
@@ -295,7 +307,7 @@ PERI_INLINE peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const p
     const peri__model *m = b->model;
     const int64_t stride = m->stride;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
-    const peri_r *bonds = (const peri_r *)row->bond, *weights = (const peri_r *)row->weight;
+    const peri_b *bonds = (const peri_b *)row->bond, *weights = (const peri_b *)row->weight;
     const int32_t *ids = row->ids;
     peri_r here[PERI_D], moved[PERI_D], sum = 0;
     for (int d = 0; d < PERI_D; ++d) {
@@ -304,15 +316,15 @@ PERI_INLINE peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const p
     }
     for (int64_t k = 0; k < row->count; ++k) {
         const int64_t j = ids[k];
-        const peri_r bond = bonds[k];
-        peri_r along = 0, square = 0;
+        const peri_b bond = bonds[k], gauge = linear ? (oterkus ? 1 / bond : 1) : oterkus ? 1 : bond, weight = weights[k] * gauge;
+        peri_b along = 0, square = 0;
         if (flagged && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         for (int d = 0; d < PERI_D; ++d) {
-            const peri_r xi = x[d * stride + j] - here[d], eta = u[d * stride + j] - moved[d], y = xi + eta;
+            const peri_b xi = (peri_b)(x[d * stride + j] - here[d]), eta = (peri_b)(u[d * stride + j] - moved[d]), y = xi + eta;
             along += (linear ? xi : 2 * xi + eta) * eta;
             square += y * y;
         }
-        sum += weights[k] * (oterkus ? 1 : bond) * (along / (linear ? bond : PERI_SQRT(square) + bond));
+        sum += linear ? weight * along : weight * (along / (PERI_SQRT(square) + bond));
     }
     return sum;
 }
@@ -321,7 +333,7 @@ PERI_INLINE peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const p
 static peri_r PERI_FN(stretched_sum)(const peri_body *b, int64_t i, const peri__row *row) {
     const int linear = b->desc.geometry == PERI_LINEAR, oterkus = b->model->laws[b->model->material[i]].model == PERI_OTERKUS;
     double square;
-    if (b->desc.reference) return (peri_r)PERI_FN(stretched)(b, i, row, &square);
+    if (b->desc.kernel == PERI_KERNEL_REFERENCE) return (peri_r)PERI_FN(stretched)(b, i, row, &square);
     if (!b->alive) return linear ? PERI_FN(stretched_row)(b, i, row, oterkus, 0, 1) : PERI_FN(stretched_row)(b, i, row, oterkus, 0, 0);
     return linear ? PERI_FN(stretched_row)(b, i, row, oterkus, 1, 1) : PERI_FN(stretched_row)(b, i, row, oterkus, 1, 0);
 }
@@ -331,13 +343,13 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
+    const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
     double density = 0.0, square = 0.0;
     if (law->model == PERI_BOND_BASED) {
         for (int64_t k = 0; k < row->count; ++k) {
             const int64_t at = row->first + k, j = row->ids[k];
-            peri_r xi[PERI_D], eta[PERI_D], y[PERI_D], e;
-            const peri_r bond = ((const peri_r *)row->bond)[k], weight = ((const peri_r *)row->weight)[k];
+            peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e;
+            const peri_b bond = ((const peri_b *)row->bond)[k], weight = ((const peri_b *)row->weight)[k];
             if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
             PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
             (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
@@ -359,13 +371,13 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
         for (int d = 0; d < PERI_D; ++d) norm += peri__square((double)s[a][d]);
     }
     for (int64_t k = 0; k < row->count; ++k) { /* sum w |Y - F xi|^2 V */
-        peri_r xi[PERI_D], eta[PERI_D];
+        peri_b xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
         for (int a = 0; a < PERI_D; ++a) {
             peri_r z = eta[a];
             for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * xi[d];
-            apart += (double)((const peri_r *)row->weight)[k] * peri__square((double)z);
+            apart += (double)((const peri_b *)row->weight)[k] * peri__square((double)z);
         }
     }
     return density + 0.5 * law->lambda * trace * trace + law->mu * norm + 0.5 * (double)constant[PERI__VECTOR * m->stride] * apart;
@@ -380,18 +392,18 @@ static void PERI_FN(respond_rows)(void *context, int64_t begin, int64_t end, per
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         const int32_t law = m->laws[m->material[i]].model;
-        const peri_r *constant = (const peri_r *)b->constant + m->margin + i;
+        const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
         peri_r n[PERI_D][PERI_D];
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         if (law == PERI_CORRESPONDENCE) {
             PERI_FN(shape)(b, i, &row, n);
             PERI_FN(respond_tensor)(b, i, n);
         } else if (law != PERI_BOND_BASED)
-            ((peri_r *)b->response)[m->margin + i] =
+            ((peri_b *)b->response)[m->margin + i] =
                 constant[PERI__PRESS * m->stride] == 0
                     ? 0 /* the product of the two constants alone can leave the range of float */
-                    : constant[PERI__PRESS * m->stride]
-                          * (constant[PERI__DILATE * m->stride] * PERI_FN(stretched_sum)(b, i, &row));
+                    : (peri_b)(constant[PERI__PRESS * m->stride]
+                               * (constant[PERI__DILATE * m->stride] * PERI_FN(stretched_sum)(b, i, &row)));
         if (b->node) b->node[i] = 2.0 * PERI_FN(point_energy)(b, i, &row) / peri__family_volume(m, i);
     }
 }
@@ -402,9 +414,15 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
     const peri__model *m = b->model;
     for (int64_t k = begin; m->slots && k < end; ++k) {
         const int64_t i = peri__nth(m, k);
-        const peri_r *constant = (const peri_r *)b->constant + m->margin + i, press = constant[PERI__PRESS * m->stride];
-        ((peri_r *)b->response)[m->margin + i] =
-            press == 0 ? 0 : press * (constant[PERI__DILATE * m->stride] * PERI_ON_LANES(m->lanes.isa, list_stretched, (b, i)));
+        if (m->tensors) {
+            peri_r n[PERI_D][PERI_D];
+            PERI_ON_LANES(m->lanes.isa, list_shape, (b, i, n));
+            PERI_FN(respond_tensor)(b, i, n);
+            continue;
+        }
+        const peri_b *constant = (const peri_b *)b->constant + m->margin + i, press = constant[PERI__PRESS * m->stride];
+        const peri_r sum = press == 0 ? 0 : PERI_ON_LANES(m->lanes.isa, list_stretched, (b, i));
+        ((peri_b *)b->response)[m->margin + i] = (peri_b)(press * (constant[PERI__DILATE * m->stride] * sum));
     }
     if (m->slots) return;
     if (!m->lanes.columns) {
@@ -412,8 +430,9 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
         return;
     }
     for (int64_t first = begin; first < end; first += PERI_LANES) {
-        const peri_r *constant = (const peri_r *)b->constant + m->margin + first;
-        peri_r *response = (peri_r *)b->response + m->margin + first, sum[PERI_LANES];
+        const peri_b *constant = (const peri_b *)b->constant + m->margin + first;
+        peri_b *response = (peri_b *)b->response + m->margin + first;
+        peri_r sum[PERI_LANES];
         const int64_t g = first / PERI_LANES;
         const int gauged = m->ordinary != PERI_OTERKUS;
         if (m->tensors) {
@@ -428,7 +447,7 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
         }
         PERI_ON_LANES(m->lanes.isa, stretched, (b, g, gauged, sum));
         for (int l = 0; l < PERI_LANES; ++l)
-            response[l] = constant[PERI__PRESS * m->stride + l] * (constant[PERI__DILATE * m->stride + l] * sum[l]);
+            response[l] = (peri_b)(constant[PERI__PRESS * m->stride + l] * (constant[PERI__DILATE * m->stride + l] * sum[l]));
     }
 }
 
@@ -438,7 +457,7 @@ static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sum
     const peri__model *m = step->body->model;
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {
-        peri__read_row(m, step->body->f32, i, &row);
+        peri__read_row(step->body, i, &row);
         double density = PERI_FN(point_energy)(step->body, i, &row);
         if (step->out) step->out[i] = density;
         sums->a += density * m->volume[i];

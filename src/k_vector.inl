@@ -1,28 +1,76 @@
-/* k_vector.inl - the operations of k_list.inl per instruction set: PERI_V_ISA 0 plain text, 1 AVX2, 2 AVX-512.
+/* k_vector.inl - the operations of k_lanes.inl and k_list.inl per instruction set: PERI_V_ISA 0 SSE2, which every x86-64 has, or else plain
+   text, one lane at a time; 1 AVX2; 2 AVX-512.
 
-   PERI_VECTOR     PERI_WIDTH reals; PERI_V(add) and so on its arithmetic, each operation rounded
+   PERI_VECTOR     PERI_WIDTH reals of bonds. + - * / are the compiler's own, each rounded; PERI_V(set1), PERI_V(loadu), PERI_V(sqrt)
    PERI_LIVE       which of its lanes count, from the lowest bits of a word
    PERI_KEEP       0 in the lanes that do not count
    PERI_ABOVE      not 0 where a > b in a lane that counts
-   PERI_FETCH      four reals from pack + slots*id of each of PERI_WIDTH ids, as four vectors. Records are loaded whole and turned in
-                   registers, which takes a fraction of what gathering numbers one by one does */
+   PERI_STATE      as many reals of the state: `take` reads them, `apart` is what others are more than these, as reals of bonds, `gather`
+                   adds reals of bonds to them, `spread` writes them
+   differ          four reals of the state from pack + slots*id of each of PERI_WIDTH ids, less own[4], as four PERI_VECTOR. Records are
+                   loaded whole and turned in registers (`fetch`): a fraction of the time of gathering numbers one by one */
 
-#if PERI_V_ISA == 0
-#define PERI_VECTOR peri_r
+#if PERI_V_ISA == 0 && !defined(PERI_ISA)
+#define PERI_VECTOR peri_b
 #define PERI_WIDTH 1
 #define PERI_V(name) PERI_PLAIN_##name
 #define PERI_LIVE uint32_t
 #define PERI_TO_LIVE(bits) ((bits) & 1)
 #define PERI_KEEP(live, a) ((live) ? (a) : 0)
 #define PERI_ABOVE(a, b, live) (((a) > (b)) & (int)(live))
-#define PERI_FETCH PERI_FN(fetch_plain)
-PERI_INLINE void PERI_FN(fetch_plain)(const peri_r *pack, int32_t slots, const int32_t *ids, peri_r *got) {
-    for (int s = 0; s < 4; ++s) got[s] = pack[(int64_t)slots * ids[0] + s];
+#define PERI_STATE peri_r
+PERI_INLINE peri_r PERI_LANES_FN(take)(const peri_r *at) { return *at; }
+PERI_INLINE peri_b PERI_LANES_FN(apart)(const peri_r *at, peri_r own) { return (peri_b)(*at - own); }
+PERI_INLINE void PERI_LANES_FN(gather)(peri_r *sum, peri_b part) { *sum += part; }
+PERI_INLINE void PERI_LANES_FN(spread)(peri_r *at, const peri_r *from) { *at = *from; }
+PERI_INLINE void PERI_LANES_FN(differ)(const peri_r *pack, int32_t slots, const int32_t *ids, const peri_r *own, peri_b *got) {
+    for (int s = 0; s < 4; ++s) got[s] = (peri_b)(pack[(int64_t)slots * ids[0] + s] - own[s]);
 }
 
-#elif PERI_V_ISA == 1
-#define PERI_FETCH PERI_FN(fetch_avx2)
+#elif PERI_V_ISA == 0
+#if PERI_T_BOND == 64
+#define PERI_VECTOR __m128d
+#define PERI_WIDTH 2
+#define PERI_V(name) _mm_##name##_pd
+#define PERI_LIVE __m128d
+#define PERI_TO_LIVE(bits) _mm_castsi128_pd(_mm_set_epi64x(-(int64_t)((bits) >> 1 & 1), -(int64_t)((bits) & 1)))
+#define PERI_KEEP(live, a) _mm_and_pd(live, a)
+#define PERI_ABOVE(a, b, live) _mm_movemask_pd(_mm_and_pd(live, _mm_cmpgt_pd(a, b)))
+#else
+#define PERI_VECTOR __m128
+#define PERI_WIDTH 4
+#define PERI_V(name) _mm_##name##_ps
+#define PERI_LIVE __m128
+#define PERI_TO_LIVE(bits)                                                                                             \
+    _mm_castsi128_ps(_mm_cmpgt_epi32(_mm_and_si128(_mm_set1_epi32((int32_t)(bits)), _mm_setr_epi32(1, 2, 4, 8)), _mm_setzero_si128()))
+#define PERI_KEEP(live, a) _mm_and_ps(live, a)
+#define PERI_ABOVE(a, b, live) _mm_movemask_ps(_mm_and_ps(live, _mm_cmpgt_ps(a, b)))
+#endif
 #if PERI_T_REAL == 64
+#define PERI_HALF __m128d
+#define PERI_S(name) _mm_##name##_pd
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int32_t slots, const int32_t *ids, __m128d *got) {
+    const double *a = pack + (int64_t)slots * ids[0], *b = pack + (int64_t)slots * ids[1];
+    const __m128d a01 = _mm_loadu_pd(a), a23 = _mm_loadu_pd(a + 2), b01 = _mm_loadu_pd(b), b23 = _mm_loadu_pd(b + 2);
+    got[0] = _mm_unpacklo_pd(a01, b01);
+    got[1] = _mm_unpackhi_pd(a01, b01);
+    got[2] = _mm_unpacklo_pd(a23, b23);
+    got[3] = _mm_unpackhi_pd(a23, b23);
+}
+#else
+#define PERI_HALF __m128
+#define PERI_S(name) _mm_##name##_ps
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32_t slots, const int32_t *ids, __m128 *got) {
+    for (int k = 0; k < 4; ++k) got[k] = _mm_loadu_ps(pack + (int64_t)slots * ids[k]);
+    _MM_TRANSPOSE4_PS(got[0], got[1], got[2], got[3]);
+}
+#endif
+#define PERI_NARROW(lo, hi) _mm_movelh_ps(_mm_cvtpd_ps(lo), _mm_cvtpd_ps(hi))
+#define PERI_WIDEN_LO(a) _mm_cvtps_pd(a)
+#define PERI_WIDEN_HI(a) _mm_cvtps_pd(_mm_movehl_ps(a, a))
+
+#elif PERI_V_ISA == 1
+#if PERI_T_BOND == 64
 #define PERI_VECTOR __m256d
 #define PERI_WIDTH 4
 #define PERI_V(name) _mm256_##name##_pd
@@ -32,16 +80,6 @@ PERI_INLINE void PERI_FN(fetch_plain)(const peri_r *pack, int32_t slots, const i
         _mm256_and_si256(_mm256_set1_epi64x((int64_t)(bits)), _mm256_setr_epi64x(1, 2, 4, 8)), _mm256_setzero_si256()))
 #define PERI_KEEP(live, a) _mm256_and_pd(live, a)
 #define PERI_ABOVE(a, b, live) _mm256_movemask_pd(_mm256_and_pd(live, _mm256_cmp_pd(a, b, _CMP_GT_OQ)))
-PERI_VECTOR_CODE PERI_AVX2 PERI_INLINE void PERI_FN(fetch_avx2)(const double *pack, int32_t slots, const int32_t *ids, __m256d *got) {
-    const __m256d a = _mm256_loadu_pd(pack + (int64_t)slots * ids[0]), b = _mm256_loadu_pd(pack + (int64_t)slots * ids[1]);
-    const __m256d c = _mm256_loadu_pd(pack + (int64_t)slots * ids[2]), d = _mm256_loadu_pd(pack + (int64_t)slots * ids[3]);
-    const __m256d ab = _mm256_unpacklo_pd(a, b), cd = _mm256_unpacklo_pd(c, d); /* reals 0 and 2 */
-    const __m256d ba = _mm256_unpackhi_pd(a, b), dc = _mm256_unpackhi_pd(c, d); /* reals 1 and 3 */
-    got[0] = _mm256_permute2f128_pd(ab, cd, 0x20);
-    got[1] = _mm256_permute2f128_pd(ba, dc, 0x20);
-    got[2] = _mm256_permute2f128_pd(ab, cd, 0x31);
-    got[3] = _mm256_permute2f128_pd(ba, dc, 0x31);
-}
 #else
 #define PERI_VECTOR __m256
 #define PERI_WIDTH 8
@@ -52,7 +90,24 @@ PERI_VECTOR_CODE PERI_AVX2 PERI_INLINE void PERI_FN(fetch_avx2)(const double *pa
         _mm256_and_si256(_mm256_set1_epi32((int32_t)(bits)), _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128)), _mm256_setzero_si256()))
 #define PERI_KEEP(live, a) _mm256_and_ps(live, a)
 #define PERI_ABOVE(a, b, live) _mm256_movemask_ps(_mm256_and_ps(live, _mm256_cmp_ps(a, b, _CMP_GT_OQ)))
-PERI_VECTOR_CODE PERI_AVX2 PERI_INLINE void PERI_FN(fetch_avx2)(const float *pack, int32_t slots, const int32_t *ids, __m256 *got) {
+#endif
+#if PERI_T_REAL == 64
+#define PERI_HALF __m256d
+#define PERI_S(name) _mm256_##name##_pd
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int32_t slots, const int32_t *ids, __m256d *got) {
+    const __m256d a = _mm256_loadu_pd(pack + (int64_t)slots * ids[0]), b = _mm256_loadu_pd(pack + (int64_t)slots * ids[1]);
+    const __m256d c = _mm256_loadu_pd(pack + (int64_t)slots * ids[2]), d = _mm256_loadu_pd(pack + (int64_t)slots * ids[3]);
+    const __m256d ab = _mm256_unpacklo_pd(a, b), cd = _mm256_unpacklo_pd(c, d); /* reals 0 and 2 */
+    const __m256d ba = _mm256_unpackhi_pd(a, b), dc = _mm256_unpackhi_pd(c, d); /* reals 1 and 3 */
+    got[0] = _mm256_permute2f128_pd(ab, cd, 0x20);
+    got[1] = _mm256_permute2f128_pd(ba, dc, 0x20);
+    got[2] = _mm256_permute2f128_pd(ab, cd, 0x31);
+    got[3] = _mm256_permute2f128_pd(ba, dc, 0x31);
+}
+#else
+#define PERI_HALF __m256
+#define PERI_S(name) _mm256_##name##_ps
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32_t slots, const int32_t *ids, __m256 *got) {
 #define PERI_ONE(k) _mm_loadu_ps(pack + (int64_t)slots * ids[k])
 #define PERI_TWO(k) _mm256_insertf128_ps(_mm256_castps128_ps256(PERI_ONE(k)), PERI_ONE((k) + 4), 1)
     const __m256 a = PERI_TWO(0), b = PERI_TWO(1), c = PERI_TWO(2), d = PERI_TWO(3);
@@ -66,18 +121,31 @@ PERI_VECTOR_CODE PERI_AVX2 PERI_INLINE void PERI_FN(fetch_avx2)(const float *pac
     got[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(ba, dc));
 }
 #endif
+#define PERI_NARROW(lo, hi) _mm256_set_m128(_mm256_cvtpd_ps(hi), _mm256_cvtpd_ps(lo))
+#define PERI_WIDEN_LO(a) _mm256_cvtps_pd(_mm256_castps256_ps128(a))
+#define PERI_WIDEN_HI(a) _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1))
 
 #else
-#define PERI_FETCH PERI_FN(fetch_avx512)
 #define PERI_WIDTH PERI_CHUNK
-#if PERI_T_REAL == 64
+#if PERI_T_BOND == 64
 #define PERI_VECTOR __m512d
 #define PERI_V(name) _mm512_##name##_pd
 #define PERI_LIVE __mmask8
 #define PERI_TO_LIVE(bits) ((__mmask8)(bits))
 #define PERI_KEEP(live, a) _mm512_maskz_mov_pd(live, a)
 #define PERI_ABOVE(a, b, live) _mm512_mask_cmp_pd_mask(live, a, b, _CMP_GT_OQ)
-PERI_VECTOR_CODE PERI_AVX512 PERI_INLINE void PERI_FN(fetch_avx512)(const double *pack, int32_t slots, const int32_t *ids, __m512d *got) {
+#else
+#define PERI_VECTOR __m512
+#define PERI_V(name) _mm512_##name##_ps
+#define PERI_LIVE __mmask16
+#define PERI_TO_LIVE(bits) ((__mmask16)(bits))
+#define PERI_KEEP(live, a) _mm512_maskz_mov_ps(live, a)
+#define PERI_ABOVE(a, b, live) _mm512_mask_cmp_ps_mask(live, a, b, _CMP_GT_OQ)
+#endif
+#if PERI_T_REAL == 64
+#define PERI_HALF __m512d
+#define PERI_S(name) _mm512_##name##_pd
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int32_t slots, const int32_t *ids, __m512d *got) {
 #define PERI_ONE(k) _mm256_loadu_pd(pack + (int64_t)slots * ids[k])
 #define PERI_TWO(k) _mm512_insertf64x4(_mm512_castpd256_pd512(PERI_ONE(k)), PERI_ONE((k) + 2), 1)
     const __m512d a = PERI_TWO(0), b = PERI_TWO(1), c = PERI_TWO(4), d = PERI_TWO(5);
@@ -91,13 +159,9 @@ PERI_VECTOR_CODE PERI_AVX512 PERI_INLINE void PERI_FN(fetch_avx512)(const double
     got[3] = _mm512_shuffle_f64x2(ba, dc, 0xdd);
 }
 #else
-#define PERI_VECTOR __m512
-#define PERI_V(name) _mm512_##name##_ps
-#define PERI_LIVE __mmask16
-#define PERI_TO_LIVE(bits) ((__mmask16)(bits))
-#define PERI_KEEP(live, a) _mm512_maskz_mov_ps(live, a)
-#define PERI_ABOVE(a, b, live) _mm512_mask_cmp_ps_mask(live, a, b, _CMP_GT_OQ)
-PERI_VECTOR_CODE PERI_AVX512 PERI_INLINE void PERI_FN(fetch_avx512)(const float *pack, int32_t slots, const int32_t *ids, __m512 *got) {
+#define PERI_HALF __m512
+#define PERI_S(name) _mm512_##name##_ps
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32_t slots, const int32_t *ids, __m512 *got) {
 #define PERI_ONE(k) _mm_loadu_ps(pack + (int64_t)slots * ids[k])
 #define PERI_TWO(k) _mm512_insertf32x4(_mm512_castps128_ps512(PERI_ONE(k)), PERI_ONE((k) + 4), 1)
 #define PERI_FOUR(k) _mm512_insertf32x4(_mm512_insertf32x4(PERI_TWO(k), PERI_ONE((k) + 8), 2), PERI_ONE((k) + 12), 3)
@@ -113,5 +177,59 @@ PERI_VECTOR_CODE PERI_AVX512 PERI_INLINE void PERI_FN(fetch_avx512)(const float 
     got[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(ba, dc));
 }
 #endif
+#define PERI_NARROW(lo, hi)                                                                                            \
+    _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(lo)), _mm512_cvtpd_ps(hi), 1)
+#define PERI_WIDEN_LO(a) _mm512_cvtps_pd(_mm512_castps512_ps256(a))
+#define PERI_WIDEN_HI(a) _mm512_cvtps_pd(_mm512_extractf32x8_ps(a, 1))
 #endif
+
+#if defined(PERI_HALF) && PERI_T_REAL == PERI_T_BOND
+#define PERI_STATE PERI_VECTOR
+PERI_LANES_TARGET PERI_INLINE PERI_STATE PERI_LANES_FN(take)(const peri_r *at) { return PERI_V(loadu)(at); }
+PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(apart)(const peri_r *at, PERI_STATE own) {
+    return PERI_V(loadu)(at) - own;
+}
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(gather)(PERI_STATE *sum, PERI_VECTOR part) { *sum += part; }
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(spread)(peri_r *at, const PERI_STATE *from) { PERI_V(storeu)(at, *from); }
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(differ)(const peri_r *pack, int32_t slots, const int32_t *ids, const peri_r *own,
+                                                         PERI_VECTOR *got) {
+    PERI_LANES_FN(fetch)(pack, slots, ids, got);
+    for (int s = 0; s < 4; ++s) got[s] -= PERI_V(set1)(own[s]);
+}
+
+#elif defined(PERI_HALF)
+typedef struct PERI_LANES_FN(halves) {
+    PERI_HALF lo, hi;
+} PERI_LANES_FN(halves);
+#define PERI_STATE PERI_LANES_FN(halves)
+PERI_LANES_TARGET PERI_INLINE PERI_STATE PERI_LANES_FN(take)(const peri_r *at) {
+    PERI_STATE state;
+    state.lo = PERI_S(loadu)(at);
+    state.hi = PERI_S(loadu)(at + PERI_WIDTH / 2);
+    return state;
+}
+PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(apart)(const peri_r *at, PERI_STATE own) {
+    return PERI_NARROW(PERI_S(loadu)(at) - own.lo, PERI_S(loadu)(at + PERI_WIDTH / 2) - own.hi);
+}
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(gather)(PERI_STATE *sum, PERI_VECTOR part) {
+    sum->lo += PERI_WIDEN_LO(part);
+    sum->hi += PERI_WIDEN_HI(part);
+}
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(spread)(peri_r *at, const PERI_STATE *from) {
+    PERI_S(storeu)(at, from->lo);
+    PERI_S(storeu)(at + PERI_WIDTH / 2, from->hi);
+}
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(differ)(const peri_r *pack, int32_t slots, const int32_t *ids, const peri_r *own,
+                                                         PERI_VECTOR *got) {
+    PERI_HALF lo[4], hi[4];
+    PERI_LANES_FN(fetch)(pack, slots, ids, lo);
+    PERI_LANES_FN(fetch)(pack, slots, ids + PERI_WIDTH / 2, hi);
+    for (int s = 0; s < 4; ++s) got[s] = PERI_NARROW(lo[s] - PERI_S(set1)(own[s]), hi[s] - PERI_S(set1)(own[s]));
+}
+#endif
+#undef PERI_HALF
+#undef PERI_S
+#undef PERI_NARROW
+#undef PERI_WIDEN_LO
+#undef PERI_WIDEN_HI
 #undef PERI_V_ISA

@@ -9,18 +9,18 @@
    even made on the way, except where the weights of bonds are corrected, or families are the caller's.
 
    Not built (no columns) where columns would be mostly empty, where bond vectors are too many to tabulate (clouds), where bonds lead to
-   centroids, where materials differ, and for state-based laws with unequal halves or energy criteria. */
+   centroids, where models differ, and for state-based laws with unequal halves or energy criteria. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
 
 #define PERI_VECTOR_SLOTS 4096    /* open addressing                                                                     */
 #define PERI_VECTOR_GRAIN 1.5e-11 /* bonds nearer than this, in spacings and weights, are one: far above rounding        */
-#define PERI_VECTOR_KEY 5
+#define PERI_VECTOR_KEY 6
 #define PERI_BATCH 2048           /* points whose families are searched at once, at most                                 */
 
 typedef struct peri__vector { /* a row of the table, its key in grains, and the first bond that made it                   */
-    int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j                                                              */
+    int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j; the pair of materials                                       */
     peri__bond bond;
     double    length, weight; /* rounded as real                                                                         */
     double    own, other;     /* V_i, V_j                                                                                */
@@ -60,14 +60,16 @@ static int32_t *peri__vector_slot(peri__draft *d, const int64_t *key) {
         if (d->slot[slot] == 0 || memcmp(d->row[d->slot[slot] - 1].key, key, sizeof d->row[0].key) == 0) return &d->slot[slot];
 }
 
-static double peri__rounded(int f32, double value) { return f32 ? (double)(float)value : value; }
+static int32_t peri__pair_of(const peri__model *m, int64_t i, int64_t j) { return m->material[i] * m->materials + m->material[j]; }
+
+static double peri__rounded(int b32, double value) { return b32 ? (double)(float)value : value; }
 
 /* Table row of bond (i, j), made where it is new; -1 where the table is full, or the bond is no lattice's. */
 static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri__bond *bond) {
     const peri__model *m = d->cloud->model;
-    const int f32 = d->cloud->body->f32;
-    int64_t key[PERI_VECTOR_KEY] = { 0, 0, 0, 0, 0 };
-    double weight = peri__rounded(f32, bond->weight);
+    const int b32 = d->cloud->body->b32;
+    int64_t key[PERI_VECTOR_KEY] = { 0 };
+    double weight = peri__rounded(b32, bond->weight);
     for (int32_t k = 0; k < m->dim; ++k) {
         if (!(fabs(bond->xi[k]) < 1e6)) return -1;
         key[k] = peri__grains(bond->xi[k], 1.0);
@@ -75,13 +77,14 @@ static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri_
     if (!(fabs(weight) < 1e6 * d->weight)) return -1;
     key[3] = peri__grains(weight, d->weight);
     key[4] = peri__grains(bond->share, d->share);
+    key[5] = peri__pair_of(m, i, j);
     int32_t *slot = peri__vector_slot(d, key);
     if (*slot == 0) {
         if (d->count == PERI_VECTOR_LIMIT) return -1;
         peri__vector *row = &d->row[d->count];
         memcpy(row->key, key, sizeof key);
         row->bond = *bond;
-        row->length = peri__rounded(f32, bond->length);
+        row->length = peri__rounded(b32, bond->length);
         row->weight = weight;
         row->own = m->volume[i];
         row->other = m->volume[j];
@@ -93,11 +96,13 @@ static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri_
 /* Both directions of a bond must have exactly opposite vectors, or momentum drifts by rounding; and the same length whatever they weigh,
    or only one of them breaks. */
 static void peri__oppose_vectors(peri__draft *d) {
+    const int32_t materials = d->cloud->model->materials;
     for (int32_t a = 0; a < d->count; ++a) {
         peri__vector *row = &d->row[a];
         int64_t key[PERI_VECTOR_KEY];
         int32_t first = 0;
-        for (int k = 0; k < PERI_VECTOR_KEY; ++k) key[k] = k < 3 ? -row->key[k] : row->key[k];
+        for (int k = 0; k < 5; ++k) key[k] = k < 3 ? -row->key[k] : row->key[k];
+        key[5] = row->key[5] % materials * materials + row->key[5] / materials;
         int32_t other = *peri__vector_slot(d, key) - 1;
         if (other > a) {
             for (int k = 0; k < 3; ++k) d->row[other].bond.xi[k] = -row->bond.xi[k];
@@ -115,7 +120,7 @@ static void peri__listed_bond(const peri__cloud *c, int64_t i, int64_t k, peri__
     const int64_t at = m->start[i] + k, j = m->ids[at];
     peri__bond_vector(c, i, j, bond->xi);
     bond->length = peri__listed_length(c, i, at);
-    bond->weight = peri__get_real(m->weight, c->body->f32, at);
+    bond->weight = peri__get_real(m->weight, c->body->b32, at);
     bond->share = m->part ? (double)m->part[at] : m->volume[j];
 }
 
@@ -123,6 +128,7 @@ static void peri__listed_bond(const peri__cloud *c, int64_t i, int64_t k, peri__
    is its own. */
 static int peri__is_vector(const peri__draft *d, const peri__vector *row, int64_t i, int64_t j, const peri__bond *bond, int weighed) {
     const peri__model *m = d->cloud->model;
+    if (row->key[5] != peri__pair_of(m, i, j)) return 0;
     for (int32_t k = 0; k < m->dim; ++k)
         if (bond->xi[k] != row->bond.xi[k]) return 0;
     if (!weighed) return m->volume[i] == row->own && m->volume[j] == row->other;
@@ -133,7 +139,7 @@ static int peri__is_vector(const peri__draft *d, const peri__vector *row, int64_
 static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_t count) {
     const peri__cloud *c = d->cloud;
     const peri__model *m = c->model;
-    const int listed = m->ids != NULL, weighed = listed || c->body->desc.quadrature > PERI_VOLUME_RAMP, f32 = c->body->f32;
+    const int listed = m->ids != NULL, weighed = listed || c->body->desc.quadrature > PERI_VOLUME_RAMP, b32 = c->body->b32;
     const uint16_t bit = (uint16_t)(1 << (i % PERI_LANES));
     const peri__column *old = d->group[d->now], *old_end = old + d->group_count;
     peri__column *made = d->group[!d->now], *next = made;
@@ -155,13 +161,13 @@ static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_
             bond = &d->row[vector].bond;
         } else {
             if (!weighed && !peri__weigh_bond(c, &d->parts, i, j, &own)) return 0;
-            if (!peri__finite(peri__rounded(f32, own.weight))) return 0;
+            if (!peri__finite(peri__rounded(b32, own.weight))) return 0;
             vector = peri__vector_of(d, i, j, &own);
             if (vector < 0) return 0;
         }
         total += fabs(bond->weight);
         stiff += bond->weight * bond->length * bond->length;
-        rate += m->pairs[0].c * fabs(peri__rounded(f32, bond->weight)) / peri__rounded(f32, bond->length);
+        rate += m->pairs[d->row[vector].key[5]].c * fabs(peri__rounded(b32, bond->weight)) / peri__rounded(b32, bond->length);
         while (old < old_end && old->offset == offset && old->vector < vector) *next++ = *old++;
         if (old < old_end && old->offset == offset && old->vector == vector) {
             *next = *old++;
@@ -178,9 +184,9 @@ static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_
     d->group_count = next - made;
     d->bonds += count;
     if (count > d->width) d->width = count;
-    rate *= 2.0 / m->rho[0];
+    rate *= 2.0 / m->rho[m->material[i]];
     if (rate > d->rate) d->rate = rate;
-    return total > 0.0 && (m->laws[0].model == PERI_BOND_BASED || stiff > 0.0);
+    return total > 0.0 && (m->uniform == PERI_BOND_BASED || stiff > 0.0);
 }
 
 /* Keeps the columns of the group at hand, or finds an earlier group with the same. */
@@ -303,6 +309,9 @@ static int32_t peri__keep_lanes(peri__draft *d) {
         entry[3] = row->length;
         entry[4] = row->weight;
         entry[5] = row->bond.share;
+        entry[6] = d->cloud->body->b32 ? (double)(1 / (float)row->length) : 1 / row->length; /* as the rows take it */
+        entry[7] = m->pairs[row->key[5]].c;
+        entry[8] = m->pairs[row->key[5]].s0;
     }
     for (int64_t c = 0; c < l->kept; ++c)
         if (l->column[c].offset > l->reach) l->reach = l->column[c].offset;
@@ -319,7 +328,8 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     peri__model *m = c->model;
     peri__lanes *l = &m->lanes;
     int32_t status = PERI_ERROR_MEMORY;
-    if (b->desc.quadrature == PERI_PARTIAL_CENTROID || m->materials > 1 || m->works || m->nodes || b->desc.reference) return 0;
+    if (b->desc.quadrature == PERI_PARTIAL_CENTROID || m->uniform < 0 || m->works || m->nodes) return 0;
+    if (b->desc.kernel != PERI_KERNEL_BEST) return 0;
     if (m->ids ? m->back != m->weight : b->setup.ibond || peri__corrects(b, m)) return 0;
     peri__draft *d = (peri__draft *)peri__new(&b->memory, 1, sizeof *d);
     l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;

@@ -61,7 +61,7 @@ static void peri__mode_at(const peri__solver *s, const peri__fragment *part, int
 
 static double peri__heaviest(const peri_body *b, const peri__row *row) {
     double heaviest = 0.0;
-    for (int64_t k = 0; k < row->count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row->weight, b->f32, k)));
+    for (int64_t k = 0; k < row->count; ++k) heaviest = fmax(heaviest, fabs(peri__get_real(row->weight, b->b32, k)));
     return heaviest;
 }
 
@@ -74,11 +74,11 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
     for (int64_t n = 0; n < count; ++n) {
         int64_t i = s->queue[n];
         peri__row row;
-        peri__read_row(b->model, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         const double heaviest = peri__heaviest(b, &row);
         for (int64_t k = 0; k < row.count; ++k)
             if (s->part_of[row.ids[k]] < -1 && peri__is_alive(b, i, k)
-                && fabs(peri__get_real(row.weight, b->f32, k)) + fabs(peri__get_real(row.back, b->f32, k)) > PERI_WEIGHTLESS * heaviest) {
+                && fabs(peri__get_real(row.weight, b->b32, k)) + fabs(peri__get_real(row.back, b->b32, k)) > PERI_WEIGHTLESS * heaviest) {
                 s->part_of[row.ids[k]] = mark;
                 s->queue[count++] = row.ids[k];
             }
@@ -159,11 +159,11 @@ static int peri__directions(const peri_body *b, int64_t i, uint8_t held) {
     const peri__model *m = b->model;
     double spread[6] = { 0.0 }, inverse[6];
     peri__row row;
-    peri__read_row(m, b->f32, i, &row);
+    peri__read_row(b, i, &row);
     const double heaviest = peri__heaviest(b, &row);
     for (int64_t k = 0; k < row.count; ++k) {
         double n[3] = { 0.0 }, square;
-        if (!peri__is_alive(b, i, k) || !(fabs(peri__get_real(row.weight, b->f32, k)) > PERI_WEIGHTLESS * heaviest)) continue;
+        if (!peri__is_alive(b, i, k) || !(fabs(peri__get_real(row.weight, b->b32, k)) > PERI_WEIGHTLESS * heaviest)) continue;
         for (int d = 0; d < m->dim; ++d) n[d] = peri__place(b, row.ids[k], d) - peri__place(b, i, d);
         square = peri__dot(n, n, m->dim);
         if (square > 0.0) peri__add_dyad(m->dim, 1.0 / square, n, 0.0, spread);

@@ -35,7 +35,7 @@ static int64_t peri__coupled(const peri_body *b, int64_t i, int32_t *mark, int32
     peri__row row;
     list[0] = (int32_t)i;
     mark[i] = (int32_t)i + 1;
-    peri__read_row(m, b->f32, i, &row);
+    peri__read_row(b, i, &row);
     for (int64_t k = 0; k < row.count; ++k)
         if (peri__is_alive(b, i, k)) {
             mark[row.ids[k]] = (int32_t)i + 1;
@@ -43,7 +43,7 @@ static int64_t peri__coupled(const peri_body *b, int64_t i, int32_t *mark, int32
         }
     own = count;
     for (int64_t n = 1; n < own && (m->dilates || m->tensors); ++n) {
-        peri__read_row(m, b->f32, list[n], &row);
+        peri__read_row(b, list[n], &row);
         for (int64_t k = 0; k < row.count; ++k)
             if (mark[row.ids[k]] != (int32_t)i + 1 && peri__is_alive(b, list[n], k)) {
                 mark[row.ids[k]] = (int32_t)i + 1;
@@ -96,7 +96,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     double vector = 0.0, press = 0.0, dilate = 0.0, p = 0.0, self[3] = { 0.0 }, springs[9] = { 0.0 };
     peri__deformation f;
     peri__row row;
-    peri__read_row(m, b->f32, o, &row);
+    peri__read_row(b, o, &row);
     e->count = 0;
     e->self = -1;
     *tensors = 0;
@@ -113,7 +113,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     for (int64_t k = 0; k < row.count; ++k) {
         if (!peri__is_alive(b, o, k)) continue;
         if (row.ids[k] > o && e->self < 0) e->self = e->count++;
-        double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->f32, k), bond = peri__get_real(row.bond, b->f32, k);
+        double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->b32, k), bond = peri__get_real(row.bond, b->b32, k);
         double gauge = law == PERI_OTERKUS ? 1.0 : bond, *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
         double stretched = bond * peri__stretch(b, o, &row, k), q;
         peri__pull_of(b, o, row.ids[k], xi, eta);
@@ -154,7 +154,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
 /* K of the shape tensor of point o: what the stabilisation takes back. */
 static void peri__shape_of(const peri_body *b, int64_t o, double shape[3][3]) {
     peri__row row;
-    peri__read_row(b->model, b->f32, o, &row);
+    peri__read_row(b, o, &row);
     peri__moments sum = peri__family_moments(b, o, &row, 1);
     for (int a = 0; a < b->dim; ++a)
         for (int c = 0; c < b->dim; ++c) shape[a][c] = sum.shape[peri__packed(b->dim, a, c)];

@@ -96,10 +96,10 @@ static double peri__relative_stiffness(const peri_body *b, int64_t i) {
     double all = 0.0, live = 0.0;
     peri__row row;
     if (m->materials == 1 && !(springs && b->alive)) return 1.0;
-    peri__read_row(m, b->f32, i, &row);
+    peri__read_row(b, i, &row);
     for (int64_t k = 0; k < row.count; ++k) {
         const int32_t other = m->material[row.ids[k]], alive = peri__is_alive(b, i, k);
-        double share = fabs(peri__get_real(row.weight, b->f32, k)) * peri__get_real(row.bond, b->f32, k), ratio;
+        double share = fabs(peri__get_real(row.weight, b->b32, k)) * peri__get_real(row.bond, b->b32, k), ratio;
         if (springs && m->laws[other].model == PERI_BOND_BASED)
             ratio = m->pairs[own * m->materials + other].c / m->pairs[own * m->materials + own].c;
         else

@@ -5,6 +5,10 @@
 
 #define PERI_BLUR 1e-3
 
+/* Sizes of the reals of a body: of the state and reference positions, and of what bonds are reckoned with. */
+static size_t peri__real(const peri_body *b) { return b->f32 ? sizeof(float) : sizeof(double); }
+static size_t peri__bond_real(const peri_body *b) { return b->b32 ? sizeof(float) : sizeof(double); }
+
 static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
     if (f32) ((float *)array)[at] = (float)value;
     else ((double *)array)[at] = value;
@@ -41,7 +45,7 @@ static void peri__bond_vector(const peri__cloud *c, int64_t i, int64_t j, double
 /* |xi| of entry `at` of the list, bond (i, j); or of the bond to the centroid. */
 static double peri__listed_length(const peri__cloud *c, int64_t i, int64_t at) {
     double xi[3];
-    if (c->model->bond) return peri__get_real(c->model->bond, c->body->f32, at);
+    if (c->model->bond) return peri__get_real(c->model->bond, c->body->b32, at);
     peri__bond_vector(c, i, c->model->ids[at], xi);
     return sqrt(peri__dot(xi, xi, c->model->dim));
 }
@@ -73,9 +77,10 @@ static int peri__weigh_bond(const peri__cloud *c, peri__parts *parts, int64_t i,
 static int peri__is_blurred(const peri__cloud *c, int64_t i, int64_t j, double length) {
     const peri__model *m = c->model;
     double square = 0.0;
-    if (!c->body->f32) return 0;
+    if (!c->body->b32) return 0;
     for (int32_t d = 0; d < m->dim; ++d)
-        square += peri__square(peri__get_real(m->x, 1, d * m->stride + j) - peri__get_real(m->x, 1, d * m->stride + i));
+        square += peri__square(peri__get_real(m->x, c->body->f32, d * m->stride + j)
+                               - peri__get_real(m->x, c->body->f32, d * m->stride + i));
     return length < PERI_BLUR || fabs(sqrt(square) - length) > PERI_BLUR * length;
 }
 
@@ -91,15 +96,15 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
         double total = 0.0, stiff = 0.0;
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
             int finite = peri__weigh_bond(c, &parts, i, m->ids[at], &bond);
-            peri__put_real(m->weight, b->f32, at, bond.weight);
-            if (!finite || !peri__finite(peri__get_real(m->weight, b->f32, at))) { /* the second: beyond the range of float */
+            peri__put_real(m->weight, b->b32, at, bond.weight);
+            if (!finite || !peri__finite(peri__get_real(m->weight, b->b32, at))) { /* the second: beyond the range of float */
                 sums->bad = i;
                 sums->n = PERI_ERROR_INFLUENCE;
                 return;
             }
-            if (m->bond) peri__put_real(m->bond, b->f32, at, bond.length);
+            if (m->bond) peri__put_real(m->bond, b->b32, at, bond.length);
             if (m->part) m->part[at] = (float)bond.share;
-            for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->f32, at * m->dim + d, bond.centre[d]);
+            for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->b32, at * m->dim + d, bond.centre[d]);
             sums->a += peri__is_blurred(c, i, m->ids[at], bond.length);
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
@@ -120,7 +125,7 @@ static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__su
         double rate = 0.0;
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
             rate += m->pairs[m->material[i] * m->materials + m->material[m->ids[at]]].c
-                  * fabs(peri__get_real(m->weight, c->body->f32, at)) / peri__listed_length(c, i, at);
+                  * fabs(peri__get_real(m->weight, c->body->b32, at)) / peri__listed_length(c, i, at);
         rate *= 2.0 / m->rho[m->material[i]];
         if (rate > sums->a) sums->a = rate;
     }
@@ -129,18 +134,18 @@ static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__su
 /* Keeps the lengths of bonds. */
 static int32_t peri__keep_lengths(peri_body *b, const peri__cloud *c) {
     peri__model *m = c->model;
-    void *bond = peri__new(&m->memory, m->entries, b->f32 ? sizeof(float) : sizeof(double));
+    void *bond = peri__new(&m->memory, m->entries, peri__bond_real(b));
     if (!bond) return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
     for (int64_t i = 0; i < m->points; ++i)
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
-            peri__put_real(bond, b->f32, at, peri__listed_length(c, i, at));
+            peri__put_real(bond, b->b32, at, peri__listed_length(c, i, at));
     m->bond = bond;
     return PERI_OK;
 }
 
 static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__model *m = c->model;
-    size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    const size_t real = peri__bond_real(b);
     const int parts = b->desc.quadrature != PERI_FULL_VOLUME, centroids = b->desc.quadrature == PERI_PARTIAL_CENTROID;
     m->weight = peri__new(&m->memory, m->entries, real);
     if (centroids) m->bond = peri__new(&m->memory, m->entries, real);

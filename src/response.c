@@ -30,7 +30,7 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, const p
     peri__moments sum;
     memset(&sum, 0, sizeof sum);
     for (int64_t k = 0; k < row->count; ++k) {
-        double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k);
+        double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         double planes = m->dim * (m->dim - 1) / 2;
         if (live && !peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
@@ -47,11 +47,11 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, const p
 }
 
 static void peri__put_constant(peri_body *b, int64_t i, int plane, double value) {
-    peri__put_real(b->constant, b->f32, b->model->margin + plane * b->model->stride + i, value);
+    peri__put_real(b->constant, b->b32, b->model->margin + plane * b->model->stride + i, value);
 }
 
 static double peri__get_constant(const peri_body *b, int64_t i, int plane) {
-    return peri__get_real(b->constant, b->f32, b->model->margin + plane * b->model->stride + i);
+    return peri__get_real(b->constant, b->b32, b->model->margin + plane * b->model->stride + i);
 }
 
 static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
@@ -119,7 +119,7 @@ static double peri__lean(const peri_body *b, int64_t i, const peri__row *row, do
     int tensor = m->laws[m->material[i]].model == PERI_CORRESPONDENCE;
     *sum = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
-        double xi[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k);
+        double xi[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
         double gauge = peri__gauge(b, i, xi, bond);
@@ -151,11 +151,11 @@ static void peri__set_rate(peri_body *b, int64_t i) {
     const peri__model *m = b->model;
     double sum = 0.0, whole;
     peri__row row;
-    peri__read_row(m, b->f32, i, &row);
+    peri__read_row(b, i, &row);
     for (int64_t k = 0; k < row.count; ++k) {
         int64_t j = row.ids[k];
-        double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(row.bond, b->f32, k);
-        double own = fabs(peri__get_real(row.weight, b->f32, k)), back = fabs(peri__get_real(row.back, b->f32, k));
+        double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(row.bond, b->b32, k);
+        double own = fabs(peri__get_real(row.weight, b->b32, k)), back = fabs(peri__get_real(row.back, b->b32, k));
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, j, xi);
         if (m->tensors && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
@@ -172,7 +172,7 @@ static void peri__constants_block(void *context, int64_t begin, int64_t end, per
     peri__row row;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
-        peri__read_row(b->model, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         peri__set_constants(b, i, &row);
         peri__set_wide(b, i, &row);
     }

@@ -4,7 +4,8 @@
 #endif
 
 /* Row i from the columns of its group, into the room of `row`. Columns ascend by offset, so ids ascend. */
-static void peri__expand_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
+static void peri__expand_row(const peri_body *b, int64_t i, peri__row *row) {
+    const peri__model *m = b->model;
     const peri__lanes *lanes = &m->lanes;
     const int64_t g = i / PERI_LANES, columns = lanes->begin[g + 1] - lanes->begin[g];
     const peri__column *column = &lanes->column[lanes->first[g]];
@@ -14,7 +15,7 @@ static void peri__expand_row(const peri__model *m, int f32, int64_t i, peri__row
         if (!(column[c].member >> (i % PERI_LANES) & 1)) continue;
         row->ids_room[n] = (int32_t)(i + column[c].offset);
         row->part_room[n] = (float)entry[5];
-        if (f32) {
+        if (b->b32) {
             row->bond_room.f32[n] = (float)entry[3];
             row->weight_room.f32[n] = (float)entry[4];
         } else {
@@ -32,28 +33,32 @@ static void peri__expand_row(const peri__model *m, int f32, int64_t i, peri__row
 }
 
 /* |xi| of the bonds of row i, from the places of points. Seen from either end the same, to the last bit. */
-#define PERI_MEASURE(real, room, root)                                                                                 \
+#define PERI_MEASURE(real, room, bond, root)                                                                           \
     for (int64_t k = 0; k < row->count; ++k) {                                                                         \
         const real *x = (const real *)m->x;                                                                            \
         real square = 0;                                                                                               \
         for (int32_t d = 0; d < m->dim; ++d, x += m->stride) square += (x[row->ids[k]] - x[i]) * (x[row->ids[k]] - x[i]); \
-        room[k] = root(square);                                                                                        \
+        room[k] = (bond)root(square);                                                                                  \
     }
-static void peri__measure_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
-    if (f32) {
-        PERI_MEASURE(float, row->bond_room.f32, sqrtf)
+static void peri__measure_row(const peri_body *b, int64_t i, peri__row *row) {
+    const peri__model *m = b->model;
+    if (b->f32) {
+        PERI_MEASURE(float, row->bond_room.f32, float, sqrtf)
+    } else if (b->b32) {
+        PERI_MEASURE(double, row->bond_room.f32, float, sqrt)
     } else {
-        PERI_MEASURE(double, row->bond_room.f64, sqrt)
+        PERI_MEASURE(double, row->bond_room.f64, double, sqrt)
     }
     row->bond = &row->bond_room;
 }
 #undef PERI_MEASURE
 
 /* Row i: ids ascending, and what each bond weighs. Valid while `row` and the model are. */
-static void peri__read_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
-    const size_t real = f32 ? sizeof(float) : sizeof(double);
+static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
+    const peri__model *m = b->model;
+    const size_t real = peri__bond_real(b);
     if (m->lanes.columns) {
-        peri__expand_row(m, f32, i, row);
+        peri__expand_row(b, i, row);
         return;
     }
     row->count = m->count[i];
@@ -63,7 +68,16 @@ static void peri__read_row(const peri__model *m, int f32, int64_t i, peri__row *
     row->back = (const char *)m->back + (size_t)row->first * real;
     row->part = m->part ? &m->part[row->first] : NULL;
     if (m->bond) row->bond = (const char *)m->bond + (size_t)row->first * real;
-    else peri__measure_row(m, f32, i, row);
+    else peri__measure_row(b, i, row);
+}
+
+/* The least critical stretch that a bond of point i may have. */
+static double peri__least_stretch(const peri_body *b, int64_t i) {
+    const peri__pair *pairs = b->cls ? &b->pairs[b->cls[i] * b->classes] : b->pairs;
+    double least = pairs->s0;
+    for (int32_t k = 1; b->cls && k < b->classes; ++k)
+        if (pairs[k].s0 < least) least = pairs[k].s0;
+    return least;
 }
 
 /* Place of j in row i, or -1. */

@@ -70,7 +70,7 @@ static void peri__excess_block(void *context, int64_t begin, int64_t end, peri__
     const peri_body *b = (const peri_body *)context;
     for (int64_t i = begin; i < end; ++i) {
         peri__row row;
-        peri__read_row(b->model, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k)
             if (row.ids[k] > i && peri__is_alive(b, i, k)) sums->a = fmax(sums->a, peri__excess(b, &row, i, k));
     }
@@ -93,7 +93,7 @@ static int64_t peri__break_static(peri__solver *s) {
     if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
             int64_t j = row.ids[k], back;
             if (j < i || !peri__is_alive(b, i, k)) continue;

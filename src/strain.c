@@ -30,7 +30,7 @@ static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *r
     int32_t law = m->laws[m->material[i]].model;
     double sum = 0.0, whole = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
-        double w = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k);
+        double w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
         if (law == PERI_LPS) w *= bond;
         sum += w * bond * peri__stretch(b, i, row, k);
@@ -43,7 +43,7 @@ static void peri__deform(const peri_body *b, int64_t i, const peri__row *row, pe
     const peri__model *m = b->model;
     double n[3][3] = { { 0.0 } }, shape[6] = { 0.0 }, inverse[6];
     for (int64_t k = 0; k < row->count; ++k) {
-        double xi[3], eta[3], w = peri__get_real(row->weight, b->f32, k);
+        double xi[3], eta[3], w = peri__get_real(row->weight, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
         peri__pull_of(b, i, row->ids[k], xi, eta);
         for (int a = 0; a < m->dim; ++a)
@@ -145,11 +145,11 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, 
     for (int64_t k = 0; k < row->count; ++k) {
         int64_t at = row->first + k;
         double xi[3], eta[3], t[3] = { 0.0, 0.0, 0.0 }, length = 0.0, central;
-        double w = peri__get_real(row->weight, b->f32, k), bond = peri__get_real(row->bond, b->f32, k), e;
+        double w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k), e;
         if (!peri__is_alive(b, i, k)) continue;
         peri__pull_of(b, i, row->ids[k], xi, eta);
         if (m->centroid)
-            for (int d = 0; d < m->dim; ++d) xi[d] = peri__get_real(m->centroid, b->f32, at * m->dim + d);
+            for (int d = 0; d < m->dim; ++d) xi[d] = peri__get_real(m->centroid, b->b32, at * m->dim + d);
         e = bond * peri__stretch(b, i, row, k);
         for (int d = 0; d < m->dim; ++d) length += peri__square(xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
@@ -177,7 +177,7 @@ static void peri__gradients_block(void *context, int64_t begin, int64_t end, per
     for (int64_t i = begin; i < end; ++i) {
         peri__deformation f;
         double p[3][3], *out = &g->out[i * parts];
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         if (g->field == PERI_DILATATION && m->laws[m->material[i]].model != PERI_CORRESPONDENCE) {
             *out = peri__dilatation(b, i, &row);
             continue;

@@ -124,14 +124,14 @@ static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double 
     f->t.body = b;
     f->t.p = p;
     f->t.q = peri__new_vector(b);
-    f->t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__real(b)) : NULL;
+    f->t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
     f->spread = (double *)peri__new(&b->memory, count, sizeof *f->spread);
     if (!p || !f->t.q || (m->states && !f->t.change) || !f->spread) status = peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     else if (f->normal) status = peri__fill_traction(b, f, &m->laws[material]);
     else peri__fill_pressure(b, f, &m->laws[material]);
     peri__delete_vector(b, p);
     peri__delete_vector(b, f->t.q);
-    peri__delete(&b->memory, f->t.change, peri__response_reals(m), peri__real(b));
+    peri__delete(&b->memory, f->t.change, peri__response_reals(m), peri__bond_real(b));
     if (status == PERI_OK) return peri__add_spread(b, f->set, f->spread, value, fn, user);
     peri__delete(&b->memory, f->spread, count, sizeof *f->spread);
     return status;
@@ -185,9 +185,9 @@ PERI_API int32_t peri_apply_bond_pressure(peri_body *b, int32_t set, double pres
     for (int64_t k = 0; status == PERI_OK && k < count; ++k) {
         int64_t i = peri__set_point(b, set, k);
         peri__row row;
-        peri__read_row(m, b->f32, i, &row);
+        peri__read_row(b, i, &row);
         for (int64_t n = 0; n < row.count; ++n) {
-            double xi[3] = { 0.0 }, bond = peri__get_real(row.bond, b->f32, n);
+            double xi[3] = { 0.0 }, bond = peri__get_real(row.bond, b->b32, n);
             if (peri__is_alive(b, i, n) || !inside[row.ids[n]] || bond > 1.2 * m->spacing) continue;
             peri__bond_of(m, b->f32, i, row.ids[n], xi);
             for (int d = 0; d < m->dim; ++d) spread[(k * m->dim + d) * m->dim] -= xi[d] / (bond * bond); /* face V/|xi|, over V */

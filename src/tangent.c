@@ -78,13 +78,13 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const int linear = b->desc.geometry == PERI_LINEAR;
     double lean[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
     peri__row row;
-    peri__read_row(m, b->f32, i, &row);
+    peri__read_row(b, i, &row);
     for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
     for (int64_t k = 0; k < row.count; ++k) {
         const int64_t j = row.ids[k];
         const int32_t law = m->laws[m->material[j]].model;
-        double own = peri__get_real(row.weight, b->f32, k), back = peri__get_real(row.back, b->f32, k), xi[3] = { 0.0 }, n[3] = { 0.0 };
-        double bond = peri__get_real(row.bond, b->f32, k), length = 0.0, spring = 0.0, round = 0.0, by = back * m->volume[i] / m->volume[j];
+        double own = peri__get_real(row.weight, b->b32, k), back = peri__get_real(row.back, b->b32, k), xi[3] = { 0.0 }, n[3] = { 0.0 };
+        double bond = peri__get_real(row.bond, b->b32, k), length = 0.0, spring = 0.0, round = 0.0, by = back * m->volume[i] / m->volume[j];
         if (!peri__is_alive(b, i, k)) continue;
         for (int32_t d = 0; d < dim; ++d) {
             int64_t from = d * m->stride + i, to = d * m->stride + j;
@@ -171,7 +171,7 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     void *p = peri__new_vector(b);
     t.p = p;
     t.q = peri__new_vector(b);
-    t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__real(b)) : NULL;
+    t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
     if (p && t.q && (t.change || !m->states)) {
         for (int64_t k = 0; k < count; ++k) peri__put_real(p, b->f32, k % m->dim * m->stride + k / m->dim, in[k]);
         peri__apply_tangent(&t, 0);
@@ -181,6 +181,6 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
         status = peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
     peri__delete_vector(b, p);
     peri__delete_vector(b, t.q);
-    peri__delete(&b->memory, t.change, peri__response_reals(m), peri__real(b));
+    peri__delete(&b->memory, t.change, peri__response_reals(m), peri__bond_real(b));
     return status;
 }

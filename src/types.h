@@ -85,7 +85,7 @@ typedef struct peri__interface {
 
 typedef struct peri__ops peri__ops;
 
-#define PERI_TABLE_ROW 6       /* xi (3), |xi|, weight, beta V_j                                                          */
+#define PERI_TABLE_ROW 9       /* xi (3), |xi|, weight, beta V_j, 1/|xi|, c, s0                                          */
 #define PERI_VECTOR_LIMIT 1024 /* rows of the table; so no family on columns is larger                                    */
 
 typedef struct peri__column { /* the bonds of a group of PERI_LANES points along one vector                               */
@@ -136,12 +136,13 @@ typedef struct peri__model {
                             room of peri__row, and where single precision blurs it                                       */
     void      *centroid; /* real [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
     float     *part;     /* [entries] beta V_j; NULL for whole cells                                                     */
-    int32_t    slots;    /* reals per record of body->pack: 4 or 8; 0 where k_list.inl does not serve                    */
+    int32_t    slots;    /* reals per record of body->pack: 4, 8, 12 or 16; 0 where k_list.inl does not serve            */
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
     int32_t    states;  /* 1 where some material is state-based: bodies then have constants and responses                */
-    int32_t    ordinary; /* PERI_LPS or PERI_OTERKUS where all materials in use are of that model, else 0                */
+    int32_t    uniform; /* the model of all materials in use; -1 where they differ                                       */
+    int32_t    ordinary; /* that, where it is PERI_LPS or PERI_OTERKUS, else 0                                           */
     int32_t    dilates; /* 1 where some of them responds to theta                                                        */
     int32_t    tensors; /* 1 where some of them is of the correspondence model                                           */
     int32_t    works;   /* 1 where some bond breaks by its energy                                                        */
@@ -316,7 +317,7 @@ struct peri_body {
     peri_body_desc desc;
     peri__memory   memory;
     peri_error     error;
-    int32_t        dim, f32;
+    int32_t        dim, f32, b32; /* single precision: of the state; of the arithmetic of bonds, weights and constants   */
 
     peri_material    materials[PERI_MATERIAL_LIMIT];
     int32_t          material_count;
@@ -327,8 +328,8 @@ struct peri_body {
     peri__model      *model; /* NULL before peri_build                                                                   */
     const peri__ops  *ops;
     void     *u, *v, *f;     /* real [dim][stride]; f: force density                                                     */
-    void     *pack;          /* real [points][slots] for k_list.inl: x, u, then p and q of state-based laws, or the material; NULL where
-                                slots is 0. Scratch: filled before each pass                                             */
+    void     *pack;          /* real [points][slots] for k_list.inl: x, u, then p and q, or Q and k of correspondence, or the material;
+                                NULL where slots is 0. Scratch: filled before each pass                                             */
     uint32_t *alive;         /* [points][words] bond carries force; NULL where nothing can break and nothing is cut      */
     uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
     uint32_t *before;        /* [points][words] alive before the step, for break events; NULL without a callback         */

@@ -27,7 +27,7 @@ class Error(C.Structure):
 class BodyDesc(C.Structure):
     _fields_ = ([("cookie", C.c_uint64)]
                 + [(n, C.c_int32) for n in ("space", "precision", "geometry", "influence", "quadrature", "break_timing",
-                                            "threads", "reference", "ledger", "correction")]
+                                            "threads", "kernel", "instructions", "ledger", "correction", "reserved")]
                 + [("horizon", C.c_double), ("thickness", C.c_double)]
                 + [(n, C.c_void_p) for n in ("influence_fn", "influence_user")]
                 + [("allocate", ALLOC), ("release", RELEASE)]

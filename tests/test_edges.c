@@ -9,7 +9,7 @@ static peri_body *empty(int32_t space, int32_t precision, double horizon, int32_
     desc.precision = precision;
     desc.horizon = horizon;
     desc.quadrature = quadrature;
-    desc.reference = reference;
+    desc.kernel = reference;
     return test_unit_body(&desc, s0);
 }
 

@@ -358,7 +358,7 @@ static void textbook_kernels_agree(void) {
             peri_body *fast = burst(d, k, 30, 16, 40), *plain;
             double *u, *v, *damage[2], most;
             int64_t i, n = peri_field_size(fast, PERI_DISPLACEMENT);
-            d.reference = 1;
+            d.kernel = 1;
             plain = burst(d, k, 30, 16, 40);
             u = get(fast, PERI_DISPLACEMENT);
             v = get(plain, PERI_DISPLACEMENT);

@@ -154,7 +154,7 @@ static void small_critical_stretch(void) {
                 desc.space = PERI_SOLID;
                 desc.horizon = 2.1;
                 desc.precision = precision;
-                desc.reference = reference;
+                desc.kernel = reference;
                 b = box_of(&desc, model, 0.2, 1e-4, 8);
                 pull(b, 1.0001e-4);
                 peri_run_init(&run);

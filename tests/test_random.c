@@ -1,4 +1,4 @@
-/* test_random.c - random scenes, fast kernels against textbook ones (desc.reference). Each scene draws its space, precision, geometry,
+/* test_random.c - random scenes, fast kernels against textbook ones (desc.kernel). Each scene draws its space, precision, geometry,
    influence function, quadrature, shape, materials, crack, supports, loads, obstacle, damping, integrator, frames with further cuts, and
    a clone on the way. Truths: the textbook kernel (the equation written out), and energy conservation at a tenth of the stable step. */
 #include "peri_test.h"
@@ -73,7 +73,7 @@ static peri_body *shape_of(int32_t reference, double *lo, double *hi, uint64_t s
     *after_drift = d.break_timing == PERI_BREAK_AFTER_DRIFT;
     d.thickness = real_in(0.1, 1.1);
     d.threads = 1 + whole_below(2);
-    d.reference = reference;
+    d.kernel = reference;
     CHECK(peri_body_create(&d, &b, NULL) == PERI_OK);
     for (k = whole_below(4) ? 1 : 2; k > 0; --k) material = material_of(b);
     for (k = 0; k < 3; ++k) {

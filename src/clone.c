@@ -1,0 +1,173 @@
+/* clone.c - copies of a body, and what there is to ask of one. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* Copies the state of `from` into the empty body b, which shares its model. 0 where memory is short. */
+static int peri__copy_state(peri_body *b, const peri_body *from) {
+    const peri__memory *memory = &b->memory;
+    const peri__model *m = b->model;
+    int64_t vector = m->stride * m->dim;
+    peri__array arrays[PERI_ARRAYS];
+    int ok = 1;
+#define PERI_COPY_(member, count, size)                                                                                \
+    if (from->member) {                                                                                                \
+        void *copy_ = peri__copy(memory, from->member, count, size);                                                   \
+        ok = ok && copy_;                                                                                              \
+        memcpy(&b->member, &copy_, sizeof copy_);                                                                      \
+    }
+    b->u = peri__new_vector(b);
+    b->v = peri__new_vector(b);
+    b->f = peri__new_vector(b);
+    ok = b->u && b->v && b->f;
+    if (ok) {
+        memcpy(b->u, from->u, (size_t)vector * peri__real(b));
+        memcpy(b->v, from->v, (size_t)vector * peri__real(b));
+        memcpy(b->f, from->f, (size_t)vector * peri__real(b));
+    }
+    peri__list_arrays(b, arrays);
+    for (int k = 0; k < PERI_ARRAYS; ++k) {
+        const void *own = peri__array_of(from, &arrays[k]);
+        void *made = own ? peri__copy(memory, own, arrays[k].count, arrays[k].size) : NULL;
+        ok = ok && (made || !own);
+        peri__set_array(b, &arrays[k], made);
+    }
+    PERI_COPY_(obstacles, from->obstacle_capacity, sizeof *b->obstacles)
+    b->obstacle_count = from->obstacle_count;
+    b->obstacle_capacity = b->obstacles ? from->obstacle_capacity : 0;
+
+    b->sets = (peri__set *)peri__new(memory, from->set_capacity, sizeof *b->sets);
+    b->loads = (peri__load *)peri__new(memory, from->load_capacity, sizeof *b->loads);
+    if (b->sets) b->set_capacity = from->set_capacity;
+    if (b->loads) b->load_capacity = from->load_capacity;
+    for (int64_t k = 0; b->sets && k < from->set_count; ++k) {
+        b->sets[k] = from->sets[k];
+        b->sets[k].name = NULL;
+        b->sets[k].points = NULL;
+        PERI_COPY_(sets[k].name, from->sets[k].name_bytes, 1)
+        PERI_COPY_(sets[k].points, from->sets[k].count, sizeof(int32_t))
+        b->set_count = k + 1;
+    }
+    for (int64_t k = 0; b->loads && k < from->load_count; ++k) {
+        b->loads[k] = from->loads[k];
+        b->loads[k].value = b->loads[k].force = b->loads[k].spread = NULL;
+        b->loads[k].owned = NULL;
+        b->loads[k].all = NULL;
+        PERI_COPY_(loads[k].all, from->loads[k].count, sizeof(int32_t))
+        PERI_COPY_(loads[k].value, from->loads[k].count * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].force, PERI__HELD_PLANES * from->loads[k].count * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].spread, from->loads[k].count * m->dim * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].owned, from->loads[k].count, 1)
+        b->load_count = k + 1;
+    }
+#undef PERI_COPY_
+    return ok && b->sets && b->loads;
+}
+
+PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error *error) {
+    peri_body *b;
+    (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
+    if (copy) *copy = NULL;
+    if (!from || !copy) return peri__set_error(error, PERI_ERROR_ARGUMENT, from ? "copy" : "body", -1, 0.0);
+    if (!from->model) return peri__set_error(error, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
+    if (from->running > 1) return peri__set_error(error, PERI_ERROR_ORDER, "callback", -1, 0.0);
+    b = (peri_body *)peri__new(&from->memory, 1, sizeof *b);
+    if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
+    b->desc = from->desc;
+    b->memory = from->memory;
+    b->dim = from->dim;
+    b->f32 = from->f32;
+    b->b32 = from->b32;
+    memcpy(b->materials, from->materials, sizeof b->materials);
+    b->material_count = from->material_count;
+    b->model = from->model;
+    b->ops = from->ops;
+    b->classes = from->classes;
+    b->lanes_stale = from->lanes_stale;
+    b->stale = from->stale;
+    b->fastest = from->fastest;
+    b->on_break = from->on_break;
+    b->break_user = from->break_user;
+    b->cut = from->cut;
+    b->broken = from->broken;
+    b->steps = from->steps;
+    b->time = from->time;
+    b->load_factor = from->load_factor;
+    b->still = from->still;
+    b->force_current = from->force_current;
+    b->ledger = from->ledger;
+    (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
+    (void)peri__count_users(&b->model->users, 1);
+    int ok = peri__copy_state(b, from);
+    if (ok && from->interface_count > 0) {
+        b->interfaces = (peri__interface *)peri__copy(&b->memory, from->interfaces, from->interface_capacity,
+                                                      sizeof *b->interfaces);
+        ok = b->interfaces != NULL;
+        if (ok) {
+            b->interface_count = from->interface_count;
+            b->interface_capacity = from->interface_capacity;
+        }
+    }
+    if (!ok) {
+        peri_body_destroy(b);
+        return peri__set_error(error, PERI_ERROR_MEMORY, "state", -1, 0.0);
+    }
+    *copy = b;
+    return PERI_OK;
+}
+
+/* ---- counts ------------------------------------------------------------------------------------------------------- */
+
+PERI_API int32_t peri_dimension(const peri_body *b) { return b ? b->dim : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_point_count(const peri_body *b) {
+    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->points : b->setup.point_count;
+}
+
+PERI_API int32_t peri_family_width(const peri_body *b) {
+    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->width : 0;
+}
+
+PERI_API int64_t peri_bond_count(const peri_body *b) { return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->bonds : 0; }
+
+PERI_API const char *peri_kernel_text(const peri_body *b) {
+    static const char *const names[4][3] = {
+#if defined(PERI_ISA)
+        { "columns, SSE2", "columns, AVX2", "columns, AVX-512" },
+        { "list, SSE2", "list, AVX2", "list, AVX-512" },
+#else
+        { "columns, plain", "", "" },
+        { "list, plain", "", "" },
+#endif
+        { "rows", "rows", "rows" },
+        { "reference", "reference", "reference" },
+    };
+    const peri__model *m = b ? b->model : NULL;
+    if (!m) return "";
+    return names[m->lanes.columns ? 0 : m->slots ? 1 : b->desc.kernel == PERI_KERNEL_REFERENCE || m->centroid ? 3 : 2][m->lanes.isa];
+}
+
+PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->cut / 2 : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->broken / 2 : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->steps : PERI_ERROR_ARGUMENT; }
+
+PERI_API double peri_time(const peri_body *b) { return b ? b->time : 0.0; }
+
+PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows, int64_t capacity) {
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, rows, "rows");
+    if (first < 0 || count < 0 || first > b->model->points || count > b->model->points - first)
+        return peri__fail(b, PERI_ERROR_ID, "first, count", first, (double)count);
+    if (capacity < count * b->model->width)
+        return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)(count * b->model->width));
+    for (int64_t i = first; i < first + count; ++i) {
+        peri__row row;
+        peri__read_row(b, i, &row);
+        memcpy(rows, row.ids, (size_t)row.count * sizeof *rows);
+        for (int64_t k = row.count; k < b->model->width; ++k) rows[k] = (int32_t)i;
+        rows += b->model->width;
+    }
+    return PERI_OK;
+}
