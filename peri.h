@@ -284,8 +284,8 @@ typedef struct peri_body_desc {
     uint64_t          cookie;           /* set by peri_body_desc_init                                                    */
     int32_t           space;            /* peri_space. Required                                                          */
     int32_t           precision;        /* PERI_F64 (default); PERI_F32: faster, 0.65 of the memory, but strains < 1e-6 lose digits; or
-                                           PERI_MIXED: the state as F64, bonds and their weights as F32: any strain to 7 digits,
-                                           momentum as F64; clouds take little more memory than as F32                   */
+                                           PERI_MIXED: the state as F64, bonds and their weights as F32: any strain to 7 digits;
+                                           clouds take little more memory than as F32                                    */
     int32_t           geometry;         /* peri_geometry. Default PERI_NONLINEAR                                         */
     int32_t           influence;        /* peri_influence. Default PERI_INFLUENCE_CONSTANT                               */
     int32_t           quadrature;       /* peri_quadrature. Default PERI_FULL_VOLUME                                     */
@@ -605,8 +605,9 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    |reactions|, as vectors of point forces. Then bonds over their limit break, and equilibrium is sought again, until none does. Slow cracks
    are trapped between the rows of a lattice: a bond-based one took 1.56, 1.29, 1.12 times the energy G0 at 3, 4, 6 spacings to the horizon.
    Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again
-   (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 1e-3: a tolerance out of
-   reach ends with PERI_ERROR_CONVERGENCE at the best that there is. Where nothing acts (a body turned rigidly) rounding is good enough. */
+   (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 1e-3, in mixed precision
+   below 1e-7 and 1e-6: a tolerance out of reach ends with PERI_ERROR_CONVERGENCE at the best that there is. Where nothing acts (a body
+   turned rigidly) rounding is good enough. */
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
     PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */
@@ -643,7 +644,7 @@ typedef struct peri_statics {
     int32_t           fracture;       /* 1 (default) = bonds break by their criterion, 0 = none breaks                   */
     double            criticality;    /* [0, 1]: of the bonds over their limit those break that are over criticality times the largest
                                          excess (value/limit): 0 (default) = all, 1 = only the most critical (and its equals)   */
-    double            tolerance;      /* [0, 1): 0 (default) = 1e-8, in single precision 1e-4                            */
+    double            tolerance;      /* [0, 1): 0 (default) = 1e-8, in mixed precision 1e-5, in single 1e-4              */
     double            energy_tolerance; /* > 0, PERI_NEWTON: converged also when the residual in the norm of the preconditioner has
                                          fallen by this factor, an estimate of the error in energy. Default 0: never     */
     int64_t           iterations;     /* most iterations of the linear solver (of PERI_RELAXATION: steps) for one equilibrium.

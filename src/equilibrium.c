@@ -8,7 +8,7 @@
 #endif
 
 static double peri__solve_tolerance(const peri__solver *s) {
-    return s->settings->tolerance > 0.0 ? s->settings->tolerance : s->body->f32 ? 1e-4 : 1e-8;
+    return s->settings->tolerance > 0.0 ? s->settings->tolerance : s->body->f32 ? 1e-4 : s->body->b32 ? 1e-5 : 1e-8;
 }
 
 static int32_t peri__take_solver(peri__solver *s) {

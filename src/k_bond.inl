@@ -85,8 +85,8 @@ static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, co
     return broke;
 }
 
-/* The same row, for speed: one square root and one division per bond, the flags of 32 bonds read at once. `flagged` and `linear`
-   are constants where this is inlined. f gets the force of the bonds that live on; impulse that of the bonds that break now, which
+/* The same row, for speed: one square root and one division per bond, the flags of 32 bonds read at once. `flagged` is a
+   constant where this is inlined. f gets the force of the bonds that live on; impulse that of the bonds that break now, which
    still act in the closing half kick of the step (PERI_BREAK_AT_STEP_END). Returns the number of bonds broken. */
 PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse,
                                       double *lost, const int flagged, const int linear) {

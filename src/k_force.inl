@@ -53,12 +53,8 @@ static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t e
             impulse[d] = 0;
         }
         if (plain) broke = PERI_FN(bond_row_reference)(step, i, &row, f, impulse, &sums->a);
-        else if (!b->alive)
-            broke = linear ? PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 0, 1)
-                           : PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 0, 0);
-        else
-            broke = linear ? PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 1, 1)
-                           : PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 1, 0);
+        else if (b->alive) broke = PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 1, linear);
+        else broke = PERI_FN(bond_row)(step, i, &row, f, impulse, &sums->a, 0, linear);
         for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
         if (broke) {
             peri_r kick = (peri_r)(step->impulse / m->rho[m->material[i]]);

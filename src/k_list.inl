@@ -63,7 +63,7 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(const PERI_STATE *sum)
 }
 
 /* Adds the force of all live bonds of point i to f, all points being of one model. Returns nonzero where a bond comes near its critical
-   stretch; f is then void. `model` and `linear` are constants where this is inlined. */
+   stretch; f is then void. `model` is a constant where this is inlined, and `linear` where speed matters. */
 PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t i, peri_r *f, const int model,
                                                           const int linear) {
     PERI_NO_CONTRACTION
@@ -137,7 +137,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, i
     const int linear = step->body->desc.geometry == PERI_LINEAR;
     if (step->body->model->ordinary == PERI_LPS)
         return linear ? PERI_LANES_FN(list_row)(step, i, f, PERI_LPS, 1) : PERI_LANES_FN(list_row)(step, i, f, PERI_LPS, 0);
-    return linear ? PERI_LANES_FN(list_row)(step, i, f, PERI_OTERKUS, 1) : PERI_LANES_FN(list_row)(step, i, f, PERI_OTERKUS, 0);
+    return PERI_LANES_FN(list_row)(step, i, f, PERI_OTERKUS, linear);
 }
 
 /* sum w g e V of point i. */
@@ -178,7 +178,7 @@ PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b
     const int linear = b->desc.geometry == PERI_LINEAR;
     if (b->model->ordinary == PERI_LPS)
         return linear ? PERI_LANES_FN(list_sum)(b, i, PERI_LPS, 1) : PERI_LANES_FN(list_sum)(b, i, PERI_LPS, 0);
-    return linear ? PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, 1) : PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, 0);
+    return PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, linear);
 }
 
 /* ---- correspondence ----------------------------------------------------------------------------------------------- */

@@ -70,7 +70,7 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, c
 }
 
 /* The same row where every point is of one ordinary law: constants at hand, one square root and one division per bond. `flagged`
-   and `linear` are constants where this is inlined; where nothing dilates p is 0. */
+   is a constant where this is inlined; where nothing dilates p is 0. */
 PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const peri__row *row, peri_r *f, const int flagged,
                                        const int linear, const int oterkus, const int mirrored) {
     peri_body *b = step->body;
@@ -142,11 +142,8 @@ static int32_t PERI_FN(share_force)(const peri__step *step, int64_t i, peri_r *f
     peri__row row;
     peri__read_row(b, i, &row);
     if (plain || !m->ordinary) return PERI_FN(share_row_reference)(step, i, &row, f);
-    if (!b->alive)
-        return linear ? PERI_FN(share_row)(step, i, &row, f, 0, 1, oterkus, mirrored)
-                      : PERI_FN(share_row)(step, i, &row, f, 0, 0, oterkus, mirrored);
-    return linear ? PERI_FN(share_row)(step, i, &row, f, 1, 1, oterkus, mirrored)
-                  : PERI_FN(share_row)(step, i, &row, f, 1, 0, oterkus, mirrored);
+    if (!b->alive) return PERI_FN(share_row)(step, i, &row, f, 0, linear, oterkus, mirrored);
+    return PERI_FN(share_row)(step, i, &row, f, 1, linear, oterkus, mirrored);
 }
 
 /* Rows [begin, end), one by one. */
@@ -301,9 +298,9 @@ static double PERI_FN(stretched)(const peri_body *b, int64_t i, const peri__row 
     return (double)sum;
 }
 
-/* The same sum w g e V for speed, without that of squares. `flagged` and `linear` are constants where this is inlined. */
-PERI_INLINE peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const peri__row *row, const int oterkus, const int flagged,
-                                          const int linear) {
+/* The same sum w g e V for speed, without that of squares. */
+static peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const peri__row *row, const int oterkus, const int flagged,
+                                     const int linear) {
     const peri__model *m = b->model;
     const int64_t stride = m->stride;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
@@ -334,8 +331,7 @@ static peri_r PERI_FN(stretched_sum)(const peri_body *b, int64_t i, const peri__
     const int linear = b->desc.geometry == PERI_LINEAR, oterkus = b->model->laws[b->model->material[i]].model == PERI_OTERKUS;
     double square;
     if (b->desc.kernel == PERI_KERNEL_REFERENCE) return (peri_r)PERI_FN(stretched)(b, i, row, &square);
-    if (!b->alive) return linear ? PERI_FN(stretched_row)(b, i, row, oterkus, 0, 1) : PERI_FN(stretched_row)(b, i, row, oterkus, 0, 0);
-    return linear ? PERI_FN(stretched_row)(b, i, row, oterkus, 1, 1) : PERI_FN(stretched_row)(b, i, row, oterkus, 1, 0);
+    return PERI_FN(stretched_row)(b, i, row, oterkus, b->alive != NULL, linear);
 }
 
 /* Energy density of point i. */

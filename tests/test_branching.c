@@ -286,6 +286,7 @@ static void bits(int nx, int32_t precision) {
 static void same_bits_on_any_threads(void) {
     bits(150, PERI_F64);
     bits(150, PERI_F32);
+    bits(150, PERI_MIXED);
 }
 static void same_bits_on_any_threads_full(void) { bits(300, PERI_F64); }
 

@@ -301,6 +301,7 @@ static void fail_each(int dim, int precision) {
 }
 static void every_allocation_fails_once_2d(void) { fail_each(2, PERI_F64); }
 static void every_allocation_fails_once_3d(void) { fail_each(3, PERI_F32); }
+static void every_allocation_fails_once_mixed(void) { fail_each(3, PERI_MIXED); }
 
 static void unaligned_dirty_memory(void) {
     int dim;
@@ -523,6 +524,7 @@ int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(every_allocation_fails_once_2d);
     RUN(every_allocation_fails_once_3d);
+    RUN(every_allocation_fails_once_mixed);
     RUN(every_allocation_of_columns_fails_once);
     RUN(unaligned_dirty_memory);
     RUN(null_body_everywhere);

@@ -91,6 +91,7 @@ static void views_and_reads_agree(void) {
     views_agree(PERI_PLANE_STRAIN, PERI_F32);
     views_agree(PERI_SOLID, PERI_F64);
     views_agree(PERI_SOLID, PERI_F32);
+    views_agree(PERI_SOLID, PERI_MIXED);
 }
 
 /* "A stored field's view stays valid, and current." */
