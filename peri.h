@@ -737,8 +737,8 @@ typedef struct peri_plan_desc {
     const peri_body_desc *body;      /* Required                                                                         */
     const peri_material  *material;  /* Required. Bonds can break where it has a fracture energy or a critical stretch   */
     int32_t               source;    /* peri_source. Default PERI_SOURCE_BOX                                             */
-    int32_t               measure;   /* 1 = build a small body of this kind with the allocator of `body`, advance it for some
-                                        30 ms in all, and free it. Default 0: nothing is allocated                       */
+    int32_t               measure;   /* 1 = build a small body of this kind with the allocator of `body`, advance it, and free
+                                        it: some 100 ms. Default 0: nothing is allocated                                 */
     double                amount;    /* [0, 1], of PERI_SOURCE_PERTURBED. Default 1                                      */
     double                lo[3];     /* [L] corners of the box; 2D: the third is ignored. Required                       */
     double                hi[3];
@@ -747,15 +747,18 @@ typedef struct peri_plan_desc {
 
 typedef struct peri_plan_report {
     int64_t points;      /* as peri_point_count will say                                                                 */
-    int64_t bonds;       /* as peri_bond_count will say: exact of a box, else an estimate to 3 %                         */
+    int64_t bonds;       /* as peri_bond_count will say: exact of a box, else to 5 % from 25 bonds to a family on        */
     int64_t width;       /* as peri_family_width will say: exact of a box, else an estimate                              */
     int64_t columns;     /* families by columns: how many, of 16 bonds each; 0 = a list of bonds, see src/lanes.c        */
-    int64_t bytes;       /* total of peri_read_memory after peri_build, to 5 %. Cuts, loads, supports and views come on top */
-    int64_t peak;        /* most that is held at a time until peri_build has returned, to 5 %                            */
-    double  stable_step; /* [T] as peri_stable_step will say: of a box that is not corrected to 1 % where the horizon is 5 (2D: 15)
-                            spacings or less, else to 5 %. Clouds and corrections take up to a fifth off it, which measuring sees */
+    int64_t bytes;       /* total of peri_read_memory after peri_build: to the byte of a box without correction, else to 5 %. Cuts, loads,
+                            supports and views come on top                                                               */
+    int64_t peak;        /* most that is held at a time until peri_build has returned, to 5 % or half a megabyte         */
+    double  stable_step; /* [T] as peri_stable_step will say: of a box without correction exact where the horizon is 5 (3D), 15 (2D)
+                            spacings or less, else to 5 %. Corrections take up to 30 % off it, clouds 15 %, and more where points
+                            are close together: measuring sees much of that                                              */
     double  seconds;     /* per step of one thread, on this machine; 0 where it was not measured. Processor time (C's clock): other
-                            threads of the process should rest. Bodies larger than the caches may take 1.5 times as long   */
+                            threads of the process should rest. Within 10 % of large lattices, 20 % of clouds in order; points that
+                            come in no order take up to twice as long                                                    */
 } peri_plan_report;
 
 /* Fills every field with its default. NULL is ignored. */
@@ -763,7 +766,8 @@ PERI_API void peri_plan_desc_init(peri_plan_desc *plan);
 
 /* What a scene will cost, before it is made. Refuses what peri_body_create, peri_add_material, peri_add_box and peri_build would refuse,
    by the same codes and fields; PERI_ERROR_TOO_LARGE also where the bytes cannot be addressed (value: the bonds). The report is then all
-   zero. error may be NULL. Takes well under a millisecond at usual horizons, however many the points. */
+   zero. error may be NULL. Takes about a millisecond at usual horizons, however many the points. Where the weights of bonds are corrected,
+   whether a box gets columns or a list is an estimate. */
 PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error);
 
 /* ---- results ------------------------------------------------------------------------------------------------------ */

@@ -8,7 +8,7 @@
 #define PERI_BYTES_PER_BOND 128     /* more than any body takes                                                           */
 #define PERI_MEASURED_BONDS 400000  /* of the small body: beyond the first cache, quick to build                          */
 #define PERI_MEASURED_SECONDS 0.004 /* of one measurement: long beside a tick of the clock                                */
-#define PERI_MEASUREMENTS 4
+#define PERI_MEASUREMENTS 3
 
 PERI_API void peri_plan_desc_init(peri_plan_desc *p) {
     if (!p) return;
@@ -392,17 +392,19 @@ static int32_t peri__plan_step(peri__sketch *s, double *step) {
 
 static double peri__clock(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-/* Edge of the small body, in cells: as many as give some bonds, no more than the scene has. */
-static int64_t peri__small_edge(const peri__sketch *s) {
-    int64_t edge = 8;
-    for (;; ++edge) {
-        double points = 1.0;
-        int grows = 0;
+/* Cells of the small body: long rows that fill groups as those of the scene do, and as many of them as give some bonds. */
+static void peri__small_body(const peri__sketch *s, int64_t *cells) {
+    int64_t edge = 7, points = 0, grows = 1;
+    while (grows && points * s->width < PERI_MEASURED_BONDS) {
+        points = 1;
+        grows = 0;
+        ++edge;
         for (int d = 0; d < 3; ++d) {
-            points *= (double)peri__min(s->n[d], edge);
-            grows |= s->n[d] > edge;
+            const int64_t n = s->n[d], most = d > 0 ? edge : (s->n[2] > 1 ? 4 : 16) * PERI_LANES + n % PERI_LANES;
+            cells[d] = peri__min(n, most);
+            points *= cells[d];
+            grows |= d > 0 && n > edge;
         }
-        if (!grows || points * (double)s->width > PERI_MEASURED_BONDS) return edge;
     }
 }
 
@@ -413,7 +415,7 @@ static double peri__measure_steps(peri_body *b) {
     int done = 0;
     peri_run_init(&run);
     run.steps = 1;
-    while (done <= PERI_MEASUREMENTS) {
+    while (done < PERI_MEASUREMENTS) {
         const double from = peri__clock();
         const int32_t status = peri_advance(b, &run);
         const double taken = peri__clock() - from;
@@ -422,7 +424,7 @@ static double peri__measure_steps(peri_body *b) {
             run.steps *= 2;
             continue;
         }
-        if (done > 0 && (done == 1 || taken < least)) least = taken; /* the first warmed up */
+        if (done == 0 || taken < least) least = taken;
         ++done;
     }
     return least / (double)run.steps;
@@ -430,14 +432,15 @@ static double peri__measure_steps(peri_body *b) {
 
 /* Builds and advances a small body like the scene's. The time goes by the columns or the bonds. */
 static int32_t peri__measure_plan(const peri__sketch *s, const peri_plan_desc *plan, peri_plan_report *report, peri_error *error) {
-    const int64_t edge = peri__small_edge(s);
+    int64_t cells[3];
     peri_body_desc desc = *plan->body;
     peri_body *b;
     double hi[3] = { 0.0, 0.0, 0.0 };
+    peri__small_body(s, cells);
     desc.threads = 1;
     desc.parallel_for = NULL;
     desc.log = NULL;
-    for (int32_t d = 0; d < s->body.dim; ++d) hi[d] = plan->lo[d] + (double)peri__min(s->n[d], edge) * s->piece.cell[d];
+    for (int32_t d = 0; d < s->body.dim; ++d) hi[d] = plan->lo[d] + (double)cells[d] * s->piece.cell[d];
     int64_t status = peri_body_create(&desc, &b, error);
     if (status < 0) return (int32_t)status;
     status = peri_add_material(b, plan->material);

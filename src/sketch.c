@@ -14,7 +14,7 @@
 #define PERI_SAMPLES_2D 8 /* places of a moved neighbour per axis                                                         */
 #define PERI_SAMPLES_3D 4
 
-typedef struct peri__sketch {
+typedef struct peri__sketch { /* 60 kB, on the stack of peri_plan: it allocates nothing                                  */
     peri_body     body;
     peri__model   model;
     peri__piece   piece;
@@ -66,7 +66,7 @@ static int64_t peri__extent(peri__sketch *s, int64_t p, int64_t q, double out) {
 /* How probably the neighbour at site (a, p, q) by s->axis joins. */
 static double peri__chance(peri__sketch *s, int64_t a, int64_t p, int64_t q) {
     const int64_t site[3] = { a, p, q };
-    const int dim = s->model.dim, steps = dim == 3 ? PERI_SAMPLES_3D : PERI_SAMPLES_2D, all = dim == 3 ? steps * steps * steps : steps * steps;
+    const int dim = s->model.dim, steps = dim == 3 ? PERI_SAMPLES_3D : PERI_SAMPLES_2D, all = steps * steps * (dim == 3 ? steps : 1);
     int joined = 0;
     for (int k = 0; k < all; ++k) {
         double xi[3] = { 0.0, 0.0, 0.0 };
@@ -150,8 +150,8 @@ static int64_t peri__count_like(int64_t first, int64_t count, int64_t r) {
     return count > skip ? (count - skip - 1) / PERI_LANES + 1 : 0;
 }
 
-/* Groups with a point that has the bond v. Those points are runs of ids, one in each of some rows; a group that holds the end of one run and
-   the start of the next counts once. */
+/* Groups with a point that has the bond v. Those points are runs of ids, one in each of some rows; a group that holds the end of one run
+   and the start of the next counts once. */
 static int64_t peri__groups_of(const peri__sketch *s, const int32_t *v) {
     int64_t first[3], count[3], total = 0;
     for (int d = 0; d < 3; ++d) {
