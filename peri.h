@@ -731,7 +731,7 @@ typedef enum peri_source {
     PERI_SOURCE_POINTS    = 3  /* peri_add_points: a cloud, in any order, that fills the box with about one point to a cell */
 } peri_source;
 
-/* A body that is only described: one material in a box. A shape cut from the box costs less than the box. */
+/* A body that is only described: one material in a box. A shape cut from the box mostly costs less than the box. */
 typedef struct peri_plan_desc {
     uint64_t              cookie;    /* set by peri_plan_desc_init                                                       */
     const peri_body_desc *body;      /* Required                                                                         */

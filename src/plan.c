@@ -480,7 +480,10 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
         made.bonds = s.bonds;
         made.width = s.width;
         peri__plan_bytes(&s, plan, &made);
-        status = peri__plan_step(&s, &made.stable_step);
+        if ((uint64_t)made.peak > (uint64_t)SIZE_MAX / 2)
+            status = peri__fail(&s.body, PERI_ERROR_TOO_LARGE, "spacing", -1, (double)made.bonds);
+        else
+            status = peri__plan_step(&s, &made.stable_step);
         if (status == PERI_OK) *report = made;
     }
     if (status < 0) {

@@ -118,7 +118,7 @@ static void peri__count_bonds(peri__sketch *s) {
         if (p == 0) break;
     }
     s->bonds = bonds + (int64_t)(parts + 0.5) - s->model.points;
-    s->width = width + (int64_t)(mean + 4.0 * sqrt(spread) + 0.5) - 1; /* the largest of many families */
+    s->width = peri__min(width + (int64_t)(mean + 4.0 * sqrt(spread) + 0.5), s->model.points) - 1; /* the largest of many families */
     s->vectors = vectors - 1.0;
 }
 
