@@ -55,7 +55,8 @@
               fixed blocks in a fixed order. (Compile without -ffast-math.)
 
    WHAT IT DOES NOT DO
-     It does not print, exit, assert on your data, keep global state, read files, or touch the locale or the clock.
+     It does not print, exit, assert on your data, keep global state, read files, or touch the locale or, but in peri_plan where it
+     is asked to measure, the clock.
      No contact between parts of a body (rigid obstacles only), no heat, no plasticity, no adaptive horizon.
 
    The trades between speed and accuracy are the model of the material and fields of peri_body_desc: precision, geometry, horizon
@@ -159,7 +160,7 @@ typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn tas
 typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
 
 /* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite; with partial volumes also a little beyond q = 1, for
-   cells whose centre lies outside. Called by peri_build and
+   cells whose centre lies outside. Called by peri_build, peri_plan and
    peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. */
 typedef double (*peri_influence_fn)(void *user, double q);
 
@@ -728,6 +729,70 @@ PERI_API int32_t peri_read_matrix(const peri_matrix *matrix, int64_t *start, int
 
 /* Matrix Market, coordinate real symmetric: the lower triangle. */
 PERI_API int32_t peri_write_matrix(const peri_matrix *matrix, peri_write_fn write, void *user);
+
+/* ---- what a scene costs ------------------------------------------------------------------------------------------- */
+
+/* Bytes that a body holds now, as asked of its allocator: the sum is what a counting allocator sees, to the byte. A solve takes more
+   while it runs (peri_statics_report.bytes), and so do peri_build (see peri_plan) and some calls that select, write or assemble. */
+typedef struct peri_memory {
+    int64_t points;   /* positions, volumes, materials, sizes of families; before peri_build what was added so far       */
+    int64_t families; /* who is bonded to whom, and what each bond weighs                                                */
+    int64_t damage;   /* flags of bonds, no-fail zones, events, what the criteria keep                                   */
+    int64_t state;    /* displacements, velocities, forces, and scratch of the passes over them                          */
+    int64_t laws;     /* materials, constants of pairs and of points, and the body itself                                */
+    int64_t loads;    /* sets, supports, loads, obstacles                                                                */
+    int64_t fields;   /* derived fields that were viewed                                                                 */
+    int64_t total;    /* of all these                                                                                    */
+    int64_t shared;   /* of the total: what clones share. Counted in full in each of them; n of them hold the sum less n-1 times this */
+} peri_memory;
+
+/* Before and after peri_build. */
+PERI_API int32_t peri_read_memory(const peri_body *body, peri_memory *memory);
+
+typedef enum peri_source {
+    PERI_SOURCE_BOX       = 1, /* peri_add_box; or points of yours that lie on a lattice, in its order                   */
+    PERI_SOURCE_PERTURBED = 2, /* peri_add_perturbed_box, by amount                                                      */
+    PERI_SOURCE_POINTS    = 3  /* peri_add_points: a cloud, in any order, that fills the box with about one point to a cell */
+} peri_source;
+
+/* A body that is only described: one material in a box. A shape cut from the box mostly costs less than the box. */
+typedef struct peri_plan_desc {
+    uint64_t              cookie;    /* set by peri_plan_desc_init                                                       */
+    const peri_body_desc *body;      /* Required                                                                         */
+    const peri_material  *material;  /* Required. Bonds can break where it has a fracture energy or a critical stretch   */
+    int32_t               source;    /* peri_source. Default PERI_SOURCE_BOX                                             */
+    int32_t               measure;   /* 1 = build a small body of this kind with the allocator of `body`, advance it, and free
+                                        it: some 100 ms. Default 0: nothing is allocated                                 */
+    double                amount;    /* [0, 1], of PERI_SOURCE_PERTURBED. Default 1                                      */
+    double                lo[3];     /* [L] corners of the box; 2D: the third is ignored. Required                       */
+    double                hi[3];
+    double                spacing;   /* [L] > 0. Required                                                                */
+} peri_plan_desc;
+
+typedef struct peri_plan_report {
+    int64_t points;      /* as peri_point_count will say                                                                 */
+    int64_t bonds;       /* as peri_bond_count will say: exact of a box, else to 5 % from 25 bonds to a family on        */
+    int64_t width;       /* as peri_family_width will say: exact of a box, else an estimate                              */
+    int64_t columns;     /* families by columns: how many, of 16 bonds each; 0 = a list of bonds, see src/lanes.c        */
+    int64_t bytes;       /* total of peri_read_memory after peri_build: to the byte of a box without correction, else to 5 %. Cuts, loads,
+                            supports and views come on top                                                               */
+    int64_t peak;        /* most that is held at a time until peri_build has returned, to 5 % or half a megabyte         */
+    double  stable_step; /* [T] as peri_stable_step will say: of a box without correction exact where the horizon is 5 (3D), 15 (2D)
+                            spacings or less, else to 5 %. Corrections take up to 30 % off it, clouds 15 %, and more where points
+                            are close together: measuring sees much of that                                              */
+    double  seconds;     /* per step of one thread, on this machine; 0 where it was not measured. Processor time (C's clock): other
+                            threads of the process should rest. Within 10 % of large lattices, 20 % of clouds in order; points that
+                            come in no order take up to twice as long                                                    */
+} peri_plan_report;
+
+/* Fills every field with its default. NULL is ignored. */
+PERI_API void peri_plan_desc_init(peri_plan_desc *plan);
+
+/* What a scene will cost, before it is made. Refuses what peri_body_create, peri_add_material, peri_add_box and peri_build would refuse,
+   by the same codes and fields; PERI_ERROR_TOO_LARGE also where the bytes cannot be addressed (value: the bonds). The report is then all
+   zero. error may be NULL. Takes about a millisecond at usual horizons, however many the points. Where the weights of bonds are corrected,
+   whether a box gets columns or a list is an estimate. */
+PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error);
 
 /* ---- results ------------------------------------------------------------------------------------------------------ */
 

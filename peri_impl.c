@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #ifndef PERI_NO_STDIO
 #include <stdio.h>
 #endif
@@ -83,5 +84,7 @@
 #include "src/surface.c"    /* tractions and pressures that pass the patch test                            */
 #include "src/fields.c"     /* fields by copy and by view, the ledger                                      */
 #include "src/output.c"     /* VTU, CSV                                                                    */
+#include "src/sketch.c"     /* a body that is only described  -> its bonds and columns                     */
+#include "src/plan.c"       /* what a scene would cost                                                     */
 
 #undef PERI_IMPL

@@ -1,7 +1,10 @@
-/* arrays.c - what a body keeps per point and per bond: which arrays there are, how large, and which of them a scene needs. */
+/* arrays.c - what a body keeps per point and per bond: which arrays there are, how large, what for, and which of them a scene needs. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
+
+/* A state vector, [dim][stride] with a margin before and after. */
+static int64_t peri__vector_reals(const peri__model *m) { return m->stride * m->dim + 2 * m->margin; }
 
 /* Numbers per point of a field, 0 where there is no such field. */
 static int32_t peri__components(int32_t field, int32_t dim) {
@@ -13,25 +16,85 @@ static int32_t peri__components(int32_t field, int32_t dim) {
     }
 }
 
-/* The arrays of a body that are taken where a scene has use for them: where the pointer is, how much it points to, and whether
-   peri_build takes it. */
-typedef struct peri__array {
-    size_t  place; /* in peri_body                                                                                       */
-    int64_t count;
-    size_t  size;
-    int     wanted;
-} peri__array;
-#define PERI_ARRAYS 22
+/* The entries of peri_memory, in its order. */
+typedef enum peri__purpose {
+    PERI__POINTS,
+    PERI__FAMILIES,
+    PERI__DAMAGE,
+    PERI__STATE,
+    PERI__LAWS,
+    PERI__LOADS,
+    PERI__FIELDS,
+    PERI__PURPOSES
+} peri__purpose;
 
-static void *peri__array_of(const peri_body *b, const peri__array *array) {
+/* An array: where its pointer is in the model or the body, how much it points to, whether peri_build takes it, and what for. */
+typedef struct peri__array {
+    size_t        place;
+    int64_t       count;
+    size_t        size;
+    int           wanted;
+    peri__purpose purpose;
+} peri__array;
+#define PERI_ARRAYS 22       /* of a body, taken where a scene has use for them                                           */
+#define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
+#define PERI_MODEL_ARRAYS 17 /* with all others                                                                           */
+
+static void *peri__pointer_at(const void *owner, size_t place) {
     void *pointer;
-    memcpy(&pointer, (const char *)b + array->place, sizeof pointer);
+    memcpy(&pointer, (const char *)owner + place, sizeof pointer);
     return pointer;
 }
 
-static void peri__set_array(peri_body *b, const peri__array *array, void *pointer) {
-    memcpy((char *)b + array->place, &pointer, sizeof pointer);
+static void peri__set_pointer_at(void *owner, size_t place, void *pointer) {
+    memcpy((char *)owner + place, &pointer, sizeof pointer);
 }
+
+/* A second name for the weights holds nothing. */
+static void *peri__model_array(const peri__model *m, const peri__array *array) {
+    return array->place == offsetof(peri__model, back) && m->back == m->weight ? NULL : peri__pointer_at(m, array->place);
+}
+
+static void peri__list_model(const peri_body *b, const peri__model *m, peri__array *list) {
+    const int64_t n = m->points, bonds = m->entries, groups = m->lanes.groups, pairs = (int64_t)m->materials * m->materials;
+    const size_t real = peri__real(b), bond_real = peri__bond_real(b);
+#define PERI_ARRAY_(member, number, bytes, purpose) { offsetof(peri__model, member), number, bytes, 1, purpose }
+    const peri__array arrays[PERI_MODEL_ARRAYS] = {
+        PERI_ARRAY_(order, n, sizeof(int32_t), PERI__FAMILIES),
+        PERI_ARRAY_(start, n, sizeof(int64_t), PERI__FAMILIES),
+        PERI_ARRAY_(ids, bonds, sizeof(int32_t), PERI__FAMILIES),
+        PERI_ARRAY_(back, bonds, bond_real, PERI__FAMILIES),
+        PERI_ARRAY_(weight, bonds, bond_real, PERI__FAMILIES),
+        PERI_ARRAY_(bond, bonds, bond_real, PERI__FAMILIES),
+        PERI_ARRAY_(centroid, bonds * m->dim, bond_real, PERI__FAMILIES),
+        PERI_ARRAY_(part, bonds, sizeof(float), PERI__FAMILIES),
+        PERI_ARRAY_(lanes.begin, groups + 1, sizeof(int64_t), PERI__FAMILIES),
+        PERI_ARRAY_(lanes.first, groups, sizeof(int64_t), PERI__FAMILIES),
+        PERI_ARRAY_(lanes.column, m->lanes.kept, sizeof(peri__column), PERI__FAMILIES),
+        PERI_ARRAY_(lanes.table, (int64_t)m->lanes.vectors * PERI_TABLE_ROW, sizeof(double), PERI__FAMILIES),
+        PERI_ARRAY_(x, m->stride * m->dim, real, PERI__POINTS),
+        PERI_ARRAY_(volume, n, sizeof(double), PERI__POINTS),
+        PERI_ARRAY_(material, n, 1, PERI__POINTS),
+        PERI_ARRAY_(count, n, sizeof(int32_t), PERI__POINTS),
+        PERI_ARRAY_(pairs, pairs, sizeof(peri__pair), PERI__LAWS),
+    };
+#undef PERI_ARRAY_
+    memcpy(list, arrays, sizeof arrays);
+}
+
+/* Frees the first `count` arrays of a model. */
+static void peri__free_model_arrays(const peri_body *b, peri__model *m, int count) {
+    peri__array arrays[PERI_MODEL_ARRAYS];
+    peri__list_model(b, m, arrays);
+    for (int k = 0; k < count; ++k) {
+        peri__delete(&m->memory, peri__model_array(m, &arrays[k]), arrays[k].count, arrays[k].size);
+        peri__set_pointer_at(m, arrays[k].place, NULL);
+    }
+}
+
+static void *peri__array_of(const peri_body *b, const peri__array *array) { return peri__pointer_at(b, array->place); }
+
+static void peri__set_array(peri_body *b, const peri__array *array, void *pointer) { peri__set_pointer_at(b, array->place, pointer); }
 
 static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const peri__model *m = b->model;
@@ -39,37 +102,37 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const int64_t constants = m->tensors ? PERI__INVERSE + PERI_PACKED(m->dim) : PERI__VECTOR;
     const int32_t states = m->states, breaks = m->states && m->breakable;
     const size_t real = peri__real(b), bond = peri__bond_real(b);
-#define PERI_ARRAY_(member, number, bytes, want) { offsetof(peri_body, member), number, bytes, want }
+#define PERI_ARRAY_(member, number, bytes, want, purpose) { offsetof(peri_body, member), number, bytes, want, purpose }
     const peri__array arrays[PERI_ARRAYS] = {
-        PERI_ARRAY_(pack, n * m->slots, real, m->slots > 0),
-        PERI_ARRAY_(alive, flags, sizeof(uint32_t), 0),
-        PERI_ARRAY_(lanes_alive, m->lanes.columns, sizeof(uint16_t), 0),
-        PERI_ARRAY_(uncut, flags, sizeof(uint32_t), 0),
-        PERI_ARRAY_(before, flags, sizeof(uint32_t), 0),
-        PERI_ARRAY_(no_fail, n, 1, 0),
-        PERI_ARRAY_(cls, n, 1, 0),
-        PERI_ARRAY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof(peri__pair), 0),
-        PERI_ARRAY_(sums, m->blocks, sizeof(peri__sums), 0),
-        PERI_ARRAY_(push, vector, sizeof(double), 0),
-        PERI_ARRAY_(constant, constants * m->stride + 2 * m->margin, bond, states),
-        PERI_ARRAY_(response, (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin, bond, states),
-        PERI_ARRAY_(rate, n, sizeof(double), states),
-        PERI_ARRAY_(wide, n, sizeof(double), states),
-        PERI_ARRAY_(central, n / PERI_LANES + 1, 1, m->tensors),
-        PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks),
-        PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks),
-        PERI_ARRAY_(marked, n, 1, breaks),
-        PERI_ARRAY_(work, bonds, real, m->works),
-        PERI_ARRAY_(pull, bonds * m->dim, real, m->works),
-        PERI_ARRAY_(worked, vector, real, m->works),
-        PERI_ARRAY_(node, n, sizeof(double), m->nodes),
+        PERI_ARRAY_(pack, n * m->slots, real, m->slots > 0, PERI__STATE),
+        PERI_ARRAY_(alive, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(lanes_alive, m->lanes.columns, sizeof(uint16_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(uncut, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(before, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(no_fail, n, 1, 0, PERI__DAMAGE),
+        PERI_ARRAY_(cls, n, 1, 0, PERI__LAWS),
+        PERI_ARRAY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof(peri__pair), 1, PERI__LAWS),
+        PERI_ARRAY_(sums, m->blocks, sizeof(peri__sums), 1, PERI__STATE),
+        PERI_ARRAY_(push, vector, sizeof(double), 0, PERI__LOADS),
+        PERI_ARRAY_(constant, constants * m->stride + 2 * m->margin, bond, states, PERI__LAWS),
+        PERI_ARRAY_(response, (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin, bond, states, PERI__LAWS),
+        PERI_ARRAY_(rate, n, sizeof(double), states, PERI__LAWS),
+        PERI_ARRAY_(wide, n, sizeof(double), states, PERI__LAWS),
+        PERI_ARRAY_(central, n / PERI_LANES + 1, 1, m->tensors, PERI__LAWS),
+        PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE),
+        PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE),
+        PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE),
+        PERI_ARRAY_(work, bonds, real, m->works, PERI__DAMAGE),
+        PERI_ARRAY_(pull, bonds * m->dim, real, m->works, PERI__DAMAGE),
+        PERI_ARRAY_(worked, vector, real, m->works, PERI__DAMAGE),
+        PERI_ARRAY_(node, n, sizeof(double), m->nodes, PERI__DAMAGE),
     };
 #undef PERI_ARRAY_
     memcpy(list, arrays, sizeof arrays);
 }
 
-/* What state-based laws keep per point, and their criteria per bond: as much as the scene has use for. 0 where memory is short. */
-static int peri__need_states(peri_body *b) {
+/* Takes what the scene has use for. 0 where memory is short. */
+static int peri__need_arrays(peri_body *b) {
     peri__array arrays[PERI_ARRAYS];
     peri__list_arrays(b, arrays);
     for (int k = 0; k < PERI_ARRAYS; ++k) {
@@ -80,4 +143,87 @@ static int peri__need_states(peri_body *b) {
         peri__set_array(b, &arrays[k], made);
     }
     return 1;
+}
+
+/* ---- what it comes to --------------------------------------------------------------------------------------------- */
+
+static int64_t peri__held_bytes(const void *pointer, int64_t count, size_t size) {
+    return pointer ? (int64_t)peri__block_bytes(count, size) : 0;
+}
+
+/* Adds what the model holds, by purpose. */
+static void peri__count_model(const peri_body *b, const peri__model *m, int64_t *held) {
+    peri__array arrays[PERI_MODEL_ARRAYS];
+    peri__list_model(b, m, arrays);
+    for (int k = 0; k < PERI_MODEL_ARRAYS; ++k)
+        held[arrays[k].purpose] += peri__held_bytes(peri__model_array(m, &arrays[k]), arrays[k].count, arrays[k].size);
+    held[PERI__LAWS] += peri__held_bytes(m, 1, sizeof *m);
+}
+
+static void peri__count_setup(const peri_body *b, int64_t *held) {
+    const peri__setup *s = &b->setup;
+    int64_t points = peri__held_bytes(s->pieces, s->piece_capacity, sizeof *s->pieces);
+    points += peri__held_bytes(s->local, s->point_capacity * b->dim, sizeof *s->local);
+    points += peri__held_bytes(s->volume, s->point_capacity, sizeof *s->volume);
+    points += peri__held_bytes(s->material, s->point_capacity, sizeof *s->material);
+    for (int64_t k = 0; k < s->piece_count; ++k) points += peri__held_bytes(s->pieces[k].vertices, s->pieces[k].vertex_bytes, 1);
+    held[PERI__POINTS] += points;
+    held[PERI__FAMILIES] += peri__held_bytes(s->ibond, s->ibond_entries, sizeof *s->ibond);
+}
+
+/* Adds what the body holds beside its model. */
+static void peri__count_body(const peri_body *b, int64_t *held) {
+    const peri__model *m = b->model;
+    held[PERI__LAWS] += peri__held_bytes(b, 1, sizeof *b);
+    held[PERI__LAWS] += peri__held_bytes(b->interfaces, b->interface_capacity, sizeof *b->interfaces);
+    peri__count_setup(b, held);
+    if (!m) return;
+    peri__array arrays[PERI_ARRAYS];
+    const void *vectors[3] = { b->u, b->v, b->f };
+    peri__list_arrays(b, arrays);
+    for (int k = 0; k < PERI_ARRAYS; ++k)
+        held[arrays[k].purpose] += peri__held_bytes(peri__array_of(b, &arrays[k]), arrays[k].count, arrays[k].size);
+    for (int k = 0; k < 3; ++k) held[PERI__STATE] += peri__held_bytes(vectors[k], peri__vector_reals(m), peri__real(b));
+    for (int32_t k = 0; k <= PERI_FIELDS; ++k)
+        held[PERI__FIELDS] += peri__held_bytes(b->derived[k], m->points * peri__components(k, m->dim), sizeof(double));
+    int64_t loads = peri__held_bytes(b->sets, b->set_capacity, sizeof *b->sets);
+    loads += peri__held_bytes(b->loads, b->load_capacity, sizeof *b->loads);
+    loads += peri__held_bytes(b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
+    for (int64_t k = 0; k < b->set_count; ++k) {
+        loads += peri__held_bytes(b->sets[k].name, b->sets[k].name_bytes, 1);
+        loads += peri__held_bytes(b->sets[k].points, b->sets[k].count, sizeof *b->sets[k].points);
+    }
+    for (int64_t k = 0; k < b->load_count; ++k) {
+        const peri__load *load = &b->loads[k];
+        const int64_t reals = load->count * b->dim;
+        loads += peri__held_bytes(load->value, reals, sizeof *load->value);
+        loads += peri__held_bytes(load->force, PERI__HELD_PLANES * reals, sizeof *load->force);
+        loads += peri__held_bytes(load->spread, reals * b->dim, sizeof *load->spread);
+        loads += peri__held_bytes(load->owned, load->count, sizeof *load->owned);
+        loads += peri__held_bytes(load->all, load->count, sizeof *load->all);
+    }
+    held[PERI__LOADS] += loads;
+}
+
+static int64_t peri__held_total(const int64_t *held) {
+    int64_t total = 0;
+    for (int k = 0; k < PERI__PURPOSES; ++k) total += held[k];
+    return total;
+}
+
+PERI_API int32_t peri_read_memory(const peri_body *b, peri_memory *memory) {
+    int64_t held[PERI__PURPOSES] = { 0 };
+    if (!b || !memory) return PERI_ERROR_ARGUMENT;
+    if (b->model) peri__count_model(b, b->model, held);
+    memory->shared = peri__held_total(held);
+    peri__count_body(b, held);
+    memory->points = held[PERI__POINTS];
+    memory->families = held[PERI__FAMILIES];
+    memory->damage = held[PERI__DAMAGE];
+    memory->state = held[PERI__STATE];
+    memory->laws = held[PERI__LAWS];
+    memory->loads = held[PERI__LOADS];
+    memory->fields = held[PERI__FIELDS];
+    memory->total = peri__held_total(held);
+    return PERI_OK;
 }

@@ -38,67 +38,62 @@ static const char *peri__bad_choice(const peri_body_desc *d) {
     return NULL;
 }
 
-PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, peri_error *error) {
-    peri__memory memory;
-    peri_body *b;
-    const char *bad;
-    (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
-    if (body) *body = NULL;
-    if (!desc || !body) return peri__set_error(error, PERI_ERROR_ARGUMENT, desc ? "body" : "desc", -1, 0.0);
+static int32_t peri__check_desc(const peri_body_desc *desc, peri_error *error) {
+    if (!desc) return peri__set_error(error, PERI_ERROR_ARGUMENT, "desc", -1, 0.0);
     if (desc->cookie != PERI_COOKIE_BODY) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
-    bad = peri__bad_choice(desc);
+    const char *bad = peri__bad_choice(desc);
     if (bad) return peri__set_error(error, PERI_ERROR_ARGUMENT, bad, -1, 0.0);
     if (!(desc->horizon > 0.0 && peri__finite(desc->horizon)))
         return peri__set_error(error, PERI_ERROR_RANGE, "horizon", -1, desc->horizon);
     if (!(desc->thickness > 0.0 && peri__finite(desc->thickness)))
         return peri__set_error(error, PERI_ERROR_RANGE, "thickness", -1, desc->thickness);
+    return PERI_OK;
+}
 
+static peri__memory peri__hooks(const peri_body_desc *desc) {
+    peri__memory memory;
     memory.allocate = desc->allocate ? desc->allocate : peri__malloc;
     memory.release = desc->release ? desc->release : peri__free;
     memory.user = desc->memory_user;
-    b = (peri_body *)peri__new(&memory, 1, sizeof *b);
-    if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
+    return memory;
+}
+
+/* b is all zero. */
+static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->desc = *desc;
-    b->memory = memory;
+    b->memory = peri__hooks(desc);
     b->dim = desc->space == PERI_SOLID ? 3 : 2;
     b->f32 = desc->precision == PERI_F32;
     b->b32 = desc->precision != PERI_F64;
     b->load_factor = 1.0;
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
+}
+
+PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, peri_error *error) {
+    (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
+    if (body) *body = NULL;
+    if (desc && !body) return peri__set_error(error, PERI_ERROR_ARGUMENT, "body", -1, 0.0);
+    int32_t status = peri__check_desc(desc, error);
+    if (status < 0) return status;
+    peri__memory memory = peri__hooks(desc);
+    peri_body *b = (peri_body *)peri__new(&memory, 1, sizeof *b);
+    if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
+    peri__start_body(b, desc);
     *body = b;
     return PERI_OK;
 }
 
 /* ---- the shared model --------------------------------------------------------------------------------------------- */
 
-static void peri__free_list(peri__model *m, size_t real) { /* real: of bonds */
-    const int64_t entries = m->entries;
-    if (m->back != m->weight) peri__delete(&m->memory, m->back, entries, real);
-    peri__delete(&m->memory, m->ids, entries, sizeof *m->ids);
-    peri__delete(&m->memory, m->weight, entries, real);
-    peri__delete(&m->memory, m->bond, entries, real);
-    peri__delete(&m->memory, m->centroid, entries * m->dim, real);
-    peri__delete(&m->memory, m->part, entries, sizeof *m->part);
-    peri__delete(&m->memory, m->start, m->points, sizeof *m->start);
-    peri__delete(&m->memory, m->order, m->points, sizeof *m->order);
+static void peri__free_list(const peri_body *b, peri__model *m) {
+    peri__free_model_arrays(b, m, PERI_LIST_ARRAYS);
     m->entries = 0;
-    m->start = NULL;
-    m->order = NULL;
-    m->ids = NULL;
-    m->weight = m->bond = m->back = m->centroid = NULL;
-    m->part = NULL;
 }
 
-static void peri__release_model(peri__model *m, size_t real, size_t bond_real) {
+static void peri__release_model(const peri_body *b, peri__model *m) {
     const peri__memory memory = m->memory;
     if (peri__count_users(&m->users, -1) > 0) return;
-    peri__delete(&memory, m->x, m->stride * m->dim, real);
-    peri__delete(&memory, m->volume, m->points, sizeof *m->volume);
-    peri__delete(&memory, m->material, m->points, sizeof *m->material);
-    peri__delete(&memory, m->count, m->points, sizeof *m->count);
-    peri__free_list(m, bond_real);
-    peri__free_lanes(m);
-    peri__delete(&memory, m->pairs, (int64_t)m->materials * m->materials, sizeof *m->pairs);
+    peri__free_model_arrays(b, m, PERI_MODEL_ARRAYS);
     peri__delete(&memory, m, 1, sizeof *m);
 }
 
@@ -110,6 +105,7 @@ static void peri__note_law(peri__model *m, const peri__law *law, int32_t criteri
     if (criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
     if (criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
     m->uniform = m->uniform == 0 || m->uniform == law->model ? law->model : -1;
+    m->ordinary = m->uniform == PERI_LPS || m->uniform == PERI_OTERKUS ? m->uniform : 0;
 }
 
 /* Units of stress and density, and the constants of all pairs of materials in them. */
@@ -135,7 +131,6 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
         int32_t status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
         if (status < 0) return status;
     }
-    m->ordinary = m->uniform == PERI_LPS || m->uniform == PERI_OTERKUS ? m->uniform : 0;
     for (int32_t i = 0; i < n; ++i)
         for (int32_t j = 0; j < n; ++j) {
             peri__pair *pair = &m->pairs[i * n + j];
@@ -168,8 +163,19 @@ static int32_t peri__fill_families(peri_body *b, peri__model *m, peri__cloud *cl
     status = peri__fill_list(b, m, cloud, sums);
     if (status < 0 || !listed) return status;
     made = peri__build_lanes(b, cloud);
-    if (made > 0) peri__free_list(m, peri__bond_real(b));
+    if (made > 0) peri__free_list(b, m);
     return made < 0 ? made : PERI_OK;
+}
+
+/* Length of a component plane: an odd number of lanes, so that planes do not share the sets of a cache. */
+static int64_t peri__stride(int64_t points) { return ((points + PERI_LANES - 1) / PERI_LANES | 1) * PERI_LANES; }
+
+/* What follows from how the families are stored. */
+static void peri__fit_model(const peri_body *b, peri__model *m) {
+    m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
+    m->words = (m->width + 31) / 32;
+    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && m->uniform > 0 && !m->works && !m->nodes)
+        m->slots = m->tensors ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && !m->states && m->materials == 1 ? 4 : 8;
 }
 
 /* Points, families, weights: all that clones share. On failure the model is partly filled; the caller releases it. */
@@ -179,7 +185,7 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     m->dim = dim;
     m->points = b->setup.point_count;
     m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
-    m->stride = ((m->points + PERI_LANES - 1) / PERI_LANES | 1) * PERI_LANES; /* odd: planes do not share the sets of a cache */
+    m->stride = peri__stride(m->points);
     m->x = peri__new(&m->memory, m->stride * dim, real);
     m->volume = (double *)peri__new(&m->memory, m->points, sizeof *m->volume);
     m->material = (uint8_t *)peri__copy(&m->memory, b->setup.material, m->points, 1);
@@ -207,15 +213,9 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
         status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
     m->lanes.isa = peri__isa();
     if (b->desc.instructions > 0) m->lanes.isa = (int32_t)peri__min(m->lanes.isa, b->desc.instructions - PERI_BASELINE);
-    m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
-    m->words = (m->width + 31) / 32;
-    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && m->uniform > 0 && !m->works && !m->nodes)
-        m->slots = m->tensors ? (dim == 2 ? 12 : 16) : dim == 2 && !m->states && m->materials == 1 ? 4 : 8;
+    peri__fit_model(b, m);
     return status;
 }
-
-/* A state vector, [dim][stride] with a margin before and after. */
-static int64_t peri__vector_reals(const peri__model *m) { return m->stride * m->dim + 2 * m->margin; }
 
 static void *peri__new_vector(const peri_body *b) {
     char *vector = (char *)peri__new(&b->memory, peri__vector_reals(b->model), peri__real(b));
@@ -329,9 +329,7 @@ static int32_t peri__new_state(peri_body *b) {
     b->u = peri__new_vector(b);
     b->v = peri__new_vector(b);
     b->f = peri__new_vector(b);
-    b->sums = (peri__sums *)peri__new(&b->memory, m->blocks, sizeof *b->sums);
-    b->pairs = (peri__pair *)peri__new(&b->memory, 4 * (int64_t)m->materials * m->materials, sizeof *b->pairs);
-    if (!b->u || !b->v || !b->f || !b->sums || !b->pairs || (m->breakable && !peri__need_alive(b)) || !peri__need_states(b))
+    if (!b->u || !b->v || !b->f || (m->breakable && !peri__need_alive(b)) || !peri__need_arrays(b))
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
     int32_t status = peri__update_classes(b);
     if (status < 0 || !m->states) return status;
@@ -383,7 +381,7 @@ PERI_API int32_t peri_build(peri_body *b) {
     peri__delete(&b->memory, sums, blocks, sizeof *sums);
     b->running = 0;
     if (status < 0) {
-        peri__release_model(m, peri__real(b), peri__bond_real(b));
+        peri__release_model(b, m);
         return status;
     }
     peri__free_setup(b);
@@ -400,7 +398,7 @@ PERI_API void peri_body_destroy(peri_body *b) {
     memory = b->memory;
     if (b->model) {
         peri__free_state(b);
-        peri__release_model(b->model, peri__real(b), peri__bond_real(b));
+        peri__release_model(b, b->model);
     }
     peri__free_setup(b);
     peri__delete(&memory, b->interfaces, b->interface_capacity, sizeof *b->interfaces);

@@ -17,11 +17,13 @@ static void peri__free(void *user, void *pointer, uint64_t bytes) {
     free(pointer);
 }
 
+/* What the hook is asked for where count items of size bytes are wanted. */
+static uint64_t peri__block_bytes(int64_t count, size_t size) { return (uint64_t)count * size + PERI_ALIGN + sizeof(void *); }
+
 /* Zeroed memory for count items of size bytes; NULL where the hook fails or the size does not fit. count 0 gives a block. */
 static void *peri__new(const peri__memory *memory, int64_t count, size_t size) {
     if (count < 0 || (uint64_t)count > ((uint64_t)SIZE_MAX / 2 - PERI_ALIGN * 2) / size) return NULL;
-    uint64_t bytes = (uint64_t)count * size + PERI_ALIGN + sizeof(void *);
-    void *raw = memory->allocate(memory->user, bytes);
+    void *raw = memory->allocate(memory->user, peri__block_bytes(count, size));
     if (!raw) return NULL;
     uintptr_t place = ((uintptr_t)raw + sizeof(void *) + PERI_ALIGN - 1) & ~(uintptr_t)(PERI_ALIGN - 1);
     memcpy((void *)(place - sizeof(void *)), &raw, sizeof raw);
@@ -34,7 +36,7 @@ static void peri__delete(const peri__memory *memory, void *pointer, int64_t coun
     void *raw;
     if (!pointer) return;
     memcpy(&raw, (void *)((uintptr_t)pointer - sizeof(void *)), sizeof raw);
-    memory->release(memory->user, raw, (uint64_t)count * size + PERI_ALIGN + sizeof(void *));
+    memory->release(memory->user, raw, peri__block_bytes(count, size));
 }
 
 static void *peri__copy(const peri__memory *memory, const void *from, int64_t count, size_t size) {

@@ -227,12 +227,8 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
 
 /* Makes the cloud ready for peri__visit_family. */
 static int32_t peri__sort_cloud(peri_body *b, peri__cloud *c) {
-    const peri__model *m = c->model;
-    double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
-    if (b->desc.quadrature == PERI_VOLUME_RAMP) reach += 0.5 * c->largest;
-    if (b->desc.quadrature >= PERI_PARTIAL_VOLUME) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
-    c->reach2 = reach * reach;
-    return peri__sort_cells(c, &m->memory) < 0 ? peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0) : PERI_OK;
+    peri__set_reach(c);
+    return peri__sort_cells(c, &c->model->memory) < 0 ? peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0) : PERI_OK;
 }
 
 static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sums) {

@@ -144,6 +144,15 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
     return parts->part[slot];
 }
 
+/* How far apart points can be that share a bond. */
+static void peri__set_reach(peri__cloud *c) {
+    const peri__model *m = c->model;
+    double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
+    if (c->body->desc.quadrature == PERI_VOLUME_RAMP) reach += 0.5 * c->largest;
+    if (c->body->desc.quadrature >= PERI_PARTIAL_VOLUME) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
+    c->reach2 = reach * reach;
+}
+
 /* Is any part of cell j within the horizon of i? Cheap for boxes: in 3D the part itself is an integral. */
 static int peri__has_part(const peri__cloud *c, int64_t i, int64_t j) {
     const peri__model *m = c->model;

@@ -25,23 +25,27 @@ static void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t j, d
         xi[d] = peri__get_real(m->x, f32, d * m->stride + j) - peri__get_real(m->x, f32, d * m->stride + i);
 }
 
+static void peri__add_moments(peri__moments *sum, int32_t dim, const double *xi, double bond, double weight) {
+    const double planes = dim * (dim - 1) / 2;
+    sum->m += weight * bond * bond;
+    sum->length += weight * bond;
+    sum->plain += weight;
+    for (int a = 0; a < dim; ++a)
+        for (int c = a; c < dim; ++c) {
+            sum->shape[peri__packed(dim, a, c)] += weight * xi[a] * xi[c];
+            if (a != c) sum->shear += weight * peri__square(xi[a] * xi[c] / bond) / planes;
+        }
+}
+
 static peri__moments peri__family_moments(const peri_body *b, int64_t i, const peri__row *row, int live) {
     const peri__model *m = b->model;
     peri__moments sum;
     memset(&sum, 0, sizeof sum);
     for (int64_t k = 0; k < row->count; ++k) {
         double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
-        double planes = m->dim * (m->dim - 1) / 2;
         if (live && !peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
-        sum.m += weight * bond * bond;
-        sum.length += weight * bond;
-        sum.plain += weight;
-        for (int a = 0; a < m->dim; ++a)
-            for (int c = a; c < m->dim; ++c) {
-                sum.shape[peri__packed(m->dim, a, c)] += weight * xi[a] * xi[c];
-                if (a != c) sum.shear += weight * peri__square(xi[a] * xi[c] / bond) / planes;
-            }
+        peri__add_moments(&sum, m->dim, xi, bond, weight);
     }
     return sum;
 }
@@ -54,39 +58,49 @@ static double peri__get_constant(const peri_body *b, int64_t i, int plane) {
     return peri__get_real(b->constant, b->b32, b->model->margin + plane * b->model->stride + i);
 }
 
+typedef struct peri__response { /* see peri__constant                                                                        */
+    double dilate, press, spring, vector, inverse[6];
+} peri__response;
+
+/* What a state-based law makes of a family, all zero where that has no bonds. 0 where a correspondence family spans too little: it acts by
+   springs, which are the caller's to give. */
+static int peri__respond(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
+    memset(r, 0, sizeof *r);
+    if (!(sum->m > 0.0)) return 1;
+    if (law->model == PERI_LPS) {
+        r->dilate = dim / sum->m;
+        r->press = law->a / dim * r->dilate;
+        r->spring = law->b / sum->m;
+    } else if (law->model == PERI_OTERKUS) {
+        /* b = mu/(2 S), a = (bulk - 2 b m/D^2)/2 ([C] 16, 17); a family without shear bonds to calibrate on takes that of LPS. The energy
+           is never negative while q + (bulk - q m/D^2) D^2 sum(w V)/(sum w |xi| V)^2 >= 0 (Cauchy-Schwarz): q stays within that. */
+        const double room = sum->m * sum->plain / (sum->length * sum->length) - 1.0, most = law->bulk * dim * dim * (1.0 + room);
+        r->dilate = dim / sum->length;
+        r->spring = dim * (dim + 2) * sum->shear > 0.2 * sum->m ? law->mu / sum->shear : law->b / sum->m;
+        if (r->spring * sum->m * room > most) r->spring = most / (room * sum->m);
+        r->press = (law->bulk - r->spring * sum->m / (dim * dim)) * r->dilate;
+    } else if (peri__invert(dim, sum->shape, PERI_SPAN, r->inverse) == dim) {
+        r->vector = law->stabilization * law->b / sum->m;
+    } else {
+        memset(r->inverse, 0, sizeof r->inverse);
+        return 0;
+    }
+    return 1;
+}
+
 static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
-    double dilate = 0.0, press = 0.0, spring = 0.0, vector = 0.0, inverse[6] = { 0.0 };
-    int32_t dim = m->dim;
     if (law->model == PERI_BOND_BASED) return;
+    peri__response r;
     peri__moments sum = peri__family_moments(b, i, row, 1);
-    if (sum.m > 0.0 && law->model == PERI_LPS) {
-        dilate = dim / sum.m;
-        press = law->a / dim * dilate;
-        spring = law->b / sum.m;
-    } else if (sum.m > 0.0 && law->model == PERI_OTERKUS) {
-        /* b = mu/(2 S), a = (bulk - 2 b m/D^2)/2 ([C] 16, 17); a family without shear bonds to calibrate on takes that of LPS. The energy
-           is never negative while q + (bulk - q m/D^2) D^2 sum(w V)/(sum w |xi| V)^2 >= 0 (Cauchy-Schwarz): q stays within that. */
-        double room = sum.m * sum.plain / (sum.length * sum.length) - 1.0;
-        dilate = dim / sum.length;
-        spring = dim * (dim + 2) * sum.shear > 0.2 * sum.m ? law->mu / sum.shear : law->b / sum.m;
-        if (spring * sum.m * room > law->bulk * dim * dim * (1.0 + room)) spring = law->bulk * dim * dim * (1.0 + room) / (room * sum.m);
-        press = (law->bulk - spring * sum.m / (dim * dim)) * dilate;
-    } else if (sum.m > 0.0) {
-        if (peri__invert(dim, sum.shape, PERI_SPAN, inverse) == dim) {
-            vector = law->stabilization * law->b / sum.m;
-        } else {
-            memset(inverse, 0, sizeof inverse);
-            spring = law->b / peri__family_moments(b, i, row, 0).m;
-        }
-    }
-    peri__put_constant(b, i, PERI__DILATE, dilate);
-    peri__put_constant(b, i, PERI__PRESS, press);
-    peri__put_constant(b, i, PERI__SPRING, spring);
+    if (!peri__respond(law, m->dim, &sum, &r)) r.spring = law->b / peri__family_moments(b, i, row, 0).m;
+    peri__put_constant(b, i, PERI__DILATE, r.dilate);
+    peri__put_constant(b, i, PERI__PRESS, r.press);
+    peri__put_constant(b, i, PERI__SPRING, r.spring);
     if (!m->tensors) return;
-    peri__put_constant(b, i, PERI__VECTOR, vector);
-    for (int k = 0; k < PERI_PACKED(dim); ++k) peri__put_constant(b, i, PERI__INVERSE + k, inverse[k]);
+    peri__put_constant(b, i, PERI__VECTOR, r.vector);
+    for (int k = 0; k < PERI_PACKED(m->dim); ++k) peri__put_constant(b, i, PERI__INVERSE + k, r.inverse[k]);
 }
 
 /* ---- stiffness ---------------------------------------------------------------------------------------------------- */

@@ -61,6 +61,39 @@ static int32_t solve(peri_body *body) {
     return status;
 }
 
+/* What the body holds, and what its like would cost. */
+static int32_t weigh(const peri_body *body, const peri_body_desc *d, const peri_material *m) {
+    peri_memory memory;
+    peri_plan_desc plan;
+    peri_plan_report planned;
+    show((double)sizeof memory);
+    show((double)sizeof plan);
+    show((double)sizeof planned);
+    show((double)offsetof(peri_plan_desc, spacing));
+    if (peri_read_memory(body, &memory) < 0) return -1;
+    show((double)memory.points);
+    show((double)memory.families);
+    show((double)memory.damage);
+    show((double)memory.state);
+    show((double)memory.loads);
+    show((double)memory.total);
+    show((double)memory.shared);
+    peri_plan_desc_init(&plan);
+    plan.body = d;
+    plan.material = m;
+    plan.spacing = 0.1;
+    plan.hi[0] = 1.6;
+    plan.hi[1] = 0.6;
+    if (peri_plan(&plan, &planned, NULL) < 0) return -1;
+    show((double)planned.points);
+    show((double)planned.bonds);
+    show((double)planned.width);
+    show((double)planned.bytes);
+    show((double)planned.peak);
+    show(planned.stable_step);
+    return 0;
+}
+
 int main(void) {
     const double lo[2] = {0, 0}, hi[2] = {1.6, 0.6}, left[2] = {0.2, 0.6}, right[2] = {1.4, 0}, t[2] = {0.09, 0};
     const double a[2] = {0.8, 0}, b[2] = {0.8, 0.2};
@@ -142,7 +175,7 @@ int main(void) {
     if (peri_last_error(body, &error) < 0) return 6;
     show(error.code);
     show(error.value);
-    if (solve(body) < 0) return 7;
+    if (solve(body) < 0 || weigh(body, &d, &m) < 0) return 7;
     peri_body_destroy(body);
     return 0;
 }

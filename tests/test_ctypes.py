@@ -71,6 +71,20 @@ class Energy(C.Structure):
                                           "error")]
 
 
+class Memory(C.Structure):
+    _fields_ = [(n, C.c_int64) for n in ("points", "families", "damage", "state", "laws", "loads", "fields", "total", "shared")]
+
+
+class PlanDesc(C.Structure):
+    _fields_ = [("cookie", C.c_uint64), ("body", C.POINTER(BodyDesc)), ("material", C.POINTER(Material)), ("source", C.c_int32),
+                ("measure", C.c_int32), ("amount", C.c_double), ("lo", C.c_double * 3), ("hi", C.c_double * 3), ("spacing", C.c_double)]
+
+
+class PlanReport(C.Structure):
+    _fields_ = ([(n, C.c_int64) for n in ("points", "bonds", "width", "columns", "bytes", "peak")]
+                + [("stable_step", C.c_double), ("seconds", C.c_double)])
+
+
 def doubles(*values):
     return (C.c_double * len(values))(*values)
 
@@ -89,7 +103,7 @@ def declare(lib):
         "peri_advance": (i32, [p, p]), "peri_time": (f64, [p]), "peri_field_size": (i64, [p, i32]),
         "peri_read": (i32, [p, i32, p, i64]), "peri_read_energy": (i32, [p, p]), "peri_read_reaction": (i32, [p, i32, p]),
         "peri_view_field": (i32, [p, i32, p]), "peri_statics_init": (None, [p]), "peri_solve": (i32, [p, p, p]),
-        "peri_reset": (i32, [p])}
+        "peri_reset": (i32, [p]), "peri_read_memory": (i32, [p, p]), "peri_plan_desc_init": (None, [p]), "peri_plan": (i32, [p, p, p])}
     for name, (result, arguments) in signatures.items():
         function = getattr(lib, name)
         function.restype, function.argtypes = result, arguments
@@ -184,6 +198,15 @@ def scene(lib):
     must(lib.peri_reset(body))
     must(lib.peri_solve(body, C.byref(statics), C.byref(report)))
     out += list(curve) + [report.iterations, report.passes, report.residual, told[0]]
+    out += [C.sizeof(Memory), C.sizeof(PlanDesc), C.sizeof(PlanReport), PlanDesc.spacing.offset]
+    memory, plan, planned = Memory(), PlanDesc(), PlanReport()
+    must(lib.peri_read_memory(body, C.byref(memory)))
+    out += [memory.points, memory.families, memory.damage, memory.state, memory.loads, memory.total, memory.shared]
+    lib.peri_plan_desc_init(C.byref(plan))
+    plan.body, plan.material, plan.spacing = C.pointer(d), C.pointer(m), 0.1
+    plan.hi[0], plan.hi[1] = 1.6, 0.6
+    must(lib.peri_plan(C.byref(plan), C.byref(planned), C.byref(error)))
+    out += [planned.points, planned.bonds, planned.width, planned.bytes, planned.peak, planned.stable_step]
     lib.peri_body_destroy(body)
     return out, counts, failures
 

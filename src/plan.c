@@ -1,0 +1,499 @@
+/* plan.c - what a scene would cost: bonds, bytes, the stable step and the time of a step, before it is made. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_COOKIE_PLAN (UINT64_C(0x7065726900050000) + sizeof(peri_plan_desc))
+#define PERI_CLASS_LIMIT 256        /* kinds of places in a body whose stiffness is worked out                            */
+#define PERI_BYTES_PER_BOND 128     /* more than any body takes                                                           */
+#define PERI_MEASURED_BONDS 400000  /* of the small body: beyond the first cache, quick to build                          */
+#define PERI_MEASURED_SECONDS 0.004 /* of one measurement: long beside a tick of the clock                                */
+#define PERI_MEASUREMENTS 3
+
+PERI_API void peri_plan_desc_init(peri_plan_desc *p) {
+    if (!p) return;
+    memset(p, 0, sizeof *p);
+    p->cookie = PERI_COOKIE_PLAN;
+    p->source = PERI_SOURCE_BOX;
+    p->amount = 1.0;
+}
+
+/* ---- the sketch --------------------------------------------------------------------------------------------------- */
+
+/* The units, the points and the constants of the body to be, from its cells. */
+static int32_t peri__lay_sketch(peri__sketch *s) {
+    peri_body *b = &s->body;
+    peri__model *m = &s->model;
+    const peri_material *material = &b->materials[0];
+    const int32_t dim = b->dim;
+    double volume = 1.0;
+    memset(m, 0, sizeof *m);
+    m->points = 1;
+    for (int32_t d = 0; d < 3; ++d) {
+        s->n[d] = d < dim ? s->piece.cells[d] : 1;
+        s->axis[d] = d;
+        m->points *= s->n[d];
+        if (d < dim) volume *= s->piece.cell[d] / s->piece.cell[0];
+    }
+    for (int32_t d = 0; d < 2; ++d) /* the longest axis first: it alone is not walked along */
+        if (s->n[s->axis[0]] < s->n[s->axis[d + 1]]) {
+            const int32_t longest = s->axis[d + 1];
+            s->axis[d + 1] = s->axis[0];
+            s->axis[0] = longest;
+        }
+    m->memory = b->memory;
+    m->dim = dim;
+    m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
+    m->stride = peri__stride(m->points);
+    m->length = s->piece.cell[0];
+    m->spacing = pow(volume, 1.0 / dim);
+    m->horizon = b->desc.horizon / m->length;
+    m->density = material->density;
+    m->stress = peri__young(material, b->desc.space);
+    m->time = m->length * sqrt(m->density / m->stress);
+    m->materials = 1;
+    m->rho[0] = 1.0;
+    m->laws[0] = peri__law_of(material, b->desc.space, m->stress);
+    m->volume = s->volume;
+    m->material = s->material;
+    s->volume[0] = s->volume[1] = volume;
+    peri__note_law(m, &m->laws[0], material->criterion);
+    s->corrected = b->desc.correction == PERI_MOMENT_CORRECTION || (!m->states && b->desc.correction != PERI_NO_CORRECTION);
+
+    memset(&s->cloud, 0, sizeof s->cloud);
+    s->cloud.body = b;
+    s->cloud.model = m;
+    s->cloud.x = s->x;
+    s->cloud.largest = m->spacing;
+    for (int32_t d = 0; d < dim; ++d)
+        if (s->piece.cell[d] / m->length > s->cloud.largest) s->cloud.largest = s->piece.cell[d] / m->length;
+    s->cloud.edge = 0.5 * m->spacing / m->horizon;
+    peri__gauss(s->cloud.gauss_x, s->cloud.gauss_w);
+    peri__set_reach(&s->cloud);
+    peri__clear_parts(&s->parts);
+    int32_t status = peri__constants(b, material, m->stress, m->length, s->cloud.edge, &s->pair);
+    m->breakable = s->pair.s0 < PERI_NEVER || s->pair.bond_energy < PERI_NEVER || s->pair.node_energy < PERI_NEVER;
+    return status;
+}
+
+static int32_t peri__open_sketch(peri__sketch *s, const peri_plan_desc *plan) {
+    peri_body *b = &s->body;
+    memset(s, 0, sizeof *s);
+    peri__start_body(b, plan->body);
+    PERI_NEED(b, plan->source >= PERI_SOURCE_BOX && plan->source <= PERI_SOURCE_POINTS, "source");
+    PERI_NEED(b, plan->measure == 0 || plan->measure == 1, "measure");
+    PERI_NEED_NUMBER(b, plan->amount >= 0.0 && plan->amount <= 1.0, plan->amount);
+    int32_t status = peri__check_material(b, plan->material, 1);
+    if (status < 0) return status;
+    b->materials[b->material_count++] = *plan->material;
+    status = peri__lattice(b, 0, plan->lo, plan->hi, plan->spacing, &s->piece);
+    if (status < 0) return status;
+    double volume = 1.0;
+    for (int32_t d = 0; d < b->dim; ++d) volume *= s->piece.cell[d];
+    PERI_NEED_NUMBER(b, volume > 0.0, plan->spacing);
+    if (plan->source == PERI_SOURCE_POINTS) s->loose = 0.5;
+    /* vertices move evenly by up to a quarter, centroids by the mean of 2^dim of them, and neighbours apart by two of these */
+    if (plan->source == PERI_SOURCE_PERTURBED) s->loose = 0.25 * plan->amount * (b->dim == 3 ? 0.5 : sqrt(0.5));
+    s->piece.lattice = plan->source == PERI_SOURCE_BOX;
+    b->setup.pieces = &s->piece;
+    b->setup.piece_count = 1;
+    b->setup.piece_capacity = 8;
+    return peri__lay_sketch(s);
+}
+
+/* Families, or why there are none. */
+static int32_t peri__sketch_families(peri__sketch *s) {
+    peri_body *b = &s->body;
+    peri__model *m = &s->model;
+    peri__count_bonds(s);
+    peri__list_vectors(s);
+    const double most = (double)s->bonds > (double)m->points * (double)s->width ? (double)s->bonds : (double)m->points * (double)s->width;
+    if (most * PERI_BYTES_PER_BOND > (double)INT64_MAX) return peri__fail(b, PERI_ERROR_TOO_LARGE, "horizon", -1, (double)s->bonds);
+    if (s->bonds > 0) return PERI_OK;
+    if (m->horizon * (1.0 + PERI_HORIZON_TOLERANCE) < m->spacing)
+        return peri__fail(b, PERI_ERROR_HORIZON, "horizon", 0, m->spacing * m->length);
+    return peri__fail(b, PERI_ERROR_FAMILY, "horizon", 0, b->desc.horizon);
+}
+
+/* ---- bytes -------------------------------------------------------------------------------------------------------- */
+
+/* What peri__build_lanes takes beside what it makes; batch: room of the rows that are searched at a time. */
+static int64_t peri__draft_bytes(const peri__sketch *s, int batch) {
+    const int64_t points = s->model.points, groups = (points + PERI_LANES - 1) / PERI_LANES;
+    int64_t slots = 16, room = 8;
+    while (slots < 2 * groups) slots *= 2;
+    while (room < s->model.lanes.kept) room *= 2;
+    int64_t bytes = (int64_t)peri__block_bytes(1, sizeof(peri__draft)) + (int64_t)peri__block_bytes(slots, sizeof(int32_t));
+    bytes += (int64_t)peri__block_bytes(room, sizeof(peri__column));
+    if (batch) bytes += (int64_t)peri__block_bytes(peri__min(PERI_BATCH, points) * ((s->width + 31) / 32 * 32), sizeof(int32_t));
+    return bytes;
+}
+
+/* What peri_build takes to search families. */
+static int64_t peri__search_bytes(const peri__sketch *s) {
+    const peri__model *m = &s->model;
+    double cells = 1.0;
+    for (int32_t d = 0; d < m->dim; ++d) {
+        const double count = floor((double)(s->n[d] - 1) * s->piece.cell[d] / m->length / sqrt(s->cloud.reach2));
+        cells *= count < 1.0 ? 1.0 : count;
+    }
+    return (int64_t)peri__block_bytes(m->points * m->dim, sizeof(double)) + (int64_t)peri__block_bytes(m->points, sizeof(int32_t))
+         + (int64_t)peri__block_bytes((int64_t)cells + 1, sizeof(int32_t));
+}
+
+static int64_t peri__model_bytes(const peri__sketch *s) {
+    int64_t held[PERI__PURPOSES] = { 0 };
+    peri__count_model(&s->body, &s->model, held);
+    return peri__held_total(held);
+}
+
+static int64_t peri__body_bytes(const peri__sketch *s) {
+    int64_t held[PERI__PURPOSES] = { 0 };
+    peri__count_body(&s->body, held);
+    return peri__held_total(held);
+}
+
+/* Marks the arrays of the list as there. `other`: a place that is not that of the weights. */
+static void peri__mark_list(peri__sketch *s, void *there, void *other) {
+    const peri_body_desc *desc = &s->body.desc;
+    peri__model *m = &s->model;
+    const int centroids = desc->quadrature == PERI_PARTIAL_CENTROID;
+    m->bonds = s->bonds;
+    m->entries = s->bonds + PERI_LANES;
+    m->start = (int64_t *)there;
+    m->ids = (int32_t *)there;
+    m->weight = there;
+    m->back = s->corrected && m->states ? other : there;
+    m->bond = centroids || s->width > PERI_VECTOR_LIMIT ? there : NULL;
+    m->centroid = centroids ? there : NULL;
+    m->part = desc->quadrature != PERI_FULL_VOLUME ? (float *)there : NULL;
+}
+
+static void peri__mark_lanes(peri__sketch *s, void *there) {
+    peri__lanes *l = &s->model.lanes;
+    l->begin = l->first = (int64_t *)there;
+    l->column = (peri__column *)there;
+    l->table = (double *)there;
+}
+
+/* Marks what peri__new_state takes. */
+static void peri__mark_state(peri__sketch *s, void *there) {
+    peri_body *b = &s->body;
+    peri__array arrays[PERI_ARRAYS];
+    b->model = &s->model;
+    b->u = b->v = b->f = there;
+    peri__list_arrays(b, arrays);
+    for (int k = 0; k < PERI_ARRAYS; ++k) {
+        const int flags = arrays[k].place == offsetof(peri_body, alive)
+                       || (arrays[k].place == offsetof(peri_body, lanes_alive) && s->model.lanes.columns > 0);
+        if (arrays[k].wanted || (flags && s->model.breakable)) peri__set_array(b, &arrays[k], there);
+    }
+}
+
+/* The bytes after peri_build, and the most until then: while families are made, or at the end. */
+static void peri__plan_bytes(peri__sketch *s, const peri_plan_desc *plan, peri_plan_report *report) {
+    void *there = s->x, *other = s->volume;
+    peri__model *m = &s->model;
+    peri__setup *setup = &s->body.setup;
+    const int lanes = peri__sketch_lanes(s), listed = lanes <= 0 || s->corrected;
+    const int64_t groups = (m->points + PERI_LANES - 1) / PERI_LANES, sums = (int64_t)peri__block_bytes(m->blocks, sizeof(peri__sums));
+    const int64_t bare = (int64_t)peri__block_bytes(1, sizeof(peri_body));
+    int64_t most, draft = lanes < 0 ? 0 : peri__draft_bytes(s, !s->corrected);
+    if (lanes == 0) draft += 2 * (int64_t)peri__block_bytes(groups, sizeof(int64_t));
+    setup->point_capacity = m->points;
+    setup->local = setup->volume = (double *)there;
+    setup->material = (uint8_t *)there;
+    if (plan->source == PERI_SOURCE_PERTURBED) {
+        s->piece.vertices = (double *)there;
+        s->piece.vertex_bytes = peri__vertex_count(&s->piece, m->dim) * m->dim * (int64_t)sizeof(double);
+    }
+    const int64_t given = peri__body_bytes(s), search = peri__search_bytes(s) + sums;
+    m->width = (int32_t)s->width;
+    m->x = there;
+    m->count = (int32_t *)there;
+    m->pairs = &s->pair;
+    if (lanes > 0) peri__mark_lanes(s, there);
+    most = peri__model_bytes(s) + (s->corrected ? 0 : draft);
+    if (listed) {
+        peri__mark_list(s, there, other);
+        if (plan->source == PERI_SOURCE_POINTS) m->order = (int32_t *)there;
+        int64_t factors = s->corrected ? (int64_t)peri__block_bytes(m->entries, sizeof(double)) : 0;
+        const int64_t bytes = peri__model_bytes(s) + (s->corrected && draft > factors ? draft : factors);
+        if (bytes > most) most = bytes;
+    }
+    if (listed && lanes > 0) {
+        peri__mark_list(s, NULL, NULL);
+        m->entries = 0;
+    }
+    most += given + search;
+    peri__fit_model(&s->body, m);
+    peri__mark_state(s, there);
+    const int64_t made = peri__body_bytes(s) + peri__model_bytes(s);
+    report->peak = made + sums > most ? made + sums : most;
+    report->bytes = made - (given - bare);
+    report->columns = m->lanes.columns;
+    s->piece.vertices = NULL; /* what weighs bonds would look at them */
+}
+
+/* ---- the stable step ---------------------------------------------------------------------------------------------- */
+
+/* Lengths and weights of the bonds of a whole family. */
+static int32_t peri__weigh_sketch(peri__sketch *s) {
+    const int32_t dim = s->model.dim;
+    double total = 0.0, stiff = 0.0;
+    for (int64_t k = 0; k < s->vector_count; ++k) {
+        peri__bond bond;
+        for (int32_t d = 0; d < dim; ++d) s->x[dim + d] = s->vector[k][d] * (s->piece.cell[d] / s->model.length);
+        if (!peri__weigh_bond(&s->cloud, &s->parts, 0, 1, &bond)) return peri__fail(&s->body, PERI_ERROR_INFLUENCE, "influence", 0, 0.0);
+        s->length[k] = bond.length;
+        s->weight[k] = bond.weight;
+        total += fabs(bond.weight);
+        stiff += bond.weight * bond.length * bond.length;
+    }
+    if (!(total > 0.0)) return peri__fail(&s->body, PERI_ERROR_FAMILY, "influence", 0, 0.0);
+    if (s->model.states && !(stiff > 0.0)) return peri__fail(&s->body, PERI_ERROR_INFLUENCE, "influence", 0, 0.0);
+    return PERI_OK;
+}
+
+/* The point that bond k of p leads to. 0 where that is outside. */
+static int peri__leads(const peri__sketch *s, const int64_t *p, int64_t k, int64_t *to) {
+    for (int d = 0; d < 3; ++d) {
+        to[d] = p[d] + s->vector[k][d];
+        if (to[d] < 0 || to[d] >= s->n[d]) return 0;
+    }
+    return 1;
+}
+
+static void peri__vector_of_bond(const peri__sketch *s, int64_t k, double *xi) {
+    for (int d = 0; d < 3; ++d) xi[d] = d < s->model.dim ? s->vector[k][d] * (s->piece.cell[d] / s->model.length) : 0.0;
+}
+
+/* The row sum of the stiffness over rho of the bond-based point in the middle, as peri__rate_block has it. */
+static double peri__middle_rate(const peri__sketch *s) {
+    const int64_t middle[3] = { (s->n[0] - 1) / 2, (s->n[1] - 1) / 2, (s->n[2] - 1) / 2 };
+    int64_t to[3];
+    double rate = 0.0;
+    for (int64_t k = 0; k < s->vector_count; ++k)
+        if (peri__leads(s, middle, k, to)) rate += 2.0 * s->pair.c * fabs(s->weight[k]) / s->length[k];
+    return rate;
+}
+
+typedef struct peri__kindred { /* points that see the same faces, mirrored or not                                         */
+    peri__response r;
+    double         lean, sum, wide; /* see response.c                                                                    */
+} peri__kindred;
+
+static double peri__gauge_of(const peri__sketch *s, const peri__kindred *a, const double *xi, double bond) {
+    const int32_t dim = s->model.dim;
+    double square = 0.0;
+    if (s->model.laws[0].model == PERI_LPS) return a->r.dilate * bond;
+    if (s->model.laws[0].model == PERI_OTERKUS) return a->r.dilate;
+    for (int32_t p = 0; p < dim; ++p) {
+        double sum = 0.0;
+        for (int32_t q = 0; q < dim; ++q) sum += a->r.inverse[peri__packed(dim, p, q)] * xi[q];
+        square += sum * sum;
+    }
+    return sqrt(square);
+}
+
+/* As peri__set_constants and peri__set_wide of the whole family of p. */
+static void peri__fill_kindred(const peri__sketch *s, const int64_t *p, peri__kindred *a) {
+    const peri__law *law = &s->model.laws[0];
+    const int tensor = law->model == PERI_CORRESPONDENCE;
+    double lean[3] = { 0.0, 0.0, 0.0 }, xi[3], stiff = 0.0;
+    int64_t to[3];
+    peri__moments sum;
+    memset(&sum, 0, sizeof sum);
+    for (int64_t k = 0; k < s->vector_count; ++k) {
+        if (!peri__leads(s, p, k, to)) continue;
+        peri__vector_of_bond(s, k, xi);
+        peri__add_moments(&sum, s->model.dim, xi, s->length[k], s->weight[k]);
+    }
+    if (!peri__respond(law, s->model.dim, &sum, &a->r)) a->r.spring = sum.m > 0.0 ? law->b / sum.m : 0.0;
+    a->sum = 0.0;
+    for (int64_t k = 0; k < s->vector_count; ++k) {
+        if (!peri__leads(s, p, k, to)) continue;
+        peri__vector_of_bond(s, k, xi);
+        const double gauge = peri__gauge_of(s, a, xi, s->length[k]);
+        a->sum += fabs(s->weight[k]) * gauge;
+        for (int d = 0; d < 3; ++d) lean[d] += s->weight[k] * (tensor ? xi[d] : gauge * xi[d] / s->length[k]);
+    }
+    a->lean = tensor ? peri__gauge_of(s, a, lean, 1.0) : sqrt(peri__dot(lean, lean, 3));
+    if (tensor) stiff = law->lambda > 0.0 ? s->model.dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
+    else if (a->r.dilate > 0.0) stiff = a->r.press / a->r.dilate;
+    a->wide = stiff > 0.0 ? stiff * (a->lean + a->sum) : 0.0;
+}
+
+/* The largest rate of a state-based body, as peri__set_rate has it. Points within a horizon of faces are the stiffest; mirrored ones
+   are alike, so one corner is enough. */
+static double peri__corner_rate(const peri__sketch *s) {
+    peri__kindred kin[PERI_CLASS_LIMIT];
+    int64_t kinds[3], p[3], to[3], all = 1;
+    double largest = 0.0, xi[3];
+    for (int d = 0; d < 3; ++d) all *= kinds[d] = 1 + peri__min(s->far[d], (s->n[d] - 1) / 2);
+    for (int64_t k = 0; k < all; ++k) {
+        p[0] = k % kinds[0];
+        p[1] = k / kinds[0] % kinds[1];
+        p[2] = k / kinds[0] / kinds[1];
+        peri__fill_kindred(s, p, &kin[k]);
+    }
+    for (int64_t k = 0; k < all; ++k) {
+        const peri__kindred *a = &kin[k];
+        double rate = a->lean * a->wide;
+        p[0] = k % kinds[0];
+        p[1] = k / kinds[0] % kinds[1];
+        p[2] = k / kinds[0] / kinds[1];
+        for (int64_t v = 0; v < s->vector_count; ++v) {
+            if (!peri__leads(s, p, v, to)) continue;
+            peri__vector_of_bond(s, v, xi);
+            int64_t at = 0;
+            for (int d = 2; d >= 0; --d) {
+                const int64_t back = s->n[d] - 1 - to[d];
+                if (back < to[d]) xi[d] = -xi[d]; /* mirrored, as its kindred is */
+                at = at * kinds[d] + peri__min(kinds[d] - 1, peri__min(to[d], back));
+            }
+            const peri__kindred *c = &kin[at];
+            rate += 2.0 * fabs(s->weight[v]) * (a->r.spring + a->r.vector + c->r.spring + c->r.vector);
+            if (c->wide > 0.0) rate += fabs(s->weight[v]) * peri__gauge_of(s, c, xi, s->length[v]) * c->wide;
+        }
+        if (rate > largest) largest = rate;
+    }
+    return largest;
+}
+
+/* The stable step [T]. With many bonds to a family this hardly depends on how many: coarser cells then stand for them. */
+static int32_t peri__plan_step(peri__sketch *s, double *step) {
+    const double most = s->body.dim == 3 ? 5.0 : 15.0;
+    int64_t all = 1;
+    s->loose = 0.0;
+    for (int d = 0; d < 3; ++d) all *= 1 + s->far[d];
+    if (s->vector_count == 0 || (s->model.states && all > PERI_CLASS_LIMIT)) {
+        const double coarser = s->model.horizon / s->model.spacing / most;
+        for (int32_t d = 0; d < s->body.dim; ++d) {
+            const double extent = s->piece.cell[d] * (double)s->piece.cells[d], edge = s->body.desc.horizon / most;
+            s->piece.cells[d] = coarser > 1.0 && extent > edge ? (int64_t)(extent / edge + 0.5) : 1;
+            s->piece.cell[d] = extent / (double)s->piece.cells[d];
+        }
+        int32_t status = peri__lay_sketch(s);
+        if (status < 0) return status;
+        peri__count_bonds(s);
+        peri__list_vectors(s);
+    }
+    int32_t status = peri__weigh_sketch(s);
+    if (status < 0) return status;
+    const double rate = s->model.states ? peri__corner_rate(s) : peri__middle_rate(s);
+    if (!(rate > 1e-30 && rate < 1e30)) return peri__fail(&s->body, PERI_ERROR_RANGE, "horizon", -1, s->body.desc.horizon);
+    *step = 2.0 / sqrt(rate) * s->model.time;
+    return PERI_OK;
+}
+
+/* ---- the time of a step ------------------------------------------------------------------------------------------- */
+
+static double peri__clock(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+/* Cells of the small body: long rows that fill groups as those of the scene do, and as many of them as give some bonds. */
+static void peri__small_body(const peri__sketch *s, int64_t *cells) {
+    int64_t edge = 7, points = 0, grows = 1;
+    while (grows && points * s->width < PERI_MEASURED_BONDS) {
+        points = 1;
+        grows = 0;
+        ++edge;
+        for (int d = 0; d < 3; ++d) {
+            const int64_t n = s->n[d], most = d > 0 ? edge : (s->n[2] > 1 ? 4 : 16) * PERI_LANES + n % PERI_LANES;
+            cells[d] = peri__min(n, most);
+            points *= cells[d];
+            grows |= d > 0 && n > edge;
+        }
+    }
+}
+
+/* Seconds per step of a built body: the least of some measurements, or a negative status. */
+static double peri__measure_steps(peri_body *b) {
+    peri_run run;
+    double least = 0.0;
+    int done = 0;
+    peri_run_init(&run);
+    run.steps = 1;
+    while (done < PERI_MEASUREMENTS) {
+        const double from = peri__clock();
+        const int32_t status = peri_advance(b, &run);
+        const double taken = peri__clock() - from;
+        if (status < 0) return status;
+        if (taken < PERI_MEASURED_SECONDS && done == 0 && run.steps < (1 << 20)) {
+            run.steps *= 2;
+            continue;
+        }
+        if (done == 0 || taken < least) least = taken;
+        ++done;
+    }
+    return least / (double)run.steps;
+}
+
+/* Builds and advances a small body like the scene's. The time goes by the columns or the bonds. */
+static int32_t peri__measure_plan(const peri__sketch *s, const peri_plan_desc *plan, peri_plan_report *report, peri_error *error) {
+    int64_t cells[3];
+    peri_body_desc desc = *plan->body;
+    peri_body *b;
+    double hi[3] = { 0.0, 0.0, 0.0 };
+    peri__small_body(s, cells);
+    desc.threads = 1;
+    desc.parallel_for = NULL;
+    desc.log = NULL;
+    for (int32_t d = 0; d < s->body.dim; ++d) hi[d] = plan->lo[d] + (double)cells[d] * s->piece.cell[d];
+    int64_t status = peri_body_create(&desc, &b, error);
+    if (status < 0) return (int32_t)status;
+    status = peri_add_material(b, plan->material);
+    if (status >= 0) {
+        if (plan->source == PERI_SOURCE_BOX) status = peri_add_box(b, 0, plan->lo, hi, plan->spacing);
+        else status = peri_add_perturbed_box(b, 0, plan->lo, hi, plan->spacing, plan->source == PERI_SOURCE_POINTS ? 1.0 : plan->amount, 1);
+    }
+    if (status >= 0) status = peri_build(b);
+    if (status >= 0) {
+        const double seconds = peri__measure_steps(b), step = peri_stable_step(b);
+        const int64_t columns = b->model->lanes.columns;
+        if (seconds < 0.0) status = (int64_t)seconds;
+        else if (columns > 0 && report->columns > 0) report->seconds = seconds * ((double)report->columns / (double)columns);
+        else report->seconds = seconds * ((double)report->bonds / (double)b->model->bonds);
+        if (step < report->stable_step) report->stable_step = step;
+    }
+    if (status < 0 && error) (void)peri_last_error(b, error);
+    peri_body_destroy(b);
+    return status < 0 ? (int32_t)status : PERI_OK;
+}
+
+PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error) {
+    peri__sketch s;
+    (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
+    if (report) memset(report, 0, sizeof *report);
+    if (!plan || !report) return peri__set_error(error, PERI_ERROR_ARGUMENT, plan ? "report" : "plan", -1, 0.0);
+    if (plan->cookie != PERI_COOKIE_PLAN) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "plan", -1, 0.0);
+    if (!plan->body) return peri__set_error(error, PERI_ERROR_ARGUMENT, "body", -1, 0.0);
+    int32_t status = peri__check_desc(plan->body, error);
+    if (status < 0) return status;
+    status = peri__open_sketch(&s, plan);
+    if (status == PERI_OK) status = peri__sketch_families(&s);
+    if (status == PERI_OK) {
+        peri_plan_report made;
+        memset(&made, 0, sizeof made);
+        made.points = s.model.points;
+        made.bonds = s.bonds;
+        made.width = s.width;
+        peri__plan_bytes(&s, plan, &made);
+        if ((uint64_t)made.peak > (uint64_t)SIZE_MAX / 2)
+            status = peri__fail(&s.body, PERI_ERROR_TOO_LARGE, "spacing", -1, (double)made.bonds);
+        else
+            status = peri__plan_step(&s, &made.stable_step);
+        if (status == PERI_OK) *report = made;
+    }
+    if (status < 0) {
+        if (error) *error = s.body.error;
+        return status;
+    }
+    if (plan->measure) {
+        status = peri__open_sketch(&s, plan);
+        if (status == PERI_OK) peri__count_bonds(&s);
+        status = peri__measure_plan(&s, plan, report, error);
+        if (status < 0) memset(report, 0, sizeof *report);
+    }
+    return status;
+}
