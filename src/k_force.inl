@@ -8,8 +8,9 @@ static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums 
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u, *p = (const peri_r *)b->response + m->margin;
     const peri_r *q = (const peri_r *)b->constant + m->margin + PERI__SPRING * m->stride;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i) {
-        peri_r *record = (peri_r *)b->pack + i * m->slots;
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        peri_r *record = (peri_r *)b->pack + k * m->slots;
         for (int d = 0; d < PERI_D; ++d) {
             record[d] = x[d * m->stride + i];
             record[PERI_D + d] = u[d * m->stride + i];
@@ -26,8 +27,8 @@ static void PERI_FN(pack_response)(void *context, int64_t begin, int64_t end, pe
     const peri_body *b = ((const peri__step *)context)->body;
     const peri__model *m = b->model;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i)
-        ((peri_r *)b->pack)[i * m->slots + 2 * PERI_D] = ((const peri_r *)b->response)[m->margin + i];
+    for (int64_t k = begin; k < end; ++k)
+        ((peri_r *)b->pack)[k * m->slots + 2 * PERI_D] = ((const peri_r *)b->response)[m->margin + peri__nth(m, k)];
 }
 
 /* Rows [begin, end), one by one. */
@@ -88,7 +89,7 @@ static void PERI_FN(force_list)(const peri__step *step, int64_t begin, int64_t e
         const int64_t i = peri__nth(m, k);
         peri_r f[PERI_D];
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride + i];
-        if (PERI_ON_LANES(m->lanes.isa, list_force, (step, i, f))) PERI_FN(force_rows)(step, i, i + 1, sums);
+        if (PERI_ON_LANES(m->lanes.isa, list_force, (step, k, f))) PERI_FN(force_rows)(step, i, i + 1, sums);
         else
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
     }

@@ -62,17 +62,17 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(const PERI_VECTOR *sum
     return lane[0];
 }
 
-/* Adds the force of all live bonds of point i to f, all points being of one model. Returns nonzero where a bond comes near its critical
+/* Adds the force of all live bonds of the point at a place to f, all points being of one model. Returns nonzero where a bond comes near its critical
    stretch; f is then void. `model` and `linear` are constants where this is inlined. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t i, peri_r *f, const int model,
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t place, peri_r *f, const int model,
                                                           const int linear) {
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->count[i];
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const int states = model != PERI_BOND_BASED, mixed = PERI_D == 2 ? m->slots > 4 : m->materials > 1;
     const int32_t slots = states || PERI_D == 3 ? 8 : m->slots;
-    const peri_r *pack = (const peri_r *)b->pack, *own = pack + i * slots;
+    const peri_r *pack = (const peri_r *)b->pack, *own = pack + place * slots;
     const peri_r *weights = (const peri_r *)m->weight + first, *backs = (const peri_r *)m->back + first;
     const PERI_VECTOR limit = PERI_V(set1)((peri_r)(step->breaking ? PERI_FN(least_stretch)(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER));
     const PERI_VECTOR tiny = PERI_V(set1)((peri_r)PERI_TINY);
@@ -124,34 +124,34 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     return hit;
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_force)(const peri__step *step, int64_t i, peri_r *f) {
-    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(list_row)(step, i, f, PERI_BOND_BASED, 1)
-                                                    : PERI_LANES_FN(list_row)(step, i, f, PERI_BOND_BASED, 0);
+PERI_LANES_TARGET static int PERI_LANES_FN(list_force)(const peri__step *step, int64_t place, peri_r *f) {
+    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 1)
+                                                    : PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 0);
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, int64_t i, peri_r *f) {
+PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, int64_t place, peri_r *f) {
     const int linear = step->body->desc.geometry == PERI_LINEAR;
     if (step->body->model->ordinary == PERI_LPS)
-        return linear ? PERI_LANES_FN(list_row)(step, i, f, PERI_LPS, 1) : PERI_LANES_FN(list_row)(step, i, f, PERI_LPS, 0);
-    return linear ? PERI_LANES_FN(list_row)(step, i, f, PERI_OTERKUS, 1) : PERI_LANES_FN(list_row)(step, i, f, PERI_OTERKUS, 0);
+        return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 1) : PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 0);
+    return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_OTERKUS, 1) : PERI_LANES_FN(list_row)(step, place, f, PERI_OTERKUS, 0);
 }
 
-/* sum w g e V of point i. */
-PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b, int64_t i, const int model, const int linear) {
+/* sum w g e V of the point at a place. */
+PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b, int64_t place, const int model, const int linear) {
     PERI_NO_CONTRACTION
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->count[i];
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const peri_r *pack = (const peri_r *)b->pack, *weights = (const peri_r *)m->weight + first;
     const int32_t *ids = &m->ids[first];
     PERI_LANES_FN(piece) next[PERI_CHUNK / PERI_WIDTH];
     PERI_VECTOR sum[PERI_CHUNK / PERI_WIDTH];
     for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) sum[n] = PERI_V(set1)(0);
-    PERI_LANES_FN(chunk)(next, pack, 8, ids, pack + i * 8, linear);
+    PERI_LANES_FN(chunk)(next, pack, 8, ids, pack + place * 8, linear);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
         PERI_LANES_FN(piece) now[PERI_CHUNK / PERI_WIDTH];
         for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) now[n] = next[n];
-        if (k + PERI_CHUNK < count) PERI_LANES_FN(chunk)(next, pack, 8, ids + k + PERI_CHUNK, pack + i * 8, linear);
+        if (k + PERI_CHUNK < count) PERI_LANES_FN(chunk)(next, pack, 8, ids + k + PERI_CHUNK, pack + place * 8, linear);
         for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) {
             PERI_VECTOR part = PERI_V(loadu)(weights + k + n * PERI_WIDTH), bond, product, reach;
             const PERI_LANES_FN(piece) s = now[n];
@@ -166,11 +166,11 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     return PERI_LANES_FN(added)(sum);
 }
 
-PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b, int64_t i) {
+PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b, int64_t place) {
     const int linear = b->desc.geometry == PERI_LINEAR;
     if (b->model->ordinary == PERI_LPS)
-        return linear ? PERI_LANES_FN(list_sum)(b, i, PERI_LPS, 1) : PERI_LANES_FN(list_sum)(b, i, PERI_LPS, 0);
-    return linear ? PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, 1) : PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, 0);
+        return linear ? PERI_LANES_FN(list_sum)(b, place, PERI_LPS, 1) : PERI_LANES_FN(list_sum)(b, place, PERI_LPS, 0);
+    return linear ? PERI_LANES_FN(list_sum)(b, place, PERI_OTERKUS, 1) : PERI_LANES_FN(list_sum)(b, place, PERI_OTERKUS, 0);
 }
 
 #undef PERI_FETCH

@@ -17,7 +17,6 @@
 #define PERI_VECTOR_SLOTS 4096    /* open addressing                                                                     */
 #define PERI_VECTOR_GRAIN 1.5e-11 /* bonds nearer than this, in spacings and weights, are one: far above rounding        */
 #define PERI_VECTOR_KEY 5
-#define PERI_BATCH 2048           /* points whose families are searched at once, at most                                 */
 
 typedef struct peri__vector { /* a row of the table, its key in grains, and the first bond that made it                   */
     int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j                                                              */
@@ -41,8 +40,8 @@ typedef struct peri__draft { /* what building needs and drops                   
     int64_t       columns, capacity;
     int32_t      *seen;           /* [seen_slots] open addressing: a group with such columns + 1; 0: free                */
     int64_t       seen_slots;     /* a power of 2                                                                        */
-    int32_t      *batch;          /* [batch_rows][batch_room] families that were searched                                */
-    int64_t       batch_rows, batch_room, batch_first, batch_points;
+    int32_t       ids[PERI_VECTOR_LIMIT]; /* a family that was searched                                                  */
+    peri__near    near;
     peri__parts   parts;
 } peri__draft;
 
@@ -211,39 +210,6 @@ static int32_t peri__draft_group(peri__draft *d, int64_t g) {
     return PERI_OK;
 }
 
-static void peri__batch_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__draft *d = (const peri__draft *)context;
-    (void)sums;
-    for (int64_t k = begin; k < end; ++k) {
-        int32_t *row = &d->batch[k * d->batch_room];
-        const int64_t i = d->batch_first + k, count = peri__visit_family(d->cloud, i, row, d->batch_room);
-        d->cloud->model->count[i] = (int32_t)count;
-        if (count > 0 && count <= d->batch_room) peri__sort_row(row, count);
-    }
-}
-
-/* Searches the families of the next points, in room that all of them fit. PERI_ERROR_FAMILY where one is empty or too large. */
-static int32_t peri__next_batch(peri__draft *d) {
-    const peri_body *b = d->cloud->body;
-    const peri__model *m = d->cloud->model;
-    d->batch_first += d->batch_points;
-    /* a cloud shows within the first block */
-    d->batch_points = peri__min(d->batch_first == 0 ? PERI_BLOCK : d->batch_rows, m->points - d->batch_first);
-    for (;;) {
-        int32_t largest = 0;
-        if (d->batch) peri__for_points(b, d->batch_points, 256, peri__batch_block, d, NULL);
-        for (int64_t i = d->batch_first; d->batch && i < d->batch_first + d->batch_points; ++i) {
-            if (m->count[i] <= 0 || m->count[i] > PERI_VECTOR_LIMIT) return PERI_ERROR_FAMILY;
-            if (m->count[i] > largest) largest = m->count[i];
-        }
-        if (d->batch && largest <= d->batch_room) return PERI_OK;
-        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
-        while (d->batch_room < largest || d->batch_room < 32) d->batch_room += 32;
-        d->batch = (int32_t *)peri__new(&b->memory, d->batch_rows * d->batch_room, sizeof *d->batch);
-        if (!d->batch) return PERI_ERROR_MEMORY;
-    }
-}
-
 /* Units of the grains of weights, by the first family. */
 static void peri__choose_units(peri__draft *d, const int32_t *ids, int64_t count) {
     const peri__model *m = d->cloud->model;
@@ -262,11 +228,12 @@ static void peri__choose_units(peri__draft *d, const int32_t *ids, int64_t count
 static int32_t peri__draft_lanes(peri__draft *d) {
     const peri__model *m = d->cloud->model;
     for (int64_t i = 0; i < m->points; ++i) {
-        if (!m->ids && i == d->batch_first + d->batch_points) {
-            int32_t status = peri__next_batch(d);
-            if (status < 0) return status;
+        if (m->count[i] > PERI_VECTOR_LIMIT) return PERI_ERROR_FAMILY;
+        const int32_t *ids = m->ids ? &m->ids[m->start[i]] : d->ids;
+        if (!m->ids) {
+            (void)peri__visit_family(d->cloud, i, &d->near, d->ids, PERI_VECTOR_LIMIT);
+            peri__sort_row(d->ids, m->count[i]);
         }
-        const int32_t *ids = m->ids ? &m->ids[m->start[i]] : &d->batch[(i - d->batch_first) * d->batch_room];
         if (i == 0) peri__choose_units(d, ids, m->count[0]);
         if (i % PERI_BLOCK == 0) peri__clear_parts(&d->parts);
         if (i % PERI_LANES == 0) d->group_count = 0;
@@ -327,13 +294,11 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     l->first = (int64_t *)peri__new(&m->memory, l->groups, sizeof *l->first);
     if (d) {
         d->cloud = c;
-        d->batch_rows = peri__min(PERI_BATCH, m->points);
         d->seen_slots = 16;
         while (d->seen_slots < 2 * l->groups) d->seen_slots *= 2;
         d->seen = (int32_t *)peri__new(&b->memory, d->seen_slots, sizeof *d->seen);
         if (d->seen && l->begin && l->first) status = peri__draft_lanes(d);
         if (status == PERI_OK) status = peri__keep_lanes(d);
-        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
         peri__delete(&b->memory, d->seen, d->seen_slots, sizeof *d->seen);
         peri__delete(&b->memory, d->column, d->capacity, sizeof *d->column);
         peri__delete(&b->memory, d, 1, sizeof *d);

@@ -49,7 +49,7 @@ static void peri__measure_row(const peri__model *m, int f32, int64_t i, peri__ro
 }
 #undef PERI_MEASURE
 
-/* Row i: ids ascending, and what each bond weighs. Valid while `row` and the model are. */
+/* Row i: ids, and what each bond weighs. Valid while `row` and the model are. */
 static void peri__read_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
     const size_t real = f32 ? sizeof(float) : sizeof(double);
     if (m->lanes.columns) {
@@ -59,11 +59,23 @@ static void peri__read_row(const peri__model *m, int f32, int64_t i, peri__row *
     row->count = m->count[i];
     row->first = m->start[i];
     row->ids = &m->ids[row->first];
+    if (m->order) {
+        for (int64_t k = 0; k < row->count; ++k) row->ids_room[k] = m->order[row->ids[k]];
+        row->ids = row->ids_room;
+    }
     row->weight = (const char *)m->weight + (size_t)row->first * real;
     row->back = (const char *)m->back + (size_t)row->first * real;
     row->part = m->part ? &m->part[row->first] : NULL;
     if (m->bond) row->bond = (const char *)m->bond + (size_t)row->first * real;
     else peri__measure_row(m, f32, i, row);
+}
+
+/* The bond of the row to the point of least id above `after`, or -1. */
+static int64_t peri__next_bond(const peri__row *row, int64_t after) {
+    int64_t next = -1;
+    for (int64_t k = 0; k < row->count; ++k)
+        if (row->ids[k] > after && (next < 0 || row->ids[k] < row->ids[next])) next = k;
+    return next;
 }
 
 /* Place of j in row i, or -1. */
