@@ -11,6 +11,12 @@
 #define PERI_INLINE static
 #endif
 
+#if defined(__GNUC__) || defined(__clang__)
+#define PERI_PREFETCH(address) __builtin_prefetch(address)
+#else
+#define PERI_PREFETCH(address) ((void)(address))
+#endif
+
 /* Kernels on lanes are loops that a compiler turns into vector instructions. Products and sums stay apart (no contraction), so that
    every instruction set gives the same bits. gcc gets its options here, whatever the user's flags; clang vectorises from -O2 on. On
    x86-64 the best instruction set is chosen at run time. Builds with gcc's address sanitizer take the plain text alone: vector code takes

@@ -303,7 +303,7 @@ static int peri__need_alive(peri_body *b) {
         peri__delete(&b->memory, columns, b->model->lanes.columns, sizeof *columns);
         return 0;
     }
-    for (int64_t g = 0; columns && g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, alive, columns);
+    if (columns) peri__whole_masks(b->model, columns);
     b->alive = alive;
     b->lanes_alive = columns;
     return 1;

@@ -81,6 +81,17 @@ static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *
         for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
 }
 
+/* Asks for what a pass over the list wants of the point four places on: places are not met in the order in which memory lies. */
+PERI_INLINE void PERI_FN(fetch_ahead)(const peri_body *b, int64_t place) {
+    const peri__model *m = b->model;
+    if (!m->order || place + 4 >= m->points) return;
+    const int64_t i = m->order[place + 4];
+    PERI_PREFETCH(&m->start[i]);
+    PERI_PREFETCH(&m->count[i]);
+    if (b->alive) PERI_PREFETCH(&b->alive[i * m->words]);
+    for (int d = 0; d < PERI_D; ++d) PERI_PREFETCH((const peri_r *)b->f + d * m->stride + i);
+}
+
 /* Rows by the list, or one by one where a bond is about to break. */
 static void PERI_FN(force_list)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = step->body->model;
@@ -88,6 +99,7 @@ static void PERI_FN(force_list)(const peri__step *step, int64_t begin, int64_t e
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         peri_r f[PERI_D];
+        PERI_FN(fetch_ahead)(step->body, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride + i];
         if (PERI_ON_LANES(m->lanes.isa, list_force, (step, k, f))) PERI_FN(force_rows)(step, i, i + 1, sums);
         else

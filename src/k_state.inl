@@ -163,6 +163,7 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
     for (int64_t k = begin; m->slots && k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         peri_r *force = (peri_r *)step->body->f + i, f[PERI_D];
+        PERI_FN(fetch_ahead)(step->body, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
         if (PERI_ON_LANES(m->lanes.isa, list_share, (step, k, f))) PERI_FN(share_rows)(step, i, i + 1, sums);
         else
@@ -403,6 +404,7 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
     for (int64_t k = begin; m->slots && k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         const peri_r *constant = (const peri_r *)b->constant + m->margin + i, press = constant[PERI__PRESS * m->stride];
+        PERI_FN(fetch_ahead)(b, k);
         ((peri_r *)b->response)[m->margin + i] =
             press == 0 ? 0 : press * (constant[PERI__DILATE * m->stride] * PERI_ON_LANES(m->lanes.isa, list_stretched, (b, k)));
     }

@@ -17,7 +17,7 @@ typedef struct peri__cloud {
     int64_t          cell_count;
     int32_t         *order;    /* [points] ids by place; the model has taken it where NULL                               */
     int32_t         *cell;     /* [points] scratch of sorting                                                            */
-    double          *placed;   /* [dim][points] x by place                                                               */
+    double          *placed;   /* [dim][points + PERI_NEAR_PIECE] x by place                                             */
     int32_t          isa;      /* see peri__isa                                                                          */
     int              weighs;   /* weights are made with the rows, see peri__write_families                                */
     double           even;     /* the volume of every point, or 0 where they differ                                      */

@@ -15,6 +15,7 @@
 #define PERI_BRICK 8         /* cells per edge of a brick                                                                 */
 #define PERI_RUNS 50         /* 5 x 5 lines of cells, each in two bricks at most                                          */
 #define PERI_NEAR_ROOM 1024  /* points tested at once                                                                     */
+#define PERI_NEAR_PIECE 8    /* what copies and vectors move at a time                                                    */
 #define PERI_COINCIDENT 1e-24 /* square of the distance below which points are at the same place                          */
 
 typedef struct peri__near { /* what may lie within reach of the points of a cell                                          */
@@ -22,15 +23,15 @@ typedef struct peri__near { /* what may lie within reach of the points of a cell
     int32_t runs, at;                 /* at: the run that comes next                                                      */
     int32_t from;                     /* the place in it                                                                  */
     int64_t count;                    /* points at hand:                                                                  */
-    int32_t place[PERI_NEAR_ROOM];
-    double  x[3][PERI_NEAR_ROOM];
-    double  square[PERI_NEAR_ROOM];   /* of the distance from the point asked about                                       */
-    int32_t hit[PERI_NEAR_ROOM + 8];  /* places of those within reach, and                                                */
-    double  length[PERI_NEAR_ROOM + 8]; /* the squares of their distances; vectors of 8 are written                        */
+    int32_t place[PERI_NEAR_ROOM + PERI_NEAR_PIECE];
+    double  x[3][PERI_NEAR_ROOM + PERI_NEAR_PIECE];
+    double  square[PERI_NEAR_ROOM + PERI_NEAR_PIECE]; /* of the distance from the point asked about                       */
+    int32_t hit[PERI_NEAR_ROOM + PERI_NEAR_PIECE];    /* places of those within reach, and                                */
+    double  length[PERI_NEAR_ROOM + PERI_NEAR_PIECE]; /* the squares of their distances                                  */
 } peri__near;
 
 /* Cell at `at` in the order of bricks. */
-static int64_t peri__rank_of(const int64_t *cells, const int64_t *at) {
+PERI_INLINE int64_t peri__rank_of(const int64_t *cells, const int64_t *at) {
     int64_t brick[3], edge[3];
     for (int d = 0; d < 3; ++d) {
         brick[d] = at[d] / PERI_BRICK * PERI_BRICK;
@@ -109,7 +110,7 @@ static void peri__placed_block(void *context, int64_t begin, int64_t end, peri__
     const int32_t dim = c->model->dim;
     (void)sums;
     for (int64_t p = begin; p < end; ++p)
-        for (int32_t d = 0; d < dim; ++d) c->placed[d * c->model->points + p] = c->x[(int64_t)c->order[p] * dim + d];
+        for (int32_t d = 0; d < dim; ++d) c->placed[d * (c->model->points + PERI_NEAR_PIECE) + p] = c->x[(int64_t)c->order[p] * dim + d];
 }
 
 /* Chooses the grid and sorts the points into it; within a cell by id. */
@@ -130,7 +131,7 @@ static int32_t peri__sort_cells(peri__cloud *c) {
     c->start[0] = 0;
     peri__delete(memory, c->cell, m->points, sizeof *c->cell);
     c->cell = NULL;
-    c->placed = (double *)peri__new(memory, m->points * m->dim, sizeof *c->placed);
+    c->placed = (double *)peri__new(memory, (m->points + PERI_NEAR_PIECE) * m->dim, sizeof *c->placed);
     if (!c->placed) return PERI_ERROR_MEMORY;
     peri__for_points(c->body, m->points, 4, peri__placed_block, c, NULL);
     return PERI_OK;
@@ -141,7 +142,7 @@ static void peri__free_cells(peri__cloud *c) {
     peri__delete(&m->memory, c->start, c->cell_count + 1, sizeof *c->start);
     if (m->order != c->order) peri__delete(&m->memory, c->order, m->points, sizeof *c->order);
     peri__delete(&m->memory, c->cell, m->points, sizeof *c->cell);
-    peri__delete(&m->memory, c->placed, m->points * m->dim, sizeof *c->placed);
+    peri__delete(&m->memory, c->placed, (m->points + PERI_NEAR_PIECE) * m->dim, sizeof *c->placed);
     c->start = c->order = c->cell = NULL;
     c->placed = NULL;
 }
@@ -178,13 +179,15 @@ static void peri__look_around(const peri__cloud *c, int64_t cell, peri__near *s)
 
 /* Takes the next points of the runs; 0 where there are none left. */
 static int64_t peri__next_near(const peri__cloud *c, peri__near *s) {
-    const int64_t points = c->model->points;
+    const int64_t stride = c->model->points + PERI_NEAR_PIECE;
     s->count = 0;
     while (s->at < s->runs && s->count < PERI_NEAR_ROOM) {
         const int32_t from = s->from, take = (int32_t)peri__min(s->run[s->at][1] - from, PERI_NEAR_ROOM - s->count);
-        for (int32_t d = 0; d < c->model->dim; ++d)
-            for (int32_t k = 0; k < take; ++k) s->x[d][s->count + k] = c->placed[d * points + from + k];
-        for (int32_t k = 0; k < take; ++k) s->place[s->count + k] = from + k;
+        for (int32_t k = 0; k < take; k += PERI_NEAR_PIECE) { /* whole pieces: what is too much is written over or not looked at */
+            for (int32_t d = 0; d < c->model->dim; ++d)
+                memcpy(&s->x[d][s->count + k], &c->placed[d * stride + from + k], PERI_NEAR_PIECE * sizeof(double));
+            for (int32_t n = 0; n < PERI_NEAR_PIECE; ++n) s->place[s->count + k + n] = from + k + n;
+        }
         s->count += take;
         s->from += take;
         if (s->from == s->run[s->at][1] && ++s->at < s->runs) s->from = s->run[s->at][0];
@@ -276,7 +279,7 @@ static int64_t peri__keep_family(const peri__cloud *c, peri__near *s, int64_t ta
 }
 
 static void peri__place_of(const peri__cloud *c, int64_t place, double *x) {
-    for (int32_t d = 0; d < c->model->dim; ++d) x[d] = c->placed[d * c->model->points + place];
+    for (int32_t d = 0; d < c->model->dim; ++d) x[d] = c->placed[d * (c->model->points + PERI_NEAR_PIECE) + place];
 }
 
 /* Row of a point, ids in the order of places: up to `room` of them are written. Returns their number. */
