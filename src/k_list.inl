@@ -62,8 +62,8 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(const PERI_VECTOR *sum
     return lane[0];
 }
 
-/* Adds the force of all live bonds of the point at a place to f, all points being of one model. Returns nonzero where a bond comes near its critical
-   stretch; f is then void. `model` and `linear` are constants where this is inlined. */
+/* Adds the force of all live bonds of the point at a place to f, all points being of one model. Returns nonzero where a bond comes near its
+   critical stretch; f is then void. `model` and `linear` are constants where this is inlined. */
 PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t place, peri_r *f, const int model,
                                                           const int linear) {
     PERI_NO_CONTRACTION

@@ -10,7 +10,7 @@ static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
     else ((double *)array)[at] = value;
 }
 
-static double peri__get_real(const void *array, int32_t f32, int64_t at) {
+PERI_INLINE double peri__get_real(const void *array, int32_t f32, int64_t at) {
     return f32 ? (double)((const float *)array)[at] : ((const double *)array)[at];
 }
 
@@ -206,7 +206,8 @@ static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *
     const peri__model *m = c->model;
     const double own = 2.0 * t->rate / m->rho[m->material[i]];
     if (!(own <= *rate)) *rate = own;
-    return t->blurred == 0 && t->total > 0.0 && peri__finite(t->total) && (m->laws[m->material[i]].model == PERI_BOND_BASED || t->stiff > 0.0);
+    return t->blurred == 0 && t->total > 0.0 && peri__finite(t->total)
+        && (m->laws[m->material[i]].model == PERI_BOND_BASED || t->stiff > 0.0);
 }
 
 /* ---- weights of any rule, of the list ----------------------------------------------------------------------------- */

@@ -33,10 +33,12 @@ static void peri__expand_row(const peri__model *m, int f32, int64_t i, peri__row
 
 /* |xi| of the bonds of row i, from the places of points. Seen from either end the same, to the last bit. */
 #define PERI_MEASURE(real, room, root)                                                                                 \
+    const real *x = (const real *)m->x, *y = x + m->stride, *z = m->dim == 3 ? y + m->stride : y;                      \
+    const real xi = x[i], yi = y[i], zi = z[i];                                                                        \
     for (int64_t k = 0; k < row->count; ++k) {                                                                         \
-        const real *x = (const real *)m->x;                                                                            \
-        real square = 0;                                                                                               \
-        for (int32_t d = 0; d < m->dim; ++d, x += m->stride) square += (x[row->ids[k]] - x[i]) * (x[row->ids[k]] - x[i]); \
+        const int32_t j = row->ids[k];                                                                                 \
+        real square = (x[j] - xi) * (x[j] - xi) + (y[j] - yi) * (y[j] - yi);                                           \
+        if (m->dim == 3) square += (z[j] - zi) * (z[j] - zi);                                                          \
         room[k] = root(square);                                                                                        \
     }
 static void peri__measure_row(const peri__model *m, int f32, int64_t i, peri__row *row) {
