@@ -161,7 +161,7 @@ PERI_TALLY(plain, PERI_VECTOR_CODE, 1, PERI_TALLY_LOAD, PERI_TALLY_STORE, sqrt)
 #undef PERI_TALLY
 
 /* Weights of the hits of point i, entries `at` and on; taken of them. */
-static void peri__weigh_hits(const peri__cloud *c, peri__near *s, int64_t i, int64_t taken, int64_t at, peri__tally *t) {
+PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *s, int64_t i, int64_t taken, int64_t at, peri__tally *t) {
     const peri__model *m = c->model;
     const peri_body_desc *desc = &c->body->desc;
     const int64_t whole = (taken + PERI_TALLY_LANES - 1) / PERI_TALLY_LANES * PERI_TALLY_LANES;

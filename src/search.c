@@ -149,9 +149,30 @@ static void peri__free_cells(peri__cloud *c) {
 
 /* ---- the test ----------------------------------------------------------------------------------------------------- */
 
+/* Adds the runs of places in the cells from lo to hi of the brick whose first cell is at b. */
+static void peri__look_into(const peri__cloud *c, const int64_t *b, const int64_t *lo, const int64_t *hi, peri__near *s) {
+    int64_t from[3], to[3], edge[2];
+    for (int d = 0; d < 3; ++d) {
+        from[d] = b[d] > lo[d] ? b[d] : lo[d];
+        to[d] = peri__min(hi[d], b[d] + PERI_BRICK - 1);
+        if (d < 2) edge[d] = peri__min(PERI_BRICK, c->cells[d] - b[d]);
+    }
+    for (int64_t z = from[2], layer = peri__rank_of(c->cells, from); z <= to[2]; ++z, layer += edge[1] * edge[0])
+        for (int64_t y = from[1], line = layer; y <= to[1]; ++y, line += edge[0]) {
+            const int32_t begin = c->start[line], end = c->start[line + to[0] - from[0] + 1];
+            if (begin == end) continue;
+            if (s->runs > 0 && s->run[s->runs - 1][1] == begin) {
+                s->run[s->runs - 1][1] = end;
+                continue;
+            }
+            s->run[s->runs][0] = begin;
+            s->run[s->runs++][1] = end;
+        }
+}
+
 /* The runs of places in the cells about a cell. */
 static void peri__look_around(const peri__cloud *c, int64_t cell, peri__near *s) {
-    int64_t at[3], lo[3], hi[3], b[3], z, y;
+    int64_t at[3], lo[3], hi[3], b[3];
     peri__cell_at(c->cells, cell, at);
     for (int d = 0; d < 3; ++d) {
         lo[d] = at[d] > PERI_CELL_REACH ? at[d] - PERI_CELL_REACH : 0;
@@ -161,19 +182,7 @@ static void peri__look_around(const peri__cloud *c, int64_t cell, peri__near *s)
     for (b[2] = lo[2] / PERI_BRICK * PERI_BRICK; b[2] <= hi[2]; b[2] += PERI_BRICK)
         for (b[1] = lo[1] / PERI_BRICK * PERI_BRICK; b[1] <= hi[1]; b[1] += PERI_BRICK)
             for (b[0] = lo[0] / PERI_BRICK * PERI_BRICK; b[0] <= hi[0]; b[0] += PERI_BRICK)
-                for (z = b[2] > lo[2] ? b[2] : lo[2]; z <= hi[2] && z < b[2] + PERI_BRICK; ++z)
-                    for (y = b[1] > lo[1] ? b[1] : lo[1]; y <= hi[1] && y < b[1] + PERI_BRICK; ++y) {
-                        const int64_t first[3] = { b[0] > lo[0] ? b[0] : lo[0], y, z };
-                        const int64_t rank = peri__rank_of(c->cells, first), last = peri__min(hi[0], b[0] + PERI_BRICK - 1);
-                        const int32_t begin = c->start[rank], end = c->start[rank + last - first[0] + 1];
-                        if (begin == end) continue;
-                        if (s->runs > 0 && s->run[s->runs - 1][1] == begin) {
-                            s->run[s->runs - 1][1] = end;
-                            continue;
-                        }
-                        s->run[s->runs][0] = begin;
-                        s->run[s->runs++][1] = end;
-                    }
+                peri__look_into(c, b, lo, hi, s);
     s->from = s->run[0][0];
 }
 
@@ -195,16 +204,16 @@ static int64_t peri__next_near(const peri__cloud *c, peri__near *s) {
     return s->count;
 }
 
-/* Puts those within reach2 of x, but for place `own`, into hit and length, and returns their number; *same: how many, itself included, are
-   where x is. The squares are the same from either end, to the last bit. */
+/* See peri__measure_near. The squares are the same from either end, to the last bit. */
 #define PERI_TEST_NEAR(isa, target)                                                                                    \
     target static int64_t peri__measure_near_##isa(peri__near *s, const double *x, int32_t dim, double reach2, int64_t *same) { \
         PERI_NO_CONTRACTION                                                                                            \
         const int64_t count = s->count;                                                                                \
+        const double a = x[0], b = x[1], c = dim == 3 ? x[2] : 0.0;                                                    \
         int64_t within = 0, close = 0;                                                                                 \
         for (int64_t k = 0; k < count; ++k) {                                                                          \
-            double square = (s->x[0][k] - x[0]) * (s->x[0][k] - x[0]) + (s->x[1][k] - x[1]) * (s->x[1][k] - x[1]);     \
-            if (dim == 3) square += (s->x[2][k] - x[2]) * (s->x[2][k] - x[2]);                                         \
+            double square = (s->x[0][k] - a) * (s->x[0][k] - a) + (s->x[1][k] - b) * (s->x[1][k] - b);                 \
+            if (dim == 3) square += (s->x[2][k] - c) * (s->x[2][k] - c);                                               \
             s->square[k] = square;                                                                                     \
             within += square <= reach2;                                                                                \
             close += square < PERI_COINCIDENT;                                                                         \
