@@ -444,6 +444,58 @@ static void lattices(void) {
         }
 }
 
+/* Groups of a lattice with the same columns share the constants of their law, and bounds of the frequency are taken by columns, as long as
+   all bonds are whole. Truth: the constants of each point by itself, which the textbook kernel (desc.reference) uses on rows. */
+static void constants_shared(void) {
+    static const int32_t models[3] = { PERI_LPS, PERI_OTERKUS, PERI_CORRESPONDENCE };
+    static double u[3 * N_MAX], force[2][3 * N_MAX];
+    int dim, k, ball;
+    for (k = 0; k < 12; ++k) {
+        double step[2][2], largest = 0.0, apart = 0.0;
+        int64_t n = 0, i;
+        int reference;
+        dim = 2 + k / 6;
+        ball = k / 3 % 2;
+        for (reference = 0; reference < 2; ++reference) {
+            const double lo[3] = { 0, 0, 0 }, hi[3] = { dim == 2 ? 37.0 : 13.0, dim == 2 ? 41.0 : 14.0, 12 }, centre[3] = { 0.1, 0.2, 0.3 };
+            const double from[3] = { 0, 3.1, 0 }, to[3] = { 5, 3.1, 0 }, up[3] = { 0, 1, 0 };
+            peri_body_desc d;
+            peri_material m;
+            peri_body *body = NULL;
+            peri_body_desc_init(&d);
+            d.space = dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS;
+            d.horizon = 2.3;
+            d.threads = 1;
+            d.reference = reference;
+            CHECK(peri_body_create(&d, &body, NULL) == PERI_OK);
+            peri_material_init(&m, models[k % 3]);
+            m.young = m.density = 1.0;
+            m.poisson = 0.2;
+            MUST(body, peri_add_material(body, &m));
+            if (ball) MUST(body, peri_add_ball(body, 0, centre, dim == 2 ? 20.0 : 7.5, 1.0));
+            else MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
+            MUST(body, peri_build(body));
+            n = peri_point_count(body);
+            if (n > N_MAX) exit(3);
+            for (i = 0; i < n * dim; ++i) u[i] = 1e-2 * sin(0.37 * (double)i);
+            MUST(body, peri_write(body, PERI_DISPLACEMENT, u, n * dim));
+            MUST(body, peri_read(body, PERI_FORCE_DENSITY, force[reference], n * dim));
+            step[reference][0] = peri_stable_step(body);
+            if (dim == 2) MUST(body, peri_cut_segment(body, from, to)); /* and when they are whole no more */
+            else MUST(body, peri_cut_disc(body, from, up, 4.0));
+            step[reference][1] = peri_stable_step(body);
+            peri_body_destroy(body);
+        }
+        for (i = 0; i < n * dim; ++i) {
+            largest = fmax(largest, fabs(force[1][i]));
+            apart = fmax(apart, fabs(force[0][i] - force[1][i]));
+        }
+        CHECK(largest > 0.0 && apart <= 1e-11 * largest);
+        CHECK_NEAR(step[0][0], step[1][0], 1e-12, 0);
+        CHECK_NEAR(step[0][1], step[1][1], 1e-12, 0);
+    }
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(densities);
@@ -456,5 +508,6 @@ int main(int argc, char **argv) {
     RUN(pairs_found);
     RUN(any_threads);
     RUN(lattices);
+    RUN(constants_shared);
     return test_end("test_search");
 }
