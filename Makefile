@@ -66,10 +66,11 @@ validate:
 	@$(MAKE) --no-print-directory -j2 programs
 	@sh tests/run.sh --long
 
-bench: build/bench/bench build/bench/statics
+bench: build/bench/bench build/bench/statics build/bench/search
 	@mkdir -p out
 	build/bench/bench
 	build/bench/statics
+	build/bench/search
 
 dist: build/dist/peri.h
 build/dist/peri.h: $(SOURCES) tools/dist.awk

@@ -30,8 +30,9 @@
 #include "src/points.c"     /* boxes, balls, shapes, arrays    -> points and cells                         */
 #include "src/overlap.c"    /* disk and polygon, ball and box  -> exact partial areas and volumes          */
 #include "src/parts.c"      /* a cell and a horizon            -> the part within                          */
+#include "src/search.c"     /* points                          -> those within reach of each other         */
+#include "src/quadrature.c" /* bonds                           -> lengths and weights                      */
 #include "src/neighbors.c"  /* points                          -> families (Ibond)                         */
-#include "src/quadrature.c" /* families                        -> lengths and weights of bonds             */
 #include "src/correction.c" /* weights                         -> weights that surfaces need               */
 #include "src/lanes.c"      /* points of lattices              -> families by columns, Ibond compressed     */
 #include "src/rows.c"       /* the family of a point, wherever it is stored                                */

@@ -11,6 +11,12 @@
 #define PERI_INLINE static
 #endif
 
+#if defined(__GNUC__) || defined(__clang__)
+#define PERI_PREFETCH(address) __builtin_prefetch(address)
+#else
+#define PERI_PREFETCH(address) ((void)(address))
+#endif
+
 /* Kernels on columns and on the list work on vectors (k_vector.inl): on x86-64 with the best instruction set, chosen at run time; elsewhere
    by plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the same bits. gcc gets
    its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which costs half the speed

@@ -143,11 +143,12 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
 
 /* Families and weights by the list. */
 static int32_t peri__fill_list(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
-    int32_t status = b->setup.ibond ? peri__take_families(b, cloud) : peri__find_families(b, cloud, sums);
-    if (status == PERI_OK) status = peri__check_families(b, m);
+    const int corrects = peri__corrects(b, m);
+    int32_t status = b->setup.ibond ? peri__take_families(b, cloud) : peri__write_families(b, cloud, corrects);
+    if (status == PERI_OK && b->setup.ibond) status = peri__check_families(b, m);
     if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
     if (status == PERI_OK) status = peri__correct(b, cloud, sums);
-    if (status < 0 || m->states) return status;
+    if (status < 0 || m->states || (cloud->weighs && !corrects)) return status;
     peri__for_points(b, m->points, m->width, peri__rate_block, cloud, sums);
     for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].a > m->rate) m->rate = sums[k].a;
@@ -157,13 +158,15 @@ static int32_t peri__fill_list(peri_body *b, peri__model *m, peri__cloud *cloud,
 /* Families and weights: by columns from the points, or by the list and, where that pays, columns from it. */
 static int32_t peri__fill_families(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
     int32_t listed = b->setup.ibond || peri__corrects(b, m), status = PERI_OK, made = 0;
-    if (!b->setup.ibond) status = peri__sort_cloud(b, cloud);
+    if (!b->setup.ibond) status = peri__count_families(b, cloud);
+    if (status == PERI_OK && !b->setup.ibond) status = peri__check_families(b, m);
     if (status == PERI_OK && !listed) status = made = peri__build_lanes(b, cloud);
     if (status < 0 || made) return status < 0 ? status : PERI_OK;
     status = peri__fill_list(b, m, cloud, sums);
     if (status < 0 || !listed) return status;
     made = peri__build_lanes(b, cloud);
     if (made > 0) peri__free_list(b, m);
+    if (made == 0 && !b->setup.ibond) made = peri__place_rows(b, cloud);
     return made < 0 ? made : PERI_OK;
 }
 
@@ -200,10 +203,13 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
             double edge = b->setup.pieces[p].cell[d] / m->length;
             if (edge > cloud->largest) cloud->largest = edge;
         }
-    for (int64_t i = 0; i < m->points; ++i) {
-        double edge = pow(m->volume[i], 1.0 / dim);
-        if (edge > cloud->largest) cloud->largest = edge;
+    double most = m->volume[0];
+    cloud->even = most;
+    for (int64_t i = 1; i < m->points; ++i) {
+        if (m->volume[i] != cloud->even) cloud->even = 0.0;
+        if (m->volume[i] > most) most = m->volume[i];
     }
+    if (pow(most, 1.0 / dim) > cloud->largest) cloud->largest = pow(most, 1.0 / dim);
     peri__gauss(cloud->gauss_x, cloud->gauss_w);
 
     status = peri__fill_pairs(b, m);
@@ -273,12 +279,17 @@ static void peri__free_state(peri_body *b) {
     b->set_capacity = b->load_capacity = b->obstacle_capacity = 0;
 }
 
-/* One flag per bond, all set: n bonds of row i in the first n bits, nothing in the rest. */
+/* Sets one flag per bond: n bonds of row i in the first n bits, nothing in the rest. */
+static void peri__set_flags(const peri__model *m, uint32_t *flags) {
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int32_t w = 0, left = m->count[i]; w < m->words; ++w, left -= 32)
+            flags[i * m->words + w] = left >= 32 ? ~(uint32_t)0 : left > 0 ? ((uint32_t)1 << left) - 1 : 0;
+}
+
 static uint32_t *peri__new_flags(const peri_body *b) {
     const peri__model *m = b->model;
     uint32_t *flags = (uint32_t *)peri__new(&b->memory, m->points * m->words, sizeof *flags);
-    for (int64_t i = 0; flags && i < m->points; ++i)
-        for (int32_t k = 0; k < m->count[i]; ++k) flags[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
+    if (flags) peri__set_flags(m, flags);
     return flags;
 }
 
@@ -295,7 +306,7 @@ static int peri__need_alive(peri_body *b) {
         peri__delete(&b->memory, columns, b->model->lanes.columns, sizeof *columns);
         return 0;
     }
-    for (int64_t g = 0; columns && g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, alive, columns);
+    if (columns) peri__whole_masks(b->model, columns);
     b->alive = alive;
     b->lanes_alive = columns;
     return 1;
@@ -341,8 +352,7 @@ static int32_t peri__new_state(peri_body *b) {
 
 static void peri__free_cloud(const peri_body *b, peri__cloud *cloud, int64_t points) {
     peri__delete(&b->memory, cloud->x, points * b->dim, sizeof(double));
-    peri__delete(&b->memory, cloud->start, cloud->cell_count + 1, sizeof(int32_t));
-    peri__delete(&b->memory, cloud->order, points, sizeof(int32_t));
+    peri__free_cells(cloud);
 }
 
 PERI_API int32_t peri_build(peri_body *b) {
@@ -414,8 +424,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
     memset(b->f, 0, vector);
     if (b->push) memset(b->push, 0, (size_t)(m->stride * m->dim) * sizeof *b->push);
     if (b->alive) {
-        for (int64_t i = 0; i < m->points; ++i)
-            for (int32_t k = 0; k < m->count[i]; ++k) b->alive[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
+        peri__set_flags(m, b->alive);
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
         b->lanes_stale = 1;
         b->stale = m->states;

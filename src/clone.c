@@ -166,6 +166,7 @@ PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, 
         peri__row row;
         peri__read_row(b, i, &row);
         memcpy(rows, row.ids, (size_t)row.count * sizeof *rows);
+        if (b->model->order) peri__sort_row(rows, row.count);
         for (int64_t k = row.count; k < b->model->width; ++k) rows[k] = (int32_t)i;
         rows += b->model->width;
     }

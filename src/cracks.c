@@ -403,9 +403,9 @@ static void peri__report_breaks(peri_body *b) {
         if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
         peri__row row;
         peri__read_row(b, i, &row);
-        for (int64_t k = 0; k < row.count; ++k) {
+        for (int64_t k = peri__next_bond(&row, i); k >= 0; k = peri__next_bond(&row, row.ids[k])) {
             int64_t at = i * m->words + k / 32, j = row.ids[k];
-            if (j < i || !((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
+            if (!((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
             b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, &row, k));
         }
     }

@@ -53,6 +53,22 @@ static double peri__influence(const peri_body_desc *desc, double q, double edge)
     }
 }
 
+/* The same of count values in place, to the last bit. */
+static void peri__influences(const peri_body_desc *desc, double *q, int64_t count, double edge) {
+    const peri__polynomial *p = peri__polynomial_of(desc->influence);
+    if (!p || desc->influence == PERI_INFLUENCE_CONSTANT) {
+        for (int64_t k = 0; k < count; ++k) q[k] = peri__influence(desc, q[k], edge);
+        return;
+    }
+    for (int64_t k = 0; k < count; ++k) {
+        const double t = q[k] < 1.0 ? q[k] : 1.0;
+        double sum = 0.0;
+        for (int n = p->rest - 1; n >= 0; --n) sum = sum * t + p->b[n];
+        for (int n = 0; n < p->edge; ++n) sum *= 1.0 - t;
+        q[k] = q[k] <= 1.0 + PERI_HORIZON_TOLERANCE ? sum : 0.0;
+    }
+}
+
 static double peri__moment_by_panels(const peri_body_desc *desc, int power, double edge, int panels) {
     double x[PERI_GAUSS], w[PERI_GAUSS], sum = 0.0;
     peri__gauss(x, w);

@@ -8,8 +8,9 @@ static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums 
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
     const peri_b *p = (const peri_b *)b->response + m->margin, *q = (const peri_b *)b->constant + m->margin + PERI__SPRING * m->stride;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i) {
-        peri_r *record = (peri_r *)b->pack + i * m->slots;
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        peri_r *record = (peri_r *)b->pack + k * m->slots;
         for (int d = 0; d < PERI_D; ++d) {
             record[d] = x[d * m->stride + i];
             record[PERI_D + d] = u[d * m->stride + i];
@@ -28,11 +29,12 @@ static void PERI_FN(pack_response)(void *context, int64_t begin, int64_t end, pe
     const peri__model *m = b->model;
     const peri_b *response = (const peri_b *)b->response + m->margin, *constant = (const peri_b *)b->constant + m->margin;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i) {
-        peri_r *record = (peri_r *)b->pack + i * m->slots + 2 * PERI_D;
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        peri_r *record = (peri_r *)b->pack + k * m->slots + 2 * PERI_D;
         record[0] = response[i];
         if (!m->tensors) continue;
-        for (int k = 0; k < PERI_D * PERI_D; ++k) record[k] = response[(1 + k) * m->stride + i];
+        for (int q = 0; q < PERI_D * PERI_D; ++q) record[q] = response[(1 + q) * m->stride + i];
         record[PERI_D * PERI_D] = constant[PERI__VECTOR * m->stride + i];
     }
 }
@@ -83,6 +85,17 @@ static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *
         for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
 }
 
+/* Asks for what a pass over the list wants of the point four places on: places are not met in the order in which memory lies. */
+PERI_INLINE void PERI_FN(fetch_ahead)(const peri_body *b, int64_t place) {
+    const peri__model *m = b->model;
+    if (!m->order || place + 4 >= m->points) return;
+    const int64_t i = m->order[place + 4];
+    PERI_PREFETCH(&m->start[i]);
+    PERI_PREFETCH(&m->count[i]);
+    if (b->alive) PERI_PREFETCH(&b->alive[i * m->words]);
+    for (int d = 0; d < PERI_D; ++d) PERI_PREFETCH((const peri_r *)b->f + d * m->stride + i);
+}
+
 /* Rows by the list, or one by one where a bond is about to break. */
 static void PERI_FN(force_list)(const peri__step *step, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = step->body->model;
@@ -90,8 +103,9 @@ static void PERI_FN(force_list)(const peri__step *step, int64_t begin, int64_t e
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         peri_r f[PERI_D];
+        PERI_FN(fetch_ahead)(step->body, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride + i];
-        if (PERI_ON_LANES(m->lanes.isa, list_force, (step, i, f))) PERI_FN(force_rows)(step, i, i + 1, sums);
+        if (PERI_ON_LANES(m->lanes.isa, list_force, (step, k, f))) PERI_FN(force_rows)(step, i, i + 1, sums);
         else
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride + i] = f[d];
     }

@@ -62,17 +62,17 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(const PERI_STATE *sum)
     return lane[0];
 }
 
-/* Adds the force of all live bonds of point i to f, all points being of one model. Returns nonzero where a bond comes near its critical
-   stretch; f is then void. `model` is a constant where this is inlined, and `linear` where speed matters. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t i, peri_r *f, const int model,
+/* Adds the force of all live bonds of the point at a place to f, all points being of one model. Returns nonzero where a bond comes near its
+   critical stretch; f is then void. `model` is a constant where this is inlined, and `linear` where speed matters. */
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t place, peri_r *f, const int model,
                                                           const int linear) {
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->count[i];
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const int states = model != PERI_BOND_BASED, mixed = PERI_D == 2 ? m->slots > 4 : m->materials > 1;
     const int32_t slots = states || PERI_D == 3 ? 8 : m->slots;
-    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + i * slots;
+    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + place * slots;
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
     const PERI_VECTOR limit = PERI_V(set1)((peri_b)(step->breaking ? peri__least_stretch(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER));
     const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
@@ -128,23 +128,23 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     return hit;
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_force)(const peri__step *step, int64_t i, peri_r *f) {
-    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(list_row)(step, i, f, PERI_BOND_BASED, 1)
-                                                    : PERI_LANES_FN(list_row)(step, i, f, PERI_BOND_BASED, 0);
+PERI_LANES_TARGET static int PERI_LANES_FN(list_force)(const peri__step *step, int64_t place, peri_r *f) {
+    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 1)
+                                                    : PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 0);
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, int64_t i, peri_r *f) {
+PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, int64_t place, peri_r *f) {
     const int linear = step->body->desc.geometry == PERI_LINEAR;
     if (step->body->model->ordinary == PERI_LPS)
-        return linear ? PERI_LANES_FN(list_row)(step, i, f, PERI_LPS, 1) : PERI_LANES_FN(list_row)(step, i, f, PERI_LPS, 0);
-    return PERI_LANES_FN(list_row)(step, i, f, PERI_OTERKUS, linear);
+        return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 1) : PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 0);
+    return PERI_LANES_FN(list_row)(step, place, f, PERI_OTERKUS, linear);
 }
 
-/* sum w g e V of point i. */
-PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b, int64_t i, const int model, const int linear) {
+/* sum w g e V of the point at a place. */
+PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b, int64_t place, const int model, const int linear) {
     PERI_NO_CONTRACTION
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->count[i];
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const peri_r *pack = (const peri_r *)b->pack;
     const peri_b *weights = (const peri_b *)m->weight + first;
     const int32_t *ids = &m->ids[first];
@@ -153,7 +153,7 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     peri_r own[8] = { 0 };
     const peri_r none[PERI_WIDTH] = { 0 };
     for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) sum[n] = PERI_LANES_FN(take)(none);
-    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[i * 8 + d];
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * 8 + d];
     PERI_LANES_FN(chunk)(next, pack, 8, ids, own, linear);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
@@ -174,11 +174,11 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     return PERI_LANES_FN(added)(sum);
 }
 
-PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b, int64_t i) {
+PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b, int64_t place) {
     const int linear = b->desc.geometry == PERI_LINEAR;
     if (b->model->ordinary == PERI_LPS)
-        return linear ? PERI_LANES_FN(list_sum)(b, i, PERI_LPS, 1) : PERI_LANES_FN(list_sum)(b, i, PERI_LPS, 0);
-    return PERI_LANES_FN(list_sum)(b, i, PERI_OTERKUS, linear);
+        return linear ? PERI_LANES_FN(list_sum)(b, place, PERI_LPS, 1) : PERI_LANES_FN(list_sum)(b, place, PERI_LPS, 0);
+    return PERI_LANES_FN(list_sum)(b, place, PERI_OTERKUS, linear);
 }
 
 /* ---- correspondence ----------------------------------------------------------------------------------------------- */
@@ -186,17 +186,17 @@ PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b
 #define PERI_TENSOR_SLOTS (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                              */
 #define PERI_PIECES (PERI_CHUNK / PERI_WIDTH)
 
-/* sum w eta xi V of point i. */
-PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int64_t i, peri_r shape[PERI_D][PERI_D]) {
+/* sum w eta xi V of the point at a place. */
+PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int64_t place, peri_r shape[PERI_D][PERI_D]) {
     PERI_NO_CONTRACTION
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->count[i];
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const peri_r *pack = (const peri_r *)b->pack, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first;
     peri_r own[8] = { 0 };
     PERI_STATE sum[PERI_D][PERI_D][PERI_PIECES];
     PERI_VECTOR got[8];
-    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[i * PERI_TENSOR_SLOTS + d];
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * PERI_TENSOR_SLOTS + d];
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
             for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none);
@@ -218,15 +218,15 @@ PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int6
         for (int d = 0; d < PERI_D; ++d) shape[a][d] = PERI_LANES_FN(added)(sum[a][d]);
 }
 
-/* Adds the force of all live bonds of correspondence point i to f, (w_ij Q_i + w_ji Q_j) xi + (w_ij k_i + w_ji k_j) eta; no central bonds.
-   Returns nonzero where a bond comes near its critical stretch; f is then void. */
-PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *step, int64_t i, peri_r *f) {
+/* Adds the force of all live bonds of the correspondence point i at a place to f, (w_ij Q_i + w_ji Q_j) xi + (w_ij k_i + w_ji k_j) eta; no
+   central bonds. Returns nonzero where a bond comes near its critical stretch; f is then void. */
+PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *step, int64_t place, peri_r *f) {
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const int64_t first = m->start[i], count = m->count[i];
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + i * PERI_TENSOR_SLOTS, none[PERI_WIDTH] = { 0 };
+    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + place * PERI_TENSOR_SLOTS, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
     const peri_b s0 = (peri_b)(step->breaking ? peri__least_stretch(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER);
     const PERI_VECTOR limit = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */

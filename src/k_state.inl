@@ -166,11 +166,12 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
     for (int64_t k = begin; m->slots && k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         peri_r *force = (peri_r *)step->body->f + i, f[PERI_D];
+        PERI_FN(fetch_ahead)(step->body, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
         int by_row = m->tensors && step->body->central[i / PERI_LANES];
         if (!by_row)
-            by_row = m->tensors ? PERI_ON_LANES(m->lanes.isa, list_tensor, (step, i, f))
-                                : PERI_ON_LANES(m->lanes.isa, list_share, (step, i, f));
+            by_row = m->tensors ? PERI_ON_LANES(m->lanes.isa, list_tensor, (step, k, f))
+                                : PERI_ON_LANES(m->lanes.isa, list_share, (step, k, f));
         if (by_row) PERI_FN(share_rows)(step, i, i + 1, sums);
         else
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride] = f[d];
@@ -410,14 +411,15 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
     const peri__model *m = b->model;
     for (int64_t k = begin; m->slots && k < end; ++k) {
         const int64_t i = peri__nth(m, k);
+        PERI_FN(fetch_ahead)(b, k);
         if (m->tensors) {
             peri_r n[PERI_D][PERI_D];
-            PERI_ON_LANES(m->lanes.isa, list_shape, (b, i, n));
+            PERI_ON_LANES(m->lanes.isa, list_shape, (b, k, n));
             PERI_FN(respond_tensor)(b, i, n);
             continue;
         }
         const peri_b *constant = (const peri_b *)b->constant + m->margin + i, press = constant[PERI__PRESS * m->stride];
-        const peri_r sum = press == 0 ? 0 : PERI_ON_LANES(m->lanes.isa, list_stretched, (b, i));
+        const peri_r sum = press == 0 ? 0 : PERI_ON_LANES(m->lanes.isa, list_stretched, (b, k));
         ((peri_b *)b->response)[m->margin + i] = (peri_b)(press * (constant[PERI__DILATE * m->stride] * sum));
     }
     if (m->slots) return;

@@ -17,7 +17,8 @@
 #define PERI_VECTOR_SLOTS 4096    /* open addressing                                                                     */
 #define PERI_VECTOR_GRAIN 1.5e-11 /* bonds nearer than this, in spacings and weights, are one: far above rounding        */
 #define PERI_VECTOR_KEY 6
-#define PERI_BATCH 2048           /* points whose families are searched at once, at most                                 */
+#define PERI_KINDS 1024           /* a power of 2                                                                        */
+#define PERI_KIND_ROOM 8
 
 typedef struct peri__vector { /* a row of the table, its key in grains, and the first bond that made it                   */
     int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j; the pair of materials                                       */
@@ -41,8 +42,11 @@ typedef struct peri__draft { /* what building needs and drops                   
     int64_t       columns, capacity;
     int32_t      *seen;           /* [seen_slots] open addressing: a group with such columns + 1; 0: free                */
     int64_t       seen_slots;     /* a power of 2                                                                        */
-    int32_t      *batch;          /* [batch_rows][batch_room] families that were searched                                */
-    int64_t       batch_rows, batch_room, batch_first, batch_points;
+    int           alike;          /* bonds with the same vector have the same weight                                     */
+    int32_t       kind[PERI_KINDS][PERI_KIND_ROOM]; /* group + 1 by the sizes of its families, the last first; 0: free    */
+    int32_t      *like;           /* those of the group at hand; NULL where they serve nothing                           */
+    int32_t       ids[PERI_VECTOR_LIMIT]; /* a family that was searched                                                  */
+    peri__near    near;
     peri__parts   parts;
 } peri__draft;
 
@@ -217,39 +221,6 @@ static int32_t peri__draft_group(peri__draft *d, int64_t g) {
     return PERI_OK;
 }
 
-static void peri__batch_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__draft *d = (const peri__draft *)context;
-    (void)sums;
-    for (int64_t k = begin; k < end; ++k) {
-        int32_t *row = &d->batch[k * d->batch_room];
-        const int64_t i = d->batch_first + k, count = peri__visit_family(d->cloud, i, row, d->batch_room);
-        d->cloud->model->count[i] = (int32_t)count;
-        if (count > 0 && count <= d->batch_room) peri__sort_row(row, count);
-    }
-}
-
-/* Searches the families of the next points, in room that all of them fit. PERI_ERROR_FAMILY where one is empty or too large. */
-static int32_t peri__next_batch(peri__draft *d) {
-    const peri_body *b = d->cloud->body;
-    const peri__model *m = d->cloud->model;
-    d->batch_first += d->batch_points;
-    /* a cloud shows within the first block */
-    d->batch_points = peri__min(d->batch_first == 0 ? PERI_BLOCK : d->batch_rows, m->points - d->batch_first);
-    for (;;) {
-        int32_t largest = 0;
-        if (d->batch) peri__for_points(b, d->batch_points, 256, peri__batch_block, d, NULL);
-        for (int64_t i = d->batch_first; d->batch && i < d->batch_first + d->batch_points; ++i) {
-            if (m->count[i] <= 0 || m->count[i] > PERI_VECTOR_LIMIT) return PERI_ERROR_FAMILY;
-            if (m->count[i] > largest) largest = m->count[i];
-        }
-        if (d->batch && largest <= d->batch_room) return PERI_OK;
-        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
-        while (d->batch_room < largest || d->batch_room < 32) d->batch_room += 32;
-        d->batch = (int32_t *)peri__new(&b->memory, d->batch_rows * d->batch_room, sizeof *d->batch);
-        if (!d->batch) return PERI_ERROR_MEMORY;
-    }
-}
-
 /* Units of the grains of weights, by the first family. */
 static void peri__choose_units(peri__draft *d, const int32_t *ids, int64_t count) {
     const peri__model *m = d->cloud->model;
@@ -264,21 +235,106 @@ static void peri__choose_units(peri__draft *d, const int32_t *ids, int64_t count
     }
 }
 
+/* How many of the differences there - here are not bit by bit as wanted. */
+#define PERI_UNLIKE(isa, target)                                                                                       \
+    target static int64_t peri__unlike_##isa(const double *there, const double *here, const double *want, int count) { \
+        int64_t unlike = 0;                                                                                            \
+        for (int n = 0; n < count; ++n) unlike += there[n] - here[n] != want[n];                                       \
+        return unlike;                                                                                                 \
+    }
+PERI_UNLIKE(plain, PERI_VECTOR_CODE)
+#ifdef PERI_ISA
+PERI_UNLIKE(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2)
+PERI_UNLIKE(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512)
+#endif
+#undef PERI_UNLIKE
+
+/* Do the columns of group `other`, moved, hold the families of group g? They do where every bond of theirs is bit by bit that of its table
+   row, and every point has as many as were counted. The same columns would then be drafted. */
+static int peri__fits_group(const peri__draft *d, int64_t g, int64_t other) {
+    const peri__model *m = d->cloud->model;
+    const peri__lanes *l = &m->lanes;
+    const int32_t dim = m->dim;
+    const int64_t columns = l->begin[other + 1] - l->begin[other];
+    const double *here = &d->cloud->x[g * PERI_LANES * dim];
+    double want[PERI_LANES / 2 * 3]; /* xi of half a group */
+    for (int64_t k = 0; k < columns; ++k) {
+        const peri__column *column = &d->column[l->first[other] + k];
+        const double *xi = d->row[column->vector].bond.xi;
+        const int64_t first = g * PERI_LANES + column->offset;
+        int64_t apart = 0;
+        if (column->member == 0xffff) {
+            if (first < 0 || first + PERI_LANES > m->points) return 0;
+            const double *there = &d->cloud->x[first * dim];
+            for (int n = 0; n < PERI_LANES / 2; ++n)
+                for (int32_t a = 0; a < dim; ++a) want[n * dim + a] = xi[a];
+            for (int half = 0; half < 2; ++half)
+                apart += PERI_BY_ISA(d->cloud->isa, peri__unlike, (there + half * 8 * dim, here + half * 8 * dim, want, 8 * dim));
+        } else {
+            for (int n = 0; n < PERI_LANES; ++n) {
+                if (!(column->member >> n & 1)) continue;
+                if (first + n < 0 || first + n >= m->points) return 0;
+                for (int32_t a = 0; a < dim; ++a) apart += d->cloud->x[(first + n) * dim + a] - here[n * dim + a] != xi[a];
+            }
+        }
+        if (apart) return 0;
+    }
+    return 1;
+}
+
+/* An earlier group with the columns of group g, or -1. Tried are the last groups whose families were as large, point by point. */
+static int64_t peri__like_group(peri__draft *d, int64_t g) {
+    const peri__model *m = d->cloud->model;
+    const int32_t *count = &m->count[g * PERI_LANES];
+    uint64_t hash = 0;
+    d->like = NULL;
+    if (!d->alike || (g + 1) * PERI_LANES > m->points) return -1;
+    for (int n = 0; n < PERI_LANES; ++n) hash = (hash ^ (uint32_t)count[n]) * UINT64_C(0x9E3779B97F4A7C15);
+    d->like = d->kind[hash >> 32 & (PERI_KINDS - 1)];
+    for (int n = 0; n < PERI_KIND_ROOM && d->like[n] != 0; ++n) {
+        const int64_t other = d->like[n] - 1;
+        if (memcmp(count, &m->count[other * PERI_LANES], PERI_LANES * sizeof *count) == 0 && peri__fits_group(d, g, other)) return other;
+    }
+    return -1;
+}
+
+/* Group g has the columns of an earlier one. */
+static void peri__repeat_group(peri__draft *d, int64_t g, int64_t other) {
+    peri__lanes *l = &d->cloud->model->lanes;
+    const int64_t columns = l->begin[other + 1] - l->begin[other];
+    l->first[g] = l->first[other];
+    l->begin[g + 1] = l->begin[g] + columns;
+    for (int n = 0; n < PERI_LANES; ++n) d->bonds += d->cloud->model->count[g * PERI_LANES + n];
+}
+
 /* Collects the columns of all groups: PERI_OK, PERI_ERROR_FAMILY where they serve nothing, or PERI_ERROR_MEMORY. */
 static int32_t peri__draft_lanes(peri__draft *d) {
     const peri__model *m = d->cloud->model;
     for (int64_t i = 0; i < m->points; ++i) {
-        if (!m->ids && i == d->batch_first + d->batch_points) {
-            int32_t status = peri__next_batch(d);
-            if (status < 0) return status;
+        if (m->count[i] > PERI_VECTOR_LIMIT) return PERI_ERROR_FAMILY;
+        if (i % PERI_LANES == 0) {
+            const int64_t other = peri__like_group(d, i / PERI_LANES);
+            if (other >= 0) {
+                peri__repeat_group(d, i / PERI_LANES, other);
+                i += PERI_LANES - 1;
+                continue;
+            }
         }
-        const int32_t *ids = m->ids ? &m->ids[m->start[i]] : &d->batch[(i - d->batch_first) * d->batch_room];
+        const int32_t *ids = m->ids ? &m->ids[m->start[i]] : d->ids;
+        if (!m->ids) {
+            (void)peri__visit_family(d->cloud, i, &d->near, d->ids, PERI_VECTOR_LIMIT);
+            peri__sort_row(d->ids, m->count[i]);
+        }
         if (i == 0) peri__choose_units(d, ids, m->count[0]);
-        if (i % PERI_BLOCK == 0) peri__clear_parts(&d->parts);
+        if (i % PERI_BLOCK == 0 && !d->alike) peri__clear_parts(&d->parts);
         if (i % PERI_LANES == 0) d->group_count = 0;
         if (!peri__draft_row(d, i, ids, m->count[i])) return PERI_ERROR_FAMILY;
         if ((i + 1) % PERI_LANES != 0 && i + 1 < m->points) continue;
         if (peri__draft_group(d, i / PERI_LANES) < 0) return PERI_ERROR_MEMORY;
+        if (d->like) { /* first of its kind from now on */
+            memmove(d->like + 1, d->like, (PERI_KIND_ROOM - 1) * sizeof *d->like);
+            d->like[0] = (int32_t)(i / PERI_LANES + 1);
+        }
     }
     /* emptier columns than 2 in 5 take more than twice the time of the list: too much for the memory that they save */
     return 5 * d->bonds >= 2 * PERI_LANES * m->lanes.begin[m->lanes.groups] ? PERI_OK : PERI_ERROR_FAMILY;
@@ -323,6 +379,14 @@ static int32_t peri__keep_lanes(peri__draft *d) {
     return PERI_OK;
 }
 
+/* Have bonds with the same vector the same weight? Where there is one material, all points have one volume, and parts of cells, too, depend
+   on the vector alone. */
+static int peri__is_alike(const peri__cloud *c) {
+    const peri__setup *s = &c->body->setup;
+    const int box = s->piece_count == 1 && s->pieces[0].lattice && !s->pieces[0].vertices;
+    return !c->model->ids && c->model->materials == 1 && c->even > 0.0 && (c->body->desc.quadrature <= PERI_VOLUME_RAMP || box);
+}
+
 /* Makes the columns where they pay, from the list where there is one and else from the points. 1: made; 0: not; else an error. */
 static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     peri__model *m = c->model;
@@ -337,13 +401,12 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     l->first = (int64_t *)peri__new(&m->memory, l->groups, sizeof *l->first);
     if (d) {
         d->cloud = c;
-        d->batch_rows = peri__min(PERI_BATCH, m->points);
+        d->alike = peri__is_alike(c);
         d->seen_slots = 16;
         while (d->seen_slots < 2 * l->groups) d->seen_slots *= 2;
         d->seen = (int32_t *)peri__new(&b->memory, d->seen_slots, sizeof *d->seen);
         if (d->seen && l->begin && l->first) status = peri__draft_lanes(d);
         if (status == PERI_OK) status = peri__keep_lanes(d);
-        peri__delete(&b->memory, d->batch, d->batch_rows * d->batch_room, sizeof *d->batch);
         peri__delete(&b->memory, d->seen, d->seen_slots, sizeof *d->seen);
         peri__delete(&b->memory, d->column, d->capacity, sizeof *d->column);
         peri__delete(&b->memory, d, 1, sizeof *d);
@@ -365,6 +428,15 @@ static void peri__group_masks(const peri__model *m, int64_t g, const uint32_t *f
             mask |= (word >> (next[lane]++ % 32) & 1) << lane;
         }
         masks[c] = (uint16_t)mask;
+    }
+}
+
+/* Masks where all bonds are alive. */
+static void peri__whole_masks(const peri__model *m, uint16_t *masks) {
+    const peri__lanes *l = &m->lanes;
+    for (int64_t g = 0; g < l->groups; ++g) {
+        const peri__column *column = &l->column[l->first[g]];
+        for (int64_t c = l->begin[g]; c < l->begin[g + 1]; ++c) masks[c] = (column++)->member;
     }
 }
 

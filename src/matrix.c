@@ -110,7 +110,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
         *tensors = peri__get_constant(b, o, PERI__INVERSE) != 0.0;
         peri__deform(b, o, &row, &f);
     }
-    for (int64_t k = 0; k < row.count; ++k) {
+    for (int64_t k = peri__next_bond(&row, -1); k >= 0; k = peri__next_bond(&row, row.ids[k])) {
         if (!peri__is_alive(b, o, k)) continue;
         if (row.ids[k] > o && e->self < 0) e->self = e->count++;
         double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->b32, k), bond = peri__get_real(row.bond, b->b32, k);

@@ -1,90 +1,12 @@
-/* neighbors.c - points to families: the array Ibond of [T] 3.11, its rows without padding. Row i holds the ids of the family of i,
-   ascending. Found by a grid of cells no smaller than the reach, so in O(N) for any cloud; or checked where the caller gave them. */
+/* neighbors.c - points to families: the array Ibond of [T] 3.11, its rows without padding. Searched by search.c, or checked where the
+   caller gave them.
+
+   Rows that were searched lie in the order of places (search.c), and hold the places of neighbours, ascending: passes over the list then
+   meet points whose neighbours, and the records of these, are near in memory, however the points are numbered. They hold ids, ascending,
+   as rows of the caller do, where columns may be made of them, and where families are larger than the room of peri__row. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
-
-static int64_t peri__cell_of(const peri__cloud *c, const double *x, int64_t *at) {
-    int64_t cell = 0;
-    for (int32_t d = c->model->dim - 1; d >= 0; --d) {
-        double place = (x[d] - c->lo[d]) * c->scale[d];
-        at[d] = place > 0.0 ? (int64_t)place : 0;
-        if (at[d] >= c->cells[d]) at[d] = c->cells[d] - 1;
-        cell = cell * c->cells[d] + at[d];
-    }
-    return cell;
-}
-
-/* Chooses the grid and sorts the points into it. */
-static int32_t peri__sort_cells(peri__cloud *c, const peri__memory *memory) {
-    peri__model *m = c->model;
-    int32_t dim = m->dim;
-    double hi[3], reach = sqrt(c->reach2), cells, edge = reach * 1.000001; /* a bond spans two cells at most */
-    int64_t at[3];
-    for (int32_t d = 0; d < dim; ++d) {
-        c->lo[d] = hi[d] = c->x[d];
-        for (int64_t i = 1; i < m->points; ++i) {
-            double x = c->x[i * dim + d];
-            if (x < c->lo[d]) c->lo[d] = x;
-            if (x > hi[d]) hi[d] = x;
-        }
-    }
-    do { /* not many more cells than points, however thin the cloud */
-        cells = 1.0;
-        for (int32_t d = 0; d < dim; ++d) {
-            double count = floor((hi[d] - c->lo[d]) / edge);
-            if (count < 1.0) count = 1.0;
-            cells *= count;
-        }
-        edge *= 1.25;
-    } while (cells > 2.0 * (double)m->points + 64.0);
-    edge /= 1.25;
-    c->cell_count = 1;
-    for (int32_t d = 0; d < dim; ++d) {
-        double count = floor((hi[d] - c->lo[d]) / edge);
-        c->cells[d] = count < 1.0 ? 1 : (int64_t)count;
-        c->scale[d] = hi[d] > c->lo[d] ? (double)c->cells[d] / (hi[d] - c->lo[d]) : 0.0;
-        c->cell_count *= c->cells[d];
-    }
-    c->start = (int32_t *)peri__new(memory, c->cell_count + 1, sizeof(int32_t));
-    c->order = (int32_t *)peri__new(memory, m->points, sizeof(int32_t));
-    if (!c->start || !c->order) return PERI_ERROR_MEMORY;
-    for (int64_t i = 0; i < m->points; ++i) c->start[peri__cell_of(c, &c->x[i * dim], at) + 1]++;
-    for (int64_t k = 0; k < c->cell_count; ++k) c->start[k + 1] += c->start[k];
-    for (int64_t i = 0; i < m->points; ++i) c->order[c->start[peri__cell_of(c, &c->x[i * dim], at)]++] = (int32_t)i;
-    for (int64_t k = c->cell_count; k > 0; --k) c->start[k] = c->start[k - 1];
-    c->start[0] = 0;
-    return PERI_OK;
-}
-
-/* Visits the family of i: writes up to `room` ids and returns their number, or -1 - j where point j is at the same place. */
-static int64_t peri__visit_family(const peri__cloud *c, int64_t i, int32_t *row, int64_t room) {
-    const peri__model *m = c->model;
-    int32_t dim = m->dim;
-    int64_t at[3] = { 0, 0, 0 }, count = 0, lo[3] = { 0, 0, 0 }, hi[3] = { 0, 0, 0 };
-    const double *xi = &c->x[i * dim];
-    (void)peri__cell_of(c, xi, at);
-    for (int32_t d = 0; d < dim; ++d) {
-        lo[d] = at[d] > 0 ? at[d] - 1 : 0;
-        hi[d] = at[d] + 1 < c->cells[d] ? at[d] + 1 : at[d];
-    }
-    for (int64_t z = lo[2]; z <= hi[2]; ++z)
-        for (int64_t y = lo[1]; y <= hi[1]; ++y) {
-            int64_t line = ((dim == 3 ? z * c->cells[1] : 0) + y) * c->cells[0];
-            for (int32_t k = c->start[line + lo[0]]; k < c->start[line + hi[0] + 1]; ++k) {
-                int64_t j = c->order[k];
-                double square = 0.0;
-                if (j == i) continue;
-                for (int32_t d = 0; d < dim; ++d) square += peri__square(c->x[j * dim + d] - xi[d]);
-                if (!(square <= c->reach2)) continue;
-                if (square < 1e-24) return -1 - j;
-                if (!peri__is_family(c, i, j)) continue;
-                if (count < room) row[count] = (int32_t)j;
-                count++;
-            }
-        }
-    return count;
-}
 
 static void peri__sort_row(int32_t *row, int64_t count) {
     /* shell sort: rows are short, and runs of neighbouring cells are ascending already */
@@ -98,61 +20,52 @@ static void peri__sort_row(int32_t *row, int64_t count) {
         }
 }
 
+/* ---- families that are searched ----------------------------------------------------------------------------------- */
+
+/* Sizes of the families of the points in a block of cells. sums->n: how many points are where one of them is, itself included. */
 static void peri__count_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    peri__cloud *c = (peri__cloud *)context;
-    for (int64_t i = begin; i < end; ++i) {
-        int64_t count = peri__visit_family(c, i, NULL, 0);
-        if (count < 0) {
-            if (sums->bad < 0) {
-                sums->bad = i > -1 - count ? i : -1 - count;
-                sums->a = (double)(i > -1 - count ? -1 - count : i);
+    const peri__cloud *c = (const peri__cloud *)context;
+    const int whole = c->body->desc.quadrature == PERI_FULL_VOLUME;
+    peri__near s;
+    for (int64_t cell = begin; cell < end; ++cell) {
+        if (c->start[cell] == c->start[cell + 1]) continue;
+        peri__look_around(c, cell, &s);
+        for (int first = 1; peri__next_near(c, &s) > 0; first = 0)
+            for (int32_t p = c->start[cell]; p < c->start[cell + 1]; ++p) {
+                int32_t *count = &c->model->count[c->order[p]];
+                double x[3];
+                peri__place_of(c, p, x);
+                int64_t within = peri__measure_near(c, &s, x, &sums->n);
+                if (whole) within -= first; /* the point itself */
+                else within = peri__keep_family(c, &s, peri__take_near(c, &s, p), p);
+                *count = (int32_t)(within + (first ? 0 : *count));
             }
-            count = 0;
-        }
-        c->model->count[i] = (int32_t)count;
     }
 }
 
-#define PERI_BRICK 4 /* cells per edge                                                                                    */
-
-/* Where the points come in no order, neighbours are far apart in memory. Passes over the list then go by bricks of cells. 0 where memory
-   is short. */
-static int peri__choose_order(const peri__cloud *c) {
-    peri__model *m = c->model;
-    int64_t jumps = 0, last = 0, at[3], bricks[3], done = 0, *n = at;
-    for (int64_t i = 0; i < m->points; ++i) {
-        const int64_t cell = peri__cell_of(c, &c->x[i * m->dim], at);
-        jumps += cell < last - 1 || cell > last + 1;
-        last = cell;
+/* Of the points at the same place as another the first, and the first of those with it. */
+static int32_t peri__refuse_twins(peri_body *b, const peri__cloud *c) {
+    peri__near s;
+    for (int64_t i = 0;; ++i) {
+        const int64_t twin = peri__twin_of(c, i, &s);
+        if (twin >= 0) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", twin, (double)i);
     }
-    if (2 * jumps <= m->points) return 1;
-    m->order = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->order);
-    if (!m->order) return 0;
-    for (int32_t d = 0; d < 3; ++d) bricks[d] = d < m->dim ? (c->cells[d] + PERI_BRICK - 1) / PERI_BRICK : 1;
-    for (int64_t brick = 0; brick < bricks[0] * bricks[1] * bricks[2]; ++brick)
-        for (int64_t cell = 0; cell < PERI_BRICK * PERI_BRICK * PERI_BRICK; ++cell) {
-            n[0] = brick % bricks[0] * PERI_BRICK + cell % PERI_BRICK;
-            n[1] = brick / bricks[0] % bricks[1] * PERI_BRICK + cell / PERI_BRICK % PERI_BRICK;
-            n[2] = brick / (bricks[0] * bricks[1]) * PERI_BRICK + cell / (PERI_BRICK * PERI_BRICK);
-            if (n[0] >= c->cells[0] || n[1] >= c->cells[1] || n[2] >= (m->dim == 3 ? c->cells[2] : 1)) continue;
-            const int64_t line = ((m->dim == 3 ? n[2] * c->cells[1] : 0) + n[1]) * c->cells[0] + n[0];
-            for (int32_t k = c->start[line]; k < c->start[line + 1]; ++k) m->order[done++] = c->order[k];
-        }
-    return 1;
 }
 
-/* The point that comes k-th in passes over the list. */
-static int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
-
-static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    peri__cloud *c = (peri__cloud *)context;
+/* Sorts the points and counts their families. */
+static int32_t peri__count_families(peri_body *b, peri__cloud *c) {
     peri__model *m = c->model;
-    (void)sums;
-    for (int64_t k = begin; k < end; ++k) {
-        const int64_t i = peri__nth(m, k);
-        int32_t *row = &m->ids[m->start[i]];
-        peri__sort_row(row, peri__visit_family(c, i, row, m->count[i]));
+    int64_t same = 0;
+    peri__set_reach(c);
+    int32_t status = peri__sort_cells(c);
+    peri__sums *sums = (peri__sums *)peri__new(&m->memory, c->cell_count / PERI_BLOCK + 1, sizeof *sums);
+    if (status == PERI_OK && sums) {
+        peri__for_points(b, c->cell_count, 256, peri__count_block, c, sums);
+        same = peri__total(sums, c->cell_count).n;
     }
+    peri__delete(&m->memory, sums, c->cell_count / PERI_BLOCK + 1, sizeof *sums);
+    if (status < 0 || !sums) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    return same > m->points ? peri__refuse_twins(b, c) : PERI_OK;
 }
 
 /* Room for the rows, by m->count. 0 where memory is short. */
@@ -172,16 +85,16 @@ static int peri__make_rows(peri__model *m) {
     return m->ids != NULL;
 }
 
-/* Place of j in row i of the list, or -1. */
+/* Which bond of row i of the list leads to j, or -1. Rows lie in the order of places, so these ascend with `start`. */
 static int64_t peri__find_listed(const peri__model *m, int64_t i, int64_t j) {
     const int32_t *row = &m->ids[m->start[i]];
     int64_t lo = 0, hi = m->count[i];
     while (lo < hi) {
         int64_t mid = (lo + hi) / 2;
-        if (row[mid] < j) lo = mid + 1;
+        if (m->order ? m->start[m->order[row[mid]]] < m->start[j] : row[mid] < j) lo = mid + 1;
         else hi = mid;
     }
-    return lo < m->count[i] && row[lo] == j ? lo : -1;
+    return lo < m->count[i] && (m->order ? m->order[row[lo]] : row[lo]) == j ? lo : -1;
 }
 
 /* Place of the last entry j in the caller's row i. */
@@ -220,31 +133,139 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
             if (peri__find_listed(m, j, i) < 0)
                 return peri__fail(b, PERI_ERROR_IBOND, "ibond", peri__given_entry(s, i, j), (double)j);
             for (int32_t d = 0; d < m->dim; ++d) square += peri__square(c->x[j * m->dim + d] - c->x[i * m->dim + d]);
-            if (square < 1e-24) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", i > j ? i : j, (double)(i > j ? j : i));
+            if (square < PERI_COINCIDENT) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", i > j ? i : j, (double)(i > j ? j : i));
         }
     return PERI_OK;
 }
 
-/* Makes the cloud ready for peri__visit_family. */
-static int32_t peri__sort_cloud(peri_body *b, peri__cloud *c) {
-    peri__set_reach(c);
-    return peri__sort_cells(c, &c->model->memory) < 0 ? peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0) : PERI_OK;
+/* Rows of the points in a block of cells, and where c->weighs their weights: sums->a: as of peri__rate_block, sums->n: rows that
+   peri__weigh has to look at. */
+static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__cloud *c = (const peri__cloud *)context;
+    peri__model *m = c->model;
+    peri__tally tally[PERI_BLOCK];
+    peri__near s;
+    for (int64_t cell = begin; cell < end; ++cell)
+        for (int32_t p = c->start[cell], last; p < c->start[cell + 1]; p = last) {
+            last = (int32_t)peri__min(p + PERI_BLOCK, c->start[cell + 1]);
+            peri__look_around(c, cell, &s);
+            memset(tally, 0, sizeof tally);
+            while (peri__next_near(c, &s) > 0)
+                for (int32_t q = p; q < last; ++q) {
+                    const int64_t i = c->order[q];
+                    peri__tally *t = &tally[q - p];
+                    double x[3];
+                    int64_t same = 0;
+                    peri__place_of(c, q, x);
+                    if (peri__measure_near(c, &s, x, &same) == 0) continue;
+                    const int64_t taken = peri__keep_family(c, &s, peri__take_near(c, &s, q), q), at = m->start[i] + t->count;
+                    memcpy(&m->ids[at], s.hit, (size_t)taken * sizeof *m->ids);
+                    if (c->weighs) peri__weigh_hits(c, &s, i, taken, at, t);
+                    t->count += taken;
+                }
+            for (int32_t q = p; c->weighs && q < last; ++q) sums->n += !peri__is_weighed(c, c->order[q], &tally[q - p], &sums->a);
+        }
 }
 
-static int32_t peri__find_families(peri_body *b, peri__cloud *c, peri__sums *sums) {
+/* Turns the places of row i of the list into ids, ascending. */
+static void peri__number_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__cloud *c = (const peri__cloud *)context;
+    const peri__model *m = c->model;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        int32_t *row = &m->ids[m->start[i]];
+        for (int32_t k = 0; k < m->count[i]; ++k) row[k] = c->order[row[k]];
+        peri__sort_row(row, m->count[i]);
+    }
+}
+
+/* Rows of the families that were counted: by places, or where `numbered` by ids. Weights of whole cells are known as soon as lengths are,
+   and made on the way where c->weighs: else, and where one of them is amiss, peri__weigh makes them. */
+static int32_t peri__write_families(peri_body *b, peri__cloud *c, int numbered) {
     peri__model *m = c->model;
-    peri__for_points(b, m->points, 256, peri__count_block, c, sums);
-    for (int64_t k = 0; k < m->blocks; ++k)
-        if (sums[k].bad >= 0) return peri__fail(b, PERI_ERROR_COINCIDENT, "positions", sums[k].bad, sums[k].a);
-    if (!peri__choose_order(c) || !peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
-    peri__for_points(b, m->points, 4 * m->width, peri__fill_block, c, NULL);
+    const int64_t blocks = c->cell_count / PERI_BLOCK + 1;
+    m->order = c->order; /* which the model owns from now on, see peri__free_cells */
+    if (!peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    numbered = numbered || m->width > PERI_VECTOR_LIMIT;
+    c->weighs = !numbered && b->desc.quadrature == PERI_FULL_VOLUME && b->desc.influence != PERI_INFLUENCE_USER;
+    peri__sums *sums = (peri__sums *)peri__new(&m->memory, blocks, sizeof *sums);
+    if (c->weighs) m->weight = peri__new(&m->memory, m->entries, peri__bond_real(b));
+    if (!sums || (c->weighs && !m->weight)) {
+        peri__delete(&m->memory, sums, blocks, sizeof *sums);
+        return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
+    }
+    peri__for_points(b, c->cell_count, 256, peri__fill_block, c, sums);
+    for (int64_t k = 0; k * PERI_BLOCK < c->cell_count; ++k) {
+        if (sums[k].n > 0) c->weighs = 0;
+        if (sums[k].a > m->rate) m->rate = sums[k].a;
+    }
+    if (!c->weighs) m->rate = 0.0;
+    peri__delete(&m->memory, sums, blocks, sizeof *sums);
+    if (numbered) {
+        m->order = NULL;
+        peri__for_points(b, m->points, 4 * m->width, peri__number_block, c, NULL);
+    }
+    return PERI_OK;
+}
+
+typedef struct peri__turner { /* rows by ids on the way to rows by places                                                */
+    const peri__cloud *cloud;
+    int32_t           *place; /* [points] by id                                                                          */
+} peri__turner;
+
+/* Entry k of a row from entry turn[k] & PERI_TURN of what it was. */
+#define PERI_TURN (PERI_VECTOR_LIMIT - 1)
+static void peri__turn_row(void *array, int64_t first, int64_t count, size_t size, const int64_t *turn) {
+    unsigned char was[PERI_VECTOR_LIMIT * 3 * sizeof(double)], *row = (unsigned char *)array + (size_t)first * size;
+    memcpy(was, row, (size_t)count * size);
+    for (int64_t k = 0; k < count; ++k) memcpy(row + (size_t)k * size, was + (size_t)(turn[k] & PERI_TURN) * size, size);
+}
+
+static void peri__turn_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__turner *t = (const peri__turner *)context;
+    const peri__model *m = t->cloud->model;
+    const size_t real = peri__bond_real(t->cloud->body);
+    int64_t turn[PERI_VECTOR_LIMIT];
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        int32_t *row = &m->ids[m->start[i]];
+        const int64_t count = m->count[i], first = m->start[i];
+        for (int64_t k = 0; k < count; ++k) turn[k] = (int64_t)t->place[row[k]] * PERI_VECTOR_LIMIT + k;
+        for (int64_t gap = 40; gap > 0; gap /= 3) /* shell sort */
+            for (int64_t a = gap; a < count; ++a) {
+                const int64_t moved = turn[a];
+                int64_t at = a;
+                for (; at >= gap && turn[at - gap] > moved; at -= gap) turn[at] = turn[at - gap];
+                turn[at] = moved;
+            }
+        for (int64_t k = 0; k < count; ++k) row[k] = (int32_t)(turn[k] / PERI_VECTOR_LIMIT);
+        peri__turn_row(m->weight, first, count, real, turn);
+        if (m->back != m->weight) peri__turn_row(m->back, first, count, real, turn);
+        if (m->bond) peri__turn_row(m->bond, first, count, real, turn);
+        if (m->part) peri__turn_row(m->part, first, count, sizeof *m->part, turn);
+    }
+}
+
+/* Turns weighed rows by ids into rows by places, where they fit the room of peri__row. Rules with centroids are never corrected, and so
+   never by ids here. */
+static int32_t peri__place_rows(peri_body *b, const peri__cloud *c) {
+    peri__model *m = c->model;
+    if (m->width > PERI_VECTOR_LIMIT) return PERI_OK;
+    peri__turner t;
+    t.cloud = c;
+    t.place = (int32_t *)peri__new(&m->memory, m->points, sizeof *t.place);
+    if (!t.place) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
+    for (int64_t p = 0; p < m->points; ++p) t.place[c->order[p]] = (int32_t)p;
+    peri__for_points(b, m->points, 16 * m->width, peri__turn_block, &t, NULL);
+    peri__delete(&m->memory, t.place, m->points, sizeof *t.place);
+    m->order = c->order;
     return PERI_OK;
 }
 
 static int32_t peri__check_families(peri_body *b, const peri__model *m) {
     for (int64_t i = 0; i < m->points; ++i) {
-        double spacing = pow(m->volume[i], 1.0 / m->dim);
         if (m->count[i] > 0) continue;
+        double spacing = pow(m->volume[i], 1.0 / m->dim);
         if (m->horizon * (1.0 + PERI_HORIZON_TOLERANCE) < spacing)
             return peri__fail(b, PERI_ERROR_HORIZON, "horizon", i, spacing * m->length);
         return peri__fail(b, PERI_ERROR_FAMILY, "horizon", i, b->desc.horizon);

@@ -13,9 +13,14 @@ typedef struct peri__cloud {
     double           edge;     /* of the cell of mean size: half of it over the horizon                                  */
     int64_t          cells[3]; /* the search grid                                                                        */
     double           lo[3], scale[3];
-    int32_t         *start;    /* [cells+1] first entry of a cell in `order`                                             */
+    int32_t         *start;    /* [cells+1] place of the first point of a cell                                           */
     int64_t          cell_count;
-    int32_t         *order;    /* [points] ids by cell, ascending within                                                 */
+    int32_t         *order;    /* [points] ids by place; the model has taken it where NULL                               */
+    int32_t         *cell;     /* [points] scratch of sorting                                                            */
+    double          *placed;   /* [dim][points + PERI_NEAR_PIECE] x by place                                             */
+    int32_t          isa;      /* see peri__isa                                                                          */
+    int              weighs;   /* weights are made with the rows, see peri__write_families                                */
+    double           even;     /* the volume of every point, or 0 where they differ                                      */
     double           gauss_x[PERI_GAUSS], gauss_w[PERI_GAUSS];
 } peri__cloud;
 

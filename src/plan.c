@@ -117,28 +117,26 @@ static int32_t peri__sketch_families(peri__sketch *s) {
 
 /* ---- bytes -------------------------------------------------------------------------------------------------------- */
 
-/* What peri__build_lanes takes beside what it makes; batch: room of the rows that are searched at a time. */
-static int64_t peri__draft_bytes(const peri__sketch *s, int batch) {
+/* What peri__build_lanes takes beside what it makes. */
+static int64_t peri__draft_bytes(const peri__sketch *s) {
     const int64_t points = s->model.points, groups = (points + PERI_LANES - 1) / PERI_LANES;
     int64_t slots = 16, room = 8;
     while (slots < 2 * groups) slots *= 2;
     while (room < s->model.lanes.kept) room *= 2;
     int64_t bytes = (int64_t)peri__block_bytes(1, sizeof(peri__draft)) + (int64_t)peri__block_bytes(slots, sizeof(int32_t));
-    bytes += (int64_t)peri__block_bytes(room, sizeof(peri__column));
-    if (batch) bytes += (int64_t)peri__block_bytes(peri__min(PERI_BATCH, points) * ((s->width + 31) / 32 * 32), sizeof(int32_t));
-    return bytes;
+    return bytes + (int64_t)peri__block_bytes(room, sizeof(peri__column));
 }
 
-/* What peri_build takes to search families. */
-static int64_t peri__search_bytes(const peri__sketch *s) {
+/* What peri_build takes to search families: the places twice, and the cells. The order of the points is the model's where there is a list. */
+static int64_t peri__search_bytes(const peri__sketch *s, int listed) {
     const peri__model *m = &s->model;
-    double cells = 1.0;
-    for (int32_t d = 0; d < m->dim; ++d) {
-        const double count = floor((double)(s->n[d] - 1) * s->piece.cell[d] / m->length / sqrt(s->cloud.reach2));
-        cells *= count < 1.0 ? 1.0 : count;
-    }
-    return (int64_t)peri__block_bytes(m->points * m->dim, sizeof(double)) + (int64_t)peri__block_bytes(m->points, sizeof(int32_t))
-         + (int64_t)peri__block_bytes((int64_t)cells + 1, sizeof(int32_t));
+    double extent[3] = { 0.0, 0.0, 0.0 };
+    int64_t cells[3];
+    for (int32_t d = 0; d < m->dim; ++d) extent[d] = (double)(s->n[d] - 1) * s->piece.cell[d] / m->length;
+    return (int64_t)peri__block_bytes(m->points * m->dim, sizeof(double))
+         + (int64_t)peri__block_bytes((m->points + PERI_NEAR_PIECE) * m->dim, sizeof(double))
+         + (listed ? 0 : (int64_t)peri__block_bytes(m->points, sizeof(int32_t)))
+         + (int64_t)peri__block_bytes(peri__divide(extent, s->cloud.reach2, m->points, cells) + 1, sizeof(int32_t));
 }
 
 static int64_t peri__model_bytes(const peri__sketch *s) {
@@ -160,6 +158,7 @@ static void peri__mark_list(peri__sketch *s, void *there, void *other) {
     const int centroids = desc->quadrature == PERI_PARTIAL_CENTROID;
     m->bonds = s->bonds;
     m->entries = s->bonds + PERI_LANES;
+    m->order = s->width <= PERI_VECTOR_LIMIT ? (int32_t *)there : NULL;
     m->start = (int64_t *)there;
     m->ids = (int32_t *)there;
     m->weight = there;
@@ -198,7 +197,7 @@ static void peri__plan_bytes(peri__sketch *s, const peri_plan_desc *plan, peri_p
     const int lanes = peri__sketch_lanes(s), listed = lanes <= 0 || s->corrected;
     const int64_t groups = (m->points + PERI_LANES - 1) / PERI_LANES, sums = (int64_t)peri__block_bytes(m->blocks, sizeof(peri__sums));
     const int64_t bare = (int64_t)peri__block_bytes(1, sizeof(peri_body));
-    int64_t most, draft = lanes < 0 ? 0 : peri__draft_bytes(s, !s->corrected);
+    int64_t most, draft = lanes < 0 ? 0 : peri__draft_bytes(s);
     if (lanes == 0) draft += 2 * (int64_t)peri__block_bytes(groups, sizeof(int64_t));
     setup->point_capacity = m->points;
     setup->local = setup->volume = (double *)there;
@@ -207,7 +206,7 @@ static void peri__plan_bytes(peri__sketch *s, const peri_plan_desc *plan, peri_p
         s->piece.vertices = (double *)there;
         s->piece.vertex_bytes = peri__vertex_count(&s->piece, m->dim) * m->dim * (int64_t)sizeof(double);
     }
-    const int64_t given = peri__body_bytes(s), search = peri__search_bytes(s) + sums;
+    const int64_t given = peri__body_bytes(s), search = peri__search_bytes(s, listed) + sums;
     m->width = (int32_t)s->width;
     m->x = there;
     m->count = (int32_t *)there;
@@ -216,7 +215,6 @@ static void peri__plan_bytes(peri__sketch *s, const peri_plan_desc *plan, peri_p
     most = peri__model_bytes(s) + (s->corrected ? 0 : draft);
     if (listed) {
         peri__mark_list(s, there, other);
-        if (plan->source == PERI_SOURCE_POINTS) m->order = (int32_t *)there;
         int64_t factors = s->corrected ? (int64_t)peri__block_bytes(m->entries, sizeof(double)) : 0;
         const int64_t bytes = peri__model_bytes(s) + (s->corrected && draft > factors ? draft : factors);
         if (bytes > most) most = bytes;

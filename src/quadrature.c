@@ -1,4 +1,4 @@
-/* quadrature.c - families to the lengths and weights of bonds, and the bound of the highest frequency. */
+/* quadrature.c - the lengths and weights of bonds, and the bound of the highest frequency. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -14,9 +14,15 @@ static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
     else ((double *)array)[at] = value;
 }
 
-static double peri__get_real(const void *array, int32_t f32, int64_t at) {
+PERI_INLINE double peri__get_real(const void *array, int32_t f32, int64_t at) {
     return f32 ? (double)((const float *)array)[at] : ((const double *)array)[at];
 }
+
+/* The point at place k: the k-th in passes over the list. */
+static int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
+
+/* The neighbour of entry `at` of the list. */
+static int64_t peri__entry_id(const peri__model *m, int64_t at) { return m->order ? m->order[m->ids[at]] : m->ids[at]; }
 
 /* The centroid rule made objective: beta_ij w |centroid bond|/|bond|, w at the centroid of the part of j within the horizon of i. */
 static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, double bond, double edge) {
@@ -28,7 +34,7 @@ static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, do
 static double peri__family_volume(const peri__model *m, int64_t i) {
     double sum = 0.0;
     for (int64_t k = 0; k < m->count[i]; ++k)
-        sum += m->part ? (double)m->part[m->start[i] + k] : m->volume[m->ids[m->start[i] + k]];
+        sum += m->part ? (double)m->part[m->start[i] + k] : m->volume[peri__entry_id(m, m->start[i] + k)];
     return sum;
 }
 
@@ -46,7 +52,7 @@ static void peri__bond_vector(const peri__cloud *c, int64_t i, int64_t j, double
 static double peri__listed_length(const peri__cloud *c, int64_t i, int64_t at) {
     double xi[3];
     if (c->model->bond) return peri__get_real(c->model->bond, c->body->b32, at);
-    peri__bond_vector(c, i, c->model->ids[at], xi);
+    peri__bond_vector(c, i, peri__entry_id(c->model, at), xi);
     return sqrt(peri__dot(xi, xi, c->model->dim));
 }
 
@@ -95,7 +101,8 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     for (int64_t i = begin; i < end; ++i) {
         double total = 0.0, stiff = 0.0;
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
-            int finite = peri__weigh_bond(c, &parts, i, m->ids[at], &bond);
+            const int64_t j = peri__entry_id(m, at);
+            int finite = peri__weigh_bond(c, &parts, i, j, &bond);
             peri__put_real(m->weight, b->b32, at, bond.weight);
             if (!finite || !peri__finite(peri__get_real(m->weight, b->b32, at))) { /* the second: beyond the range of float */
                 sums->bad = i;
@@ -105,7 +112,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             if (m->bond) peri__put_real(m->bond, b->b32, at, bond.length);
             if (m->part) m->part[at] = (float)bond.share;
             for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->b32, at * m->dim + d, bond.centre[d]);
-            sums->a += peri__is_blurred(c, i, m->ids[at], bond.length);
+            sums->a += peri__is_blurred(c, i, j, bond.length);
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
         }
@@ -117,6 +124,99 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     }
 }
 
+/* ---- weights of whole cells, of the hits of a search ------------------------------------------------------------- */
+
+typedef struct peri__tally { /* of a row so far                                                                           */
+    int64_t count, blurred;
+    double  total, stiff, rate; /* sums of |w V|, w |xi|^2 V and c |w V|/|xi|                                            */
+} peri__tally;
+
+#define PERI_TALLY_LANES 8
+
+/* Squares of lengths to lengths, and the sums of a tally over bonds: bond k in lane k % PERI_TALLY_LANES, so the same bits from every
+   instruction set. count is a multiple of that. Roots as in kernels.inl. */
+#define PERI_TALLY(isa, target, width, load, store, root)                                                              \
+    target static void peri__roots_##isa(double *length, int64_t count) {                                              \
+        for (int64_t k = 0; k < count; k += width) store(length + k, root(load(length + k)));                          \
+    }                                                                                                                  \
+    target static void peri__tally_##isa(const double *length, const double *weight, int64_t count, double (*sum)[PERI_TALLY_LANES]) { \
+        PERI_NO_CONTRACTION                                                                                            \
+        for (int64_t k = 0; k < count; k += PERI_TALLY_LANES)                                                          \
+            for (int l = 0; l < PERI_TALLY_LANES; ++l) {                                                               \
+                const double w = weight[k + l], bond = length[k + l];                                                  \
+                sum[0][l] += fabs(w);                                                                                  \
+                sum[1][l] += w * bond * bond;                                                                          \
+                sum[2][l] += fabs(w) / bond;                                                                           \
+            }                                                                                                          \
+    }
+#ifdef PERI_ISA
+PERI_TALLY(plain, PERI_VECTOR_CODE, 2, _mm_loadu_pd, _mm_storeu_pd, _mm_sqrt_pd)
+PERI_TALLY(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2, 4, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd)
+PERI_TALLY(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512, 8, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd)
+#define PERI_BY_ISA(isa, name, arguments)                                                                              \
+    ((isa) == 2 ? name##_avx512 arguments : (isa) == 1 ? name##_avx2 arguments : name##_plain arguments)
+#else
+#define PERI_TALLY_LOAD(a) (*(a))
+#define PERI_TALLY_STORE(a, value) (*(a) = (value))
+PERI_TALLY(plain, PERI_VECTOR_CODE, 1, PERI_TALLY_LOAD, PERI_TALLY_STORE, sqrt)
+#undef PERI_TALLY_LOAD
+#undef PERI_TALLY_STORE
+#define PERI_BY_ISA(isa, name, arguments) name##_plain arguments
+#endif
+#undef PERI_TALLY
+
+/* Weights of the hits of point i, entries `at` and on; taken of them. */
+PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *s, int64_t i, int64_t taken, int64_t at, peri__tally *t) {
+    const peri__model *m = c->model;
+    const peri_body_desc *desc = &c->body->desc;
+    const int64_t whole = (taken + PERI_TALLY_LANES - 1) / PERI_TALLY_LANES * PERI_TALLY_LANES;
+    double *length = s->length, *weight = s->square; /* which is measured anew for the next point */
+    double sum[3][PERI_TALLY_LANES] = { { 0.0 } };
+    for (int64_t k = taken; k < whole; ++k) length[k] = 1.0;
+    PERI_BY_ISA(c->isa, peri__roots, (length, whole));
+    if (desc->influence == PERI_INFLUENCE_CONSTANT) {
+        for (int64_t k = 0; k < taken; ++k) weight[k] = 1.0;
+    } else {
+        for (int64_t k = 0; k < taken; ++k) weight[k] = length[k] / m->horizon;
+        peri__influences(desc, weight, taken, c->edge);
+    }
+    if (c->even > 0.0)
+        for (int64_t k = 0; k < taken; ++k) weight[k] *= c->even;
+    else
+        for (int64_t k = 0; k < taken; ++k) weight[k] *= m->volume[c->order[s->hit[k]]];
+    for (int64_t k = taken; k < whole; ++k) weight[k] = 0.0;
+    if (c->body->b32) {
+        float *out = (float *)m->weight + at;
+        for (int64_t k = 0; k < taken; ++k) weight[k] = out[k] = (float)weight[k];
+        for (int64_t k = 0; k < taken; ++k) /* the places of both ends are rounded by half a unit of the largest, per axis */
+            if (length[k] < PERI_BLUR || m->extent * 4.0 * FLT_EPSILON > PERI_BLUR * length[k])
+                t->blurred += peri__is_blurred(c, i, c->order[s->hit[k]], length[k]);
+    } else {
+        memcpy((double *)m->weight + at, weight, (size_t)taken * sizeof *weight);
+    }
+    PERI_BY_ISA(c->isa, peri__tally, (length, weight, whole, sum));
+    for (int half = PERI_TALLY_LANES / 2; half > 0; half /= 2)
+        for (int n = 0; n < 3; ++n)
+            for (int l = 0; l < half; ++l) sum[n][l] += sum[n][l + half];
+    t->total += sum[0][0];
+    t->stiff += sum[1][0];
+    if (m->materials == 1) t->rate += m->pairs[0].c * sum[2][0];
+    else
+        for (int64_t k = 0; k < taken; ++k)
+            t->rate += m->pairs[m->material[i] * m->materials + m->material[c->order[s->hit[k]]]].c * fabs(weight[k]) / length[k];
+}
+
+/* Is all well with the weights of row i? *rate: as of peri__rate_block. */
+static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *t, double *rate) {
+    const peri__model *m = c->model;
+    const double own = 2.0 * t->rate / m->rho[m->material[i]];
+    if (!(own <= *rate)) *rate = own;
+    return t->blurred == 0 && t->total > 0.0 && peri__finite(t->total)
+        && (m->laws[m->material[i]].model == PERI_BOND_BASED || t->stiff > 0.0);
+}
+
+/* ---- weights of any rule, of the list ----------------------------------------------------------------------------- */
+
 /* sums->a: largest 2 sum(c w beta V/|xi|)/rho of a bond-based point, by the list. */
 static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__cloud *c = (const peri__cloud *)context;
@@ -124,7 +224,7 @@ static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__su
     for (int64_t i = begin; i < end; ++i) {
         double rate = 0.0;
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
-            rate += m->pairs[m->material[i] * m->materials + m->material[m->ids[at]]].c
+            rate += m->pairs[m->material[i] * m->materials + m->material[peri__entry_id(m, at)]].c
                   * fabs(peri__get_real(m->weight, c->body->b32, at)) / peri__listed_length(c, i, at);
         rate *= 2.0 / m->rho[m->material[i]];
         if (rate > sums->a) sums->a = rate;
@@ -145,9 +245,10 @@ static int32_t peri__keep_lengths(peri_body *b, const peri__cloud *c) {
 
 static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__model *m = c->model;
+    if (c->weighs) return PERI_OK;
     const size_t real = peri__bond_real(b);
     const int parts = b->desc.quadrature != PERI_FULL_VOLUME, centroids = b->desc.quadrature == PERI_PARTIAL_CENTROID;
-    m->weight = peri__new(&m->memory, m->entries, real);
+    if (!m->weight) m->weight = peri__new(&m->memory, m->entries, real);
     if (centroids) m->bond = peri__new(&m->memory, m->entries, real);
     if (parts) m->part = (float *)peri__new(&m->memory, m->entries, sizeof(float));
     if (centroids) m->centroid = peri__new(&m->memory, m->entries * m->dim, real);

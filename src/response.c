@@ -16,13 +16,14 @@ typedef struct peri__moments { /* sums over the bonds of a family, inner units  
     double shape[6];     /* w xi xi V                                                                                    */
 } peri__moments;
 
-static int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
+PERI_INLINE int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
     return !b->alive || (b->alive[i * b->model->words + k / 32] >> (k % 32) & 1);
 }
 
-static void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t j, double *xi) {
-    for (int32_t d = 0; d < m->dim; ++d)
-        xi[d] = peri__get_real(m->x, f32, d * m->stride + j) - peri__get_real(m->x, f32, d * m->stride + i);
+PERI_INLINE void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t j, double *xi) {
+    xi[0] = peri__get_real(m->x, f32, j) - peri__get_real(m->x, f32, i);
+    xi[1] = peri__get_real(m->x, f32, m->stride + j) - peri__get_real(m->x, f32, m->stride + i);
+    if (m->dim == 3) xi[2] = peri__get_real(m->x, f32, 2 * m->stride + j) - peri__get_real(m->x, f32, 2 * m->stride + i);
 }
 
 static void peri__add_moments(peri__moments *sum, int32_t dim, const double *xi, double bond, double weight) {
@@ -44,6 +45,10 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, const p
     for (int64_t k = 0; k < row->count; ++k) {
         double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         if (live && !peri__is_alive(b, i, k)) continue;
+        if (m->ordinary == PERI_LPS) { /* which needs no more */
+            sum.m += weight * bond * bond;
+            continue;
+        }
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
         peri__add_moments(&sum, m->dim, xi, bond, weight);
     }
@@ -54,7 +59,7 @@ static void peri__put_constant(peri_body *b, int64_t i, int plane, double value)
     peri__put_real(b->constant, b->b32, b->model->margin + plane * b->model->stride + i, value);
 }
 
-static double peri__get_constant(const peri_body *b, int64_t i, int plane) {
+PERI_INLINE double peri__get_constant(const peri_body *b, int64_t i, int plane) {
     return peri__get_real(b->constant, b->b32, b->model->margin + plane * b->model->stride + i);
 }
 
@@ -109,7 +114,7 @@ static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
    springs. theta = G u with |G_ij| = d w g V: rows of G^T kappa G sum to sum_i |G_ij| kappa_i R_i with R_i the row sum of |G|. */
 
 /* d g of a bond of point i, or |K^-1 xi|: the size of what the bond adds to theta or H. */
-static double peri__gauge(const peri_body *b, int64_t i, const double *xi, double bond) {
+PERI_INLINE double peri__gauge(const peri_body *b, int64_t i, const double *xi, double bond) {
     const peri__model *m = b->model;
     double square = 0.0;
     switch (m->laws[m->material[i]].model) {
@@ -129,18 +134,21 @@ static double peri__gauge(const peri_body *b, int64_t i, const double *xi, doubl
 /* |sum_j G_ij| of the point itself: what a motion of i alone does to its theta or H. *sum: the row sum of |G|. */
 static double peri__lean(const peri_body *b, int64_t i, const peri__row *row, double *sum) {
     const peri__model *m = b->model;
-    double lean[3] = { 0.0, 0.0, 0.0 };
-    int tensor = m->laws[m->material[i]].model == PERI_CORRESPONDENCE;
+    double x = 0.0, y = 0.0, z = 0.0;
+    const int tensor = m->laws[m->material[i]].model == PERI_CORRESPONDENCE, lps = m->laws[m->material[i]].model == PERI_LPS;
+    const double dilate = peri__get_constant(b, i, PERI__DILATE);
     *sum = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
         double xi[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
-        double gauge = peri__gauge(b, i, xi, bond);
-        *sum += fabs(w) * gauge;
-        for (int d = 0; d < m->dim; ++d) /* of a tensor K^-1 sum w xi is the sum: its size is taken below */
-            lean[d] += w * (tensor ? xi[d] : gauge * xi[d] / bond);
+        *sum += fabs(w) * (lps ? dilate * bond : peri__gauge(b, i, xi, bond));
+        if (!tensor) w *= lps ? dilate : dilate / bond; /* of a tensor K^-1 sum w xi is the sum: its size is taken below */
+        x += w * xi[0];
+        y += w * xi[1];
+        z += w * xi[2];
     }
+    const double lean[3] = { x, y, z };
     return tensor ? peri__gauge(b, i, lean, 1.0) : sqrt(peri__dot(lean, lean, m->dim));
 }
 
@@ -154,7 +162,7 @@ static void peri__set_wide(peri_body *b, int64_t i, const peri__row *row) {
 }
 
 /* Stiffness of the half of point i in bond (i, j), per weight. */
-static double peri__half_stiffness(const peri_body *b, int64_t i, int64_t j, double bond) {
+PERI_INLINE double peri__half_stiffness(const peri_body *b, int64_t i, int64_t j, double bond) {
     const peri__model *m = b->model;
     if (m->laws[m->material[i]].model == PERI_BOND_BASED)
         return 0.5 * m->pairs[m->material[i] * m->materials + m->material[j]].c / bond;
@@ -171,7 +179,7 @@ static void peri__set_rate(peri_body *b, int64_t i) {
         double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(row.bond, b->b32, k);
         double own = fabs(peri__get_real(row.weight, b->b32, k)), back = fabs(peri__get_real(row.back, b->b32, k));
         if (!peri__is_alive(b, i, k)) continue;
-        peri__bond_of(m, b->f32, i, j, xi);
+        if (m->tensors) peri__bond_of(m, b->f32, i, j, xi);
         if (m->tensors && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
             b->central[i / PERI_LANES] = 1;
         sum += 2.0 * (own * peri__half_stiffness(b, i, j, bond) + back * peri__half_stiffness(b, j, i, bond));
@@ -181,11 +189,72 @@ static void peri__set_rate(peri_body *b, int64_t i) {
     b->rate[i] = sum / m->rho[m->material[i]];
 }
 
+/* ---- bodies on columns whose bonds are all alive ------------------------------------------------------------------- */
+
+/* Groups with the same columns have the same constants: the first of them works them out, the others copy. Which that is stands in rate, by
+   group, until rates are made. */
+static void peri__find_models(peri_body *b) {
+    const peri__lanes *l = &b->model->lanes;
+    int32_t seen[1024] = { 0 }; /* the last group + 1 that was the first of its kind, by a hash of its columns                */
+    for (int64_t g = 0; g < l->groups; ++g) {
+        int32_t *slot = &seen[((uint64_t)l->first[g] * UINT64_C(0x9E3779B97F4A7C15)) >> 54];
+        if (*slot == 0 || l->first[*slot - 1] != l->first[g]) *slot = (int32_t)(g + 1);
+        b->rate[g] = *slot - 1;
+    }
+}
+
+static void peri__copy_models(peri_body *b, int planes) {
+    const peri__model *m = b->model;
+    const size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    for (int64_t g = 0; g < m->lanes.groups; ++g) {
+        const int64_t to = g * PERI_LANES, from = (int64_t)b->rate[g] * PERI_LANES, count = peri__min(PERI_LANES, m->points - to);
+        for (int plane = 0; from != to && plane < planes; ++plane) {
+            char *constant = (char *)b->constant + (size_t)(m->margin + plane * m->stride) * real;
+            memcpy(constant + (size_t)to * real, constant + (size_t)from * real, (size_t)count * real);
+        }
+        if (from != to) memcpy(&b->wide[to], &b->wide[from], (size_t)count * sizeof *b->wide);
+    }
+}
+
+/* What peri__set_rate makes of the points of group g, one law and ordinary. Of a point wide = stiff (lean + sum), see peri__set_wide. */
+static void peri__group_rates(peri_body *b, int64_t g) {
+    const peri__model *m = b->model;
+    const peri__lanes *l = &m->lanes;
+    const peri__column *column = &l->column[l->first[g]];
+    const int64_t first = g * PERI_LANES, count = peri__min(PERI_LANES, m->points - first);
+    double spring[PERI_LANES], sum[PERI_LANES] = { 0.0 }, gauged[PERI_LANES] = { 0.0 };
+    for (int64_t n = 0; n < count; ++n) spring[n] = peri__get_constant(b, first + n, PERI__SPRING);
+    for (int64_t c = l->begin[g]; c < l->begin[g + 1]; ++c, ++column) {
+        const double *entry = &l->table[column->vector * PERI_TABLE_ROW], w = fabs(entry[4]);
+        const double gauge = w * (m->ordinary == PERI_OTERKUS ? 1.0 : entry[3]);
+        for (int64_t n = 0, j = first + column->offset; n < count; ++n, ++j) {
+            if (!(column->member >> n & 1)) continue;
+            sum[n] += 2.0 * w * (spring[n] + peri__get_constant(b, j, PERI__SPRING))
+                    + gauge * peri__get_constant(b, j, PERI__DILATE) * b->wide[j];
+            gauged[n] += gauge;
+        }
+    }
+    for (int64_t n = 0; n < count; ++n) {
+        const double wide = b->wide[first + n], dilate = peri__get_constant(b, first + n, PERI__DILATE);
+        const double lean = wide > 0.0 ? wide * dilate / peri__get_constant(b, first + n, PERI__PRESS) - dilate * gauged[n] : 0.0;
+        b->rate[first + n] = (sum[n] + (lean > 0.0 ? lean * wide : 0.0)) / m->rho[m->material[first + n]];
+    }
+}
+
+/* ---- all bodies --------------------------------------------------------------------------------------------------- */
+
+typedef struct peri__refresher {
+    peri_body *body;
+    int        whole; /* on columns, all bonds alive                                                                     */
+} peri__refresher;
+
 static void peri__constants_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    peri_body *b = ((const peri__step *)context)->body;
+    const peri__refresher *r = (const peri__refresher *)context;
+    peri_body *b = r->body;
     peri__row row;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
+        if (r->whole && b->rate[i / PERI_LANES] != (double)(i / PERI_LANES)) continue;
         peri__read_row(b, i, &row);
         peri__set_constants(b, i, &row);
         peri__set_wide(b, i, &row);
@@ -193,9 +262,13 @@ static void peri__constants_block(void *context, int64_t begin, int64_t end, per
 }
 
 static void peri__rates_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    peri_body *b = ((const peri__step *)context)->body;
+    const peri__refresher *r = (const peri__refresher *)context;
+    peri_body *b = r->body;
     (void)sums;
-    for (int64_t i = begin; i < end; ++i) peri__set_rate(b, i);
+    if (r->whole && b->model->ordinary)
+        for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) peri__group_rates(b, g);
+    else
+        for (int64_t i = begin; i < end; ++i) peri__set_rate(b, i);
 }
 
 static void peri__find_fastest(peri_body *b) {
@@ -206,13 +279,15 @@ static void peri__find_fastest(peri_body *b) {
 
 /* Brings the constants up to date with the bonds that are left. */
 static void peri__refresh(peri_body *b) {
-    peri__step step;
+    peri__refresher r;
     if (!b->stale) return;
-    memset(&step, 0, sizeof step);
-    step.body = b;
+    r.body = b;
+    r.whole = b->model->lanes.columns > 0 && b->cut == 0 && b->broken == 0;
+    if (r.whole) peri__find_models(b);
     if (b->central) memset(b->central, 0, (size_t)(b->model->points / PERI_LANES + 1));
-    peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &step, NULL);
-    peri__for_points(b, b->model->points, 4 * b->model->width, peri__rates_block, &step, NULL);
+    peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &r, NULL);
+    if (r.whole) peri__copy_models(b, b->model->tensors ? PERI__INVERSE + PERI_PACKED(b->model->dim) : PERI__VECTOR);
+    peri__for_points(b, b->model->points, 4 * b->model->width, peri__rates_block, &r, NULL);
     peri__find_fastest(b);
     b->stale = 0;
 }

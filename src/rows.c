@@ -34,10 +34,12 @@ static void peri__expand_row(const peri_body *b, int64_t i, peri__row *row) {
 
 /* |xi| of the bonds of row i, from the places of points. Seen from either end the same, to the last bit. */
 #define PERI_MEASURE(real, room, bond, root)                                                                           \
+    const real *x = (const real *)m->x, *y = x + m->stride, *z = m->dim == 3 ? y + m->stride : y;                      \
+    const real xi = x[i], yi = y[i], zi = z[i];                                                                        \
     for (int64_t k = 0; k < row->count; ++k) {                                                                         \
-        const real *x = (const real *)m->x;                                                                            \
-        real square = 0;                                                                                               \
-        for (int32_t d = 0; d < m->dim; ++d, x += m->stride) square += (x[row->ids[k]] - x[i]) * (x[row->ids[k]] - x[i]); \
+        const int32_t j = row->ids[k];                                                                                 \
+        real square = (x[j] - xi) * (x[j] - xi) + (y[j] - yi) * (y[j] - yi);                                           \
+        if (m->dim == 3) square += (z[j] - zi) * (z[j] - zi);                                                          \
         room[k] = (bond)root(square);                                                                                  \
     }
 static void peri__measure_row(const peri_body *b, int64_t i, peri__row *row) {
@@ -53,7 +55,7 @@ static void peri__measure_row(const peri_body *b, int64_t i, peri__row *row) {
 }
 #undef PERI_MEASURE
 
-/* Row i: ids ascending, and what each bond weighs. Valid while `row` and the model are. */
+/* Row i: ids, and what each bond weighs. Valid while `row` and the model are. */
 static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
     const peri__model *m = b->model;
     const size_t real = peri__bond_real(b);
@@ -64,6 +66,10 @@ static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
     row->count = m->count[i];
     row->first = m->start[i];
     row->ids = &m->ids[row->first];
+    if (m->order) {
+        for (int64_t k = 0; k < row->count; ++k) row->ids_room[k] = m->order[row->ids[k]];
+        row->ids = row->ids_room;
+    }
     row->weight = (const char *)m->weight + (size_t)row->first * real;
     row->back = (const char *)m->back + (size_t)row->first * real;
     row->part = m->part ? &m->part[row->first] : NULL;
@@ -78,6 +84,14 @@ static double peri__least_stretch(const peri_body *b, int64_t i) {
     for (int32_t k = 1; b->cls && k < b->classes; ++k)
         if (pairs[k].s0 < least) least = pairs[k].s0;
     return least;
+}
+
+/* The bond of the row to the point of least id above `after`, or -1. */
+static int64_t peri__next_bond(const peri__row *row, int64_t after) {
+    int64_t next = -1;
+    for (int64_t k = 0; k < row->count; ++k)
+        if (row->ids[k] > after && (next < 0 || row->ids[k] < row->ids[next])) next = k;
+    return next;
 }
 
 /* Place of j in row i, or -1. */

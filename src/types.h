@@ -125,11 +125,11 @@ typedef struct peri__model {
     uint8_t   *material; /* [points]                                                                                     */
     int32_t   *count;    /* [points] family sizes                                                                        */
     peri__lanes lanes;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
-    int32_t   *order;    /* [points] points by cells of the search grid: the order of the rows in the list, and of the passes over
-                            it; NULL where that of the points does                                                       */
+    int32_t   *order;    /* [points] id by place, see search.c: the order of the rows in the list, of the passes over it and of the
+                            records of body->pack; NULL, ids then being places, where rows were not searched, and on columns */
     int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
     int64_t    entries;  /* bonds, and PERI_LANES more that kernels may read                                             */
-    int32_t   *ids;      /* [entries] Ibond without its padding: ascending ids                                           */
+    int32_t   *ids;      /* [entries] Ibond without its padding: places of the neighbours, ascending; see peri__entry_id */
     void      *weight;   /* real [entries] w(|xi|) beta V_j                                                              */
     void      *back;     /* real [entries] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal  */
     void      *bond;     /* real [entries] |xi|; NULL where x tells: not with the centroid rule, for families larger than the
@@ -160,7 +160,7 @@ typedef union peri__reals {
 
 typedef struct peri__row { /* the family of a point, see peri__read_row; 25 kB, and not to be copied                      */
     int64_t        count, first;          /* first: its entry in the list; 0 on columns                                   */
-    const int32_t *ids;                   /* ascending                                                                    */
+    const int32_t *ids;                   /* ascending by place in the order of the model                                 */
     const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
     const float   *part;                  /* NULL for whole cells                                                         */
     int32_t        ids_room[PERI_VECTOR_LIMIT];
@@ -328,7 +328,7 @@ struct peri_body {
     peri__model      *model; /* NULL before peri_build                                                                   */
     const peri__ops  *ops;
     void     *u, *v, *f;     /* real [dim][stride]; f: force density                                                     */
-    void     *pack;          /* real [points][slots] for k_list.inl: x, u, then p and q, or Q and k of correspondence, or the material;
+    void     *pack;          /* real [places][slots] for k_list.inl: x, u, then p and q, or Q and k of correspondence, or the material;
                                 NULL where slots is 0. Scratch: filled before each pass                                             */
     uint32_t *alive;         /* [points][words] bond carries force; NULL where nothing can break and nothing is cut      */
     uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
