@@ -304,8 +304,8 @@ static void peri__repeat_group(peri__draft *d, int64_t g, int64_t other) {
     for (int n = 0; n < PERI_LANES; ++n) d->bonds += d->cloud->model->count[g * PERI_LANES + n];
 }
 
-/* Turns the family at hand, of point i - 1, into that of i, which on a lattice often is the same, moved: where it is as large, and its bonds
-   are bit by bit those of the other. 0 where it is not. */
+/* Turns the family at hand, of point i - 1, into that of i, which on a lattice often is the same, moved: where it is as large, and its
+   bonds are bit by bit those of the other. 0 where it is not. */
 static int peri__shift_row(peri__draft *d, int64_t i) {
     const peri__model *m = d->cloud->model;
     const int32_t dim = m->dim;
