@@ -3,7 +3,8 @@
    Rows of Ibond are taken in groups of PERI_LANES. On a lattice the bonds of a group along one lattice vector lead from each point to
    "own id + offset" with one offset, so a column of them is that offset, one row of a small table of bond vectors, and a mask that says
    which of the points have the bond. The kernel then runs over the points of a group with unit-stride loads. Columns ascend by offset, so
-   each point meets its bonds in the order of the list. Groups with the same columns share them: in a box there are few kinds of groups.
+   each point meets its bonds by ascending ids. Groups with the same columns share them: in a box there are few kinds of groups, and most
+   of them are recognised by the sizes of their families and the coordinates of their bonds, without looking for neighbours again.
 
    A body on columns keeps no list: peri__read_row expands a row where one is asked for, and rows decide about breaking. The list is not
    even made on the way, except where the weights of bonds are corrected, or families are the caller's.
@@ -45,7 +46,8 @@ typedef struct peri__draft { /* what building needs and drops                   
     int           alike;          /* bonds with the same vector have the same weight                                     */
     int32_t       kind[PERI_KINDS][PERI_KIND_ROOM]; /* group + 1 by the sizes of its families, the last first; 0: free    */
     int32_t      *like;           /* those of the group at hand; NULL where they serve nothing                           */
-    int32_t       ids[PERI_VECTOR_LIMIT]; /* a family that was searched                                                  */
+    int32_t       ids[PERI_VECTOR_LIMIT]; /* the family of point ids_of, ascending                                       */
+    int64_t       ids_of;
     peri__near    near;
     peri__parts   parts;
 } peri__draft;
@@ -269,7 +271,8 @@ static int peri__fits_group(const peri__draft *d, int64_t g, int64_t other) {
             for (int n = 0; n < PERI_LANES / 2; ++n)
                 for (int32_t a = 0; a < dim; ++a) want[n * dim + a] = xi[a];
             for (int half = 0; half < 2; ++half)
-                apart += PERI_BY_ISA(d->cloud->isa, peri__unlike, (there + half * 8 * dim, here + half * 8 * dim, want, 8 * dim));
+                apart += PERI_BY_ISA(d->cloud->isa, peri__unlike,
+                                     (there + half * PERI_LANES / 2 * dim, here + half * PERI_LANES / 2 * dim, want, PERI_LANES / 2 * dim));
         } else {
             for (int n = 0; n < PERI_LANES; ++n) {
                 if (!(column->member >> n & 1)) continue;
@@ -307,6 +310,33 @@ static void peri__repeat_group(peri__draft *d, int64_t g, int64_t other) {
     for (int n = 0; n < PERI_LANES; ++n) d->bonds += d->cloud->model->count[g * PERI_LANES + n];
 }
 
+/* Turns the family at hand, of point i - 1, into that of i, which on a lattice often is the same, moved: where it is as large, and its
+   bonds are bit by bit those of the other. 0 where it is not. */
+static int peri__shift_row(peri__draft *d, int64_t i) {
+    const peri__model *m = d->cloud->model;
+    const int32_t dim = m->dim;
+    const double *x = &d->cloud->x[i * dim];
+    if (!d->alike || i == 0 || d->ids_of != i - 1 || m->count[i] != m->count[i - 1]) return 0;
+    if (d->ids[m->count[i] - 1] + 1 >= m->points) return 0;
+    for (int32_t k = 0; k < m->count[i]; ++k) {
+        const double *there = &d->cloud->x[((int64_t)d->ids[k] + 1) * dim];
+        int apart = 0;
+        for (int32_t a = 0; a < dim; ++a) apart |= there[a] - x[a] != there[a - dim] - x[a - dim];
+        if (apart) return 0;
+    }
+    for (int32_t k = 0; k < m->count[i]; ++k) ++d->ids[k];
+    d->ids_of = i;
+    return 1;
+}
+
+/* Point i has the bonds of point i - 1, moved, and so is in the same columns. */
+static void peri__widen_columns(peri__draft *d, int64_t i) {
+    peri__column *group = d->group[d->now];
+    const int lane = (int)(i % PERI_LANES);
+    for (int64_t k = 0; k < d->group_count; ++k) group[k].member |= (uint16_t)((group[k].member >> (lane - 1) & 1) << lane);
+    d->bonds += d->cloud->model->count[i];
+}
+
 /* Collects the columns of all groups: PERI_OK, PERI_ERROR_FAMILY where they serve nothing, or PERI_ERROR_MEMORY. */
 static int32_t peri__draft_lanes(peri__draft *d) {
     const peri__model *m = d->cloud->model;
@@ -321,14 +351,17 @@ static int32_t peri__draft_lanes(peri__draft *d) {
             }
         }
         const int32_t *ids = m->ids ? &m->ids[m->start[i]] : d->ids;
-        if (!m->ids) {
+        const int shifted = !m->ids && peri__shift_row(d, i);
+        if (!m->ids && !shifted) {
             (void)peri__visit_family(d->cloud, i, &d->near, d->ids, PERI_VECTOR_LIMIT);
             peri__sort_row(d->ids, m->count[i]);
+            d->ids_of = i;
         }
         if (i == 0) peri__choose_units(d, ids, m->count[0]);
         if (i % PERI_BLOCK == 0 && !d->alike) peri__clear_parts(&d->parts);
         if (i % PERI_LANES == 0) d->group_count = 0;
-        if (!peri__draft_row(d, i, ids, m->count[i])) return PERI_ERROR_FAMILY;
+        if (shifted && i % PERI_LANES != 0) peri__widen_columns(d, i);
+        else if (!peri__draft_row(d, i, ids, m->count[i])) return PERI_ERROR_FAMILY;
         if ((i + 1) % PERI_LANES != 0 && i + 1 < m->points) continue;
         if (peri__draft_group(d, i / PERI_LANES) < 0) return PERI_ERROR_MEMORY;
         if (d->like) { /* first of its kind from now on */
@@ -402,6 +435,7 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     if (d) {
         d->cloud = c;
         d->alike = peri__is_alike(c);
+        d->ids_of = -1;
         d->seen_slots = 16;
         while (d->seen_slots < 2 * l->groups) d->seen_slots *= 2;
         d->seen = (int32_t *)peri__new(&b->memory, d->seen_slots, sizeof *d->seen);

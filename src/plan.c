@@ -127,7 +127,7 @@ static int64_t peri__draft_bytes(const peri__sketch *s) {
     return bytes + (int64_t)peri__block_bytes(room, sizeof(peri__column));
 }
 
-/* What peri_build takes to search families: the places twice, and the cells. The order of the points is the model's where there is a list. */
+/* What peri_build takes to search families: the places twice, and the cells. The order of points is the model's where that has a list. */
 static int64_t peri__search_bytes(const peri__sketch *s, int listed) {
     const peri__model *m = &s->model;
     double extent[3] = { 0.0, 0.0, 0.0 };
