@@ -15,8 +15,8 @@
        cc -c peri_impl.c                 and link peri_impl.o; every other file only includes peri.h
        #define PERI_STATIC               together with PERI_IMPLEMENTATION, in as many files as you like: private copies
      The implementation is C99 (compile it as C); the declarations are also C++11. Link with -lm. With -fopenmp the loops
-     run on all cores. Other switches: PERI_NO_STDIO (no FILE helpers), PERI_NO_OPENMP, PERI_PLAIN (C99
-     alone, no vector instructions), PERI_API (your own linkage).
+     run on all cores. Other switches: PERI_NO_STDIO (no FILE helpers), PERI_NO_OPENMP, PERI_PORTABLE
+     (the vectors of gcc and clang in place of x86 instructions), PERI_PLAIN (C99 alone), PERI_API (your own linkage).
 
    STEP BY STEP
      1  peri_body_desc d;  peri_body_desc_init(&d);  d.space = PERI_PLANE_STRESS;  d.horizon = 1e-3;

@@ -18,9 +18,10 @@
 #endif
 
 /* Kernels on columns and on the list work on vectors (k_vector.inl): on x86-64 with the best instruction set, chosen at run time; elsewhere
-   by plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the same bits. gcc gets
-   its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which costs half the speed
-   and more. Builds with gcc's address sanitizer, or with PERI_PLAIN, take the plain text alone: vector code takes minutes to instrument. */
+   those of gcc and clang, or plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the
+   same bits. gcc gets its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which
+   costs half the speed and more. Builds with gcc's address sanitizer, or with PERI_PLAIN, take the plain text alone: vector code takes
+   minutes to instrument. */
 #if defined(__clang__)
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION _Pragma("clang fp contract(off)")
@@ -33,12 +34,19 @@
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION
 #endif
-#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(__TINYC__) && !defined(__SANITIZE_ADDRESS__) \
-    && !defined(PERI_PLAIN)
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__) && !defined(__SANITIZE_ADDRESS__) && !defined(PERI_PLAIN)
+#if defined(__x86_64__) && !defined(PERI_PORTABLE)
 #define PERI_ISA
 #include <immintrin.h>
 #define PERI_TARGET_AVX2 __attribute__((target("avx2")))
 #define PERI_TARGET_AVX512 __attribute__((target(PERI_WIDE)))
+#elif !defined(__i386__) || defined(__SSE2__)
+#define PERI_GENERIC /* the vectors of gcc and clang, 16 bytes: NEON, VSX, ... */
+typedef double  peri__double2 __attribute__((vector_size(16)));
+typedef float   peri__float4 __attribute__((vector_size(16)));
+typedef int64_t peri__long2 __attribute__((vector_size(16)));
+typedef int32_t peri__int4 __attribute__((vector_size(16)));
+#endif
 #endif
 
 /* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted. */

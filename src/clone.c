@@ -130,14 +130,20 @@ PERI_API int32_t peri_family_width(const peri_body *b) {
 
 PERI_API int64_t peri_bond_count(const peri_body *b) { return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->bonds : 0; }
 
+#ifdef PERI_GENERIC
+#define PERI_OTHER_VECTORS "16 bytes"
+#else
+#define PERI_OTHER_VECTORS "plain"
+#endif
+
 PERI_API const char *peri_kernel_text(const peri_body *b) {
     static const char *const names[4][3] = {
 #if defined(PERI_ISA)
         { "columns, SSE2", "columns, AVX2", "columns, AVX-512" },
         { "list, SSE2", "list, AVX2", "list, AVX-512" },
 #else
-        { "columns, plain", "", "" },
-        { "list, plain", "", "" },
+        { "columns, " PERI_OTHER_VECTORS, "", "" },
+        { "list, " PERI_OTHER_VECTORS, "", "" },
 #endif
         { "rows", "rows", "rows" },
         { "reference", "reference", "reference" },

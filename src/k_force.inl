@@ -66,23 +66,26 @@ static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t e
     }
 }
 
-/* Group g by columns; by rows where a bond is about to break. */
+/* Group g by columns; points of it by rows where a bond is about to break. */
 static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *sums) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
-    peri_r *force = (peri_r *)b->f + g * PERI_LANES, f[PERI_D][PERI_LANES];
-    int64_t broken = sums->n;
-    int near_breaking;
+    const int64_t first = g * PERI_LANES, broken = sums->n;
+    peri_r *force = (peri_r *)b->f + first, f[PERI_D][PERI_LANES];
     for (int d = 0; d < PERI_D; ++d)
         for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-    near_breaking = PERI_ON_LANES(m->lanes.isa, lanes, (step, g, f));
-    if (near_breaking) {
-        PERI_FN(force_rows)(step, g * PERI_LANES, peri__min((g + 1) * PERI_LANES, m->points), sums);
-        if (sums->n > broken) peri__group_masks(m, g, b->alive, b->lanes_alive);
+    const uint32_t hit = PERI_ON_LANES(m->lanes.isa, lanes, (step, g, f));
+    if (!hit) {
+        for (int d = 0; d < PERI_D; ++d)
+            for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
         return;
     }
-    for (int d = 0; d < PERI_D; ++d)
-        for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
+    for (int l = 0; l < PERI_LANES; ++l) {
+        if (hit >> l & 1) PERI_FN(force_rows)(step, first + l, first + l + 1, sums);
+        else
+            for (int d = 0; d < PERI_D; ++d) force[d * m->stride + l] = f[d][l];
+    }
+    if (sums->n > broken) peri__group_masks(m, g, b->alive, b->lanes_alive);
 }
 
 /* Asks for what a pass over the list wants of the point four places on: places are not met in the order in which memory lies. */

@@ -2,8 +2,8 @@
    PERI_WIDTH by the operations of k_vector.inl, operation by operation in the same order as by rows, so with the same result. Included per
    precision, dimension and instruction set; PERI_LANES_FN names it. `linear`, ... are constants where these are inlined.
 
-   Bonds near their critical stretch are left to the rows. A dead lane may read anything, so its part is left out by a choice; columns
-   where all lanes live, which most do, skip that. */
+   Points with a bond near its critical stretch are left to the rows. A dead lane may read anything, so its part is left out by a choice;
+   columns where all lanes live, which most do, skip that. */
 
 #define PERI_PIECES (PERI_LANES / PERI_WIDTH)
 #define PERI_WHOLE 0xFFFF
@@ -88,21 +88,22 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(leave)(PERI_STATE sum[PERI_D][P
         for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&f[d][n * PERI_WIDTH], &sum[d][n]);
 }
 
-/* One column of bond-based bonds; c: the micromodulus times w beta V, where linear over |xi|^3. Returns nonzero where s > limit
-   for a live bond. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond, const peri_b c,
-                                                        PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear) {
+/* One column of bond-based bonds; c: the micromodulus times w beta V, where linear over |xi|^3. Returns a bit for each point with
+   a live bond beyond its limit. */
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond, const peri_b c,
+                                                             PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear,
+                                                             const int breaking) {
     PERI_NO_CONTRACTION
     const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(c), tiny = PERI_V(set1)((peri_b)PERI_TINY);
     const PERI_VECTOR most = PERI_V(set1)(bond->limit * bond->length);
-    int hit = 0;
+    uint32_t hit = 0;
     for (int n = 0; n < PERI_PIECES; ++n) {
         const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
         PERI_VECTOR eta[PERI_D], y[PERI_D], along;
         PERI_LANES_FN(moved)(s, bond, n, eta);
         const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
         const PERI_VECTOR scale = PERI_IF(linear, weight * along, weight * along / (reach * length * now + tiny));
-        hit |= (int)PERI_ABOVE(along, most * reach, live);
+        if (breaking) hit |= (uint32_t)PERI_ABOVE(along, most * reach, live) << (n * PERI_WIDTH);
         for (int d = 0; d < PERI_D; ++d) {
             const PERI_VECTOR part = scale * y[d];
             PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, part, PERI_KEEP(live, part)));
@@ -111,29 +112,30 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(column)(const PERI_LANES_FN(grou
     return hit;
 }
 
-/* Adds the force of all live bonds of group g to f[PERI_D][PERI_LANES]. Returns nonzero where a live bond comes so near its critical
-   stretch that the rows must decide; f is then void. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(lanes_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
-                                                          const int linear) {
+/* Adds the force of all live bonds of group g to f[PERI_D][PERI_LANES]. Returns a bit for each point with a live bond so near its critical
+   stretch that the row must decide. */
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(lanes_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
+                                                               const int linear, const int breaking) {
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
-    int hit = 0;
+    uint32_t hit = 0;
     PERI_LANES_FN(enter)(&s, step->body, g, step->breaking);
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         peri_b c = (peri_b)bond.row[7] * bond.weight;
         if (linear) c *= bond.inverse * bond.inverse * bond.inverse;
-        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 1, linear);
-        else hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 0, linear);
+        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 1, linear, breaking);
+        else hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 0, linear, breaking);
     }
     PERI_LANES_FN(leave)(sum, f);
     return hit;
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(lanes)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
-    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(lanes_of)(step, g, f, 1) : PERI_LANES_FN(lanes_of)(step, g, f, 0);
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(lanes)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    if (step->body->desc.geometry != PERI_LINEAR) return PERI_LANES_FN(lanes_of)(step, g, f, 0, 1);
+    return step->breaking ? PERI_LANES_FN(lanes_of)(step, g, f, 1, 1) : PERI_LANES_FN(lanes_of)(step, g, f, 1, 0);
 }
 
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
@@ -174,13 +176,14 @@ PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64
 
 /* One column of ordinary state-based bonds; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2; gauged = |xi|,
    or 1. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(share_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
-                                                              const peri_b *p, const peri_b *q, peri_b weighed, peri_b gauged,
-                                                              PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear) {
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
+                                                                   const peri_b *p, const peri_b *q, peri_b weighed, peri_b gauged,
+                                                                   PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear,
+                                                                   const int breaking) {
     PERI_NO_CONTRACTION
     const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(weighed), gauge = PERI_V(set1)(gauged);
     const PERI_VECTOR most = PERI_V(set1)(bond->limit * bond->length), tiny = PERI_V(set1)((peri_b)PERI_TINY);
-    int hit = 0;
+    uint32_t hit = 0;
     for (int n = 0; n < PERI_PIECES; ++n) {
         const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
         const PERI_VECTOR both_p = PERI_V(loadu)(p + n * PERI_WIDTH) + PERI_V(loadu)(p + bond->offset + n * PERI_WIDTH);
@@ -190,7 +193,7 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(share_column)(const PERI_LANES_F
         const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
         const PERI_VECTOR pull = weight * (both_q * along + both_p * gauge * reach);
         const PERI_VECTOR scale = PERI_IF(linear, pull, pull / (reach * now + tiny));
-        hit |= (int)PERI_ABOVE(along, most * reach, live);
+        if (breaking) hit |= (uint32_t)PERI_ABOVE(along, most * reach, live) << (n * PERI_WIDTH);
         for (int d = 0; d < PERI_D; ++d) {
             const PERI_VECTOR part = scale * y[d];
             PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, part, PERI_KEEP(live, part)));
@@ -199,10 +202,9 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(share_column)(const PERI_LANES_F
     return hit;
 }
 
-/* Adds the force of all live ordinary state-based bonds of group g to f. Returns nonzero where one comes near its critical stretch; f is
-   then void. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(share_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
-                                                          const int linear) {
+/* Adds the force of all live ordinary state-based bonds of group g to f. Returns as `lanes`. */
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
+                                                               const int linear, const int breaking) {
     const peri_body *b = step->body;
     const peri__model *m = b->model;
     const peri_b *p = (const peri_b *)b->response + m->margin + g * PERI_LANES;
@@ -210,22 +212,23 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(share_of)(const peri__step *step
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
-    int hit = 0;
+    uint32_t hit = 0;
     PERI_LANES_FN(enter)(&s, b, g, step->breaking);
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const peri_b gauge = m->ordinary == PERI_OTERKUS ? 1 : bond.length;
         const peri_b weight = linear ? bond.weight * (bond.inverse * bond.inverse) : bond.weight;
-        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 1, linear);
-        else hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 0, linear);
+        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 1, linear, breaking);
+        else hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 0, linear, breaking);
     }
     PERI_LANES_FN(leave)(sum, f);
     return hit;
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(share)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
-    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(share_of)(step, g, f, 1) : PERI_LANES_FN(share_of)(step, g, f, 0);
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(share)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    if (step->body->desc.geometry != PERI_LINEAR) return PERI_LANES_FN(share_of)(step, g, f, 0, 1);
+    return step->breaking ? PERI_LANES_FN(share_of)(step, g, f, 1, 1) : PERI_LANES_FN(share_of)(step, g, f, 1, 0);
 }
 
 /* sum w eta xi V of correspondence points. */
@@ -257,8 +260,8 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
 }
 
 /* Adds the force of all live bonds of a group of correspondence points to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta); no central bonds.
-   Returns nonzero where a bond comes near its critical stretch, (2 xi + eta).eta > s0 (2 + s0) |xi|^2 or xi.eta > s0 |xi|^2. */
-PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+   Returns as `lanes`; critical are (2 xi + eta).eta > s0 (2 + s0) |xi|^2, or xi.eta > s0 |xi|^2. */
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(tensor)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
     const peri__model *m = b->model;
@@ -268,7 +271,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
-    int hit = 0;
+    uint32_t hit = 0;
     PERI_LANES_FN(enter)(&s, b, g, step->breaking);
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
@@ -290,7 +293,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(tensor)(const peri__step *step, int64
                 }
                 along += PERI_IF(linear, bond.xi[a], bond.twice[a] + eta[a]) * eta[a];
             }
-            hit |= (int)PERI_ABOVE(along, limit, live);
+            hit |= (uint32_t)PERI_ABOVE(along, limit, live) << (n * PERI_WIDTH);
             for (int a = 0; a < PERI_D; ++a) PERI_LANES_FN(gather)(&sum[a][n], PERI_KEEP(live, weight * y[a]));
         }
     }

@@ -184,17 +184,15 @@ static void PERI_FN(share)(void *context, int64_t begin, int64_t end, peri__sums
     for (int64_t first = begin; first < end; first += PERI_LANES) {
         peri_r *force = (peri_r *)step->body->f + first, f[PERI_D][PERI_LANES];
         const int64_t g = first / PERI_LANES;
-        int by_rows = m->tensors && step->body->central[g];
+        uint32_t by_row = 0xFFFF;
         for (int d = 0; d < PERI_D; ++d)
             for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-        if (!by_rows)
-            by_rows = m->tensors ? PERI_ON_LANES(m->lanes.isa, tensor, (step, g, f)) : PERI_ON_LANES(m->lanes.isa, share, (step, g, f));
-        if (by_rows) {
-            PERI_FN(share_rows)(step, first, peri__min(first + PERI_LANES, end), sums);
-            continue;
-        }
+        if (!m->tensors) by_row = PERI_ON_LANES(m->lanes.isa, share, (step, g, f));
+        else if (!step->body->central[g]) by_row = PERI_ON_LANES(m->lanes.isa, tensor, (step, g, f));
+        for (int l = 0; by_row && l < PERI_LANES && first + l < end; ++l)
+            if (by_row >> l & 1) PERI_FN(share_rows)(step, first + l, first + l + 1, sums);
         for (int d = 0; d < PERI_D; ++d)
-            for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
+            for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = by_row >> l & 1 ? force[d * m->stride + l] : f[d][l];
     }
 }
 

@@ -1,16 +1,16 @@
-/* k_vector.inl - the operations of k_lanes.inl and k_list.inl per instruction set: PERI_V_ISA 0 SSE2, which every x86-64 has, or else plain
-   text, one lane at a time; 1 AVX2; 2 AVX-512.
+/* k_vector.inl - the operations of k_lanes.inl and k_list.inl per instruction set: PERI_V_ISA 0 SSE2, which every x86-64 has; elsewhere the
+   vectors of gcc and clang, or plain text, one lane at a time; 1 AVX2; 2 AVX-512.
 
    PERI_VECTOR     PERI_WIDTH reals of bonds. + - * / are the compiler's own, each rounded; PERI_V(set1), PERI_V(loadu), PERI_V(sqrt)
    PERI_LIVE       which of its lanes count, from the lowest bits of a word
    PERI_KEEP       0 in the lanes that do not count
-   PERI_ABOVE      not 0 where a > b in a lane that counts
+   PERI_ABOVE      a bit for each lane that counts where a > b
    PERI_STATE      as many reals of the state: `take` reads them, `apart` is what others are more than these, as reals of bonds, `gather`
                    adds reals of bonds to them, `spread` writes them
    differ          four reals of the state from pack + slots*id of each of PERI_WIDTH ids, less own[4], as four PERI_VECTOR. Records are
                    loaded whole and turned in registers (`fetch`): a fraction of the time of gathering numbers one by one */
 
-#if PERI_V_ISA == 0 && !defined(PERI_ISA)
+#if PERI_V_ISA == 0 && !defined(PERI_ISA) && !defined(PERI_GENERIC)
 #define PERI_VECTOR peri_b
 #define PERI_WIDTH 1
 #define PERI_V(name) PERI_PLAIN_##name
@@ -26,6 +26,60 @@ PERI_INLINE void PERI_LANES_FN(spread)(peri_r *at, const peri_r *from) { *at = *
 PERI_INLINE void PERI_LANES_FN(differ)(const peri_r *pack, int32_t slots, const int32_t *ids, const peri_r *own, peri_b *got) {
     for (int s = 0; s < 4; ++s) got[s] = (peri_b)(pack[(int64_t)slots * ids[0] + s] - own[s]);
 }
+
+#elif PERI_V_ISA == 0 && defined(PERI_GENERIC)
+#define PERI_V(name) PERI_LANES_FN(v_##name)
+#define PERI_KEEP(live, a) ((PERI_VECTOR)((PERI_LIVE)(a) & (live)))
+#define PERI_ABOVE(a, b, live) PERI_LANES_FN(bits)(((a) > (b)) & (live))
+#if PERI_T_BOND == 64
+#define PERI_VECTOR peri__double2
+#define PERI_WIDTH 2
+#define PERI_LIVE peri__long2
+#define PERI_TO_LIVE(bits) ((peri__long2){ -(int64_t)((bits) & 1), -(int64_t)((bits) >> 1 & 1) })
+PERI_INLINE PERI_VECTOR PERI_V(set1)(double a) { return (PERI_VECTOR){ a, a }; }
+PERI_INLINE PERI_VECTOR PERI_V(sqrt)(PERI_VECTOR a) { return (PERI_VECTOR){ sqrt(a[0]), sqrt(a[1]) }; }
+PERI_INLINE int PERI_LANES_FN(bits)(peri__long2 a) { return (int)((a[0] & 1) | (a[1] & 2)); }
+#else
+#define PERI_VECTOR peri__float4
+#define PERI_WIDTH 4
+#define PERI_LIVE peri__int4
+#define PERI_TO_LIVE(bits)                                                                                             \
+    ((peri__int4){ -(int32_t)((bits) & 1), -(int32_t)((bits) >> 1 & 1), -(int32_t)((bits) >> 2 & 1), -(int32_t)((bits) >> 3 & 1) })
+PERI_INLINE PERI_VECTOR PERI_V(set1)(float a) { return (PERI_VECTOR){ a, a, a, a }; }
+PERI_INLINE PERI_VECTOR PERI_V(sqrt)(PERI_VECTOR a) { return (PERI_VECTOR){ sqrtf(a[0]), sqrtf(a[1]), sqrtf(a[2]), sqrtf(a[3]) }; }
+PERI_INLINE int PERI_LANES_FN(bits)(peri__int4 a) { return (a[0] & 1) | (a[1] & 2) | (a[2] & 4) | (a[3] & 8); }
+#endif
+PERI_INLINE PERI_VECTOR PERI_V(loadu)(const peri_b *at) {
+    PERI_VECTOR a;
+    memcpy(&a, at, sizeof a);
+    return a;
+}
+PERI_INLINE void PERI_V(storeu)(peri_b *at, PERI_VECTOR a) { memcpy(at, &a, sizeof a); }
+#if PERI_T_REAL == 64
+#define PERI_HALF peri__double2
+#define PERI_ROW(s) { pack[(int64_t)slots * ids[0] + (s)], pack[(int64_t)slots * ids[1] + (s)] }
+#else
+#define PERI_HALF peri__float4
+#define PERI_ROW(s)                                                                                                    \
+    { pack[(int64_t)slots * ids[0] + (s)], pack[(int64_t)slots * ids[1] + (s)], pack[(int64_t)slots * ids[2] + (s)],   \
+      pack[(int64_t)slots * ids[3] + (s)] }
+#endif
+PERI_INLINE void PERI_LANES_FN(fetch)(const peri_r *pack, int32_t slots, const int32_t *ids, PERI_HALF *got) {
+    for (int s = 0; s < 4; ++s) got[s] = (PERI_HALF)PERI_ROW(s);
+}
+#undef PERI_ROW
+#if PERI_T_REAL != PERI_T_BOND
+#define PERI_S(name) PERI_LANES_FN(s_##name)
+PERI_INLINE PERI_HALF PERI_S(set1)(double a) { return (PERI_HALF){ a, a }; }
+PERI_INLINE PERI_HALF PERI_S(loadu)(const double *at) { return (PERI_HALF){ at[0], at[1] }; }
+PERI_INLINE void PERI_S(storeu)(double *at, PERI_HALF a) { memcpy(at, &a, sizeof a); }
+#define PERI_NARROW(lo, hi) PERI_LANES_FN(narrow)(lo, hi)
+PERI_INLINE PERI_VECTOR PERI_LANES_FN(narrow)(PERI_HALF lo, PERI_HALF hi) {
+    return (PERI_VECTOR){ (float)lo[0], (float)lo[1], (float)hi[0], (float)hi[1] };
+}
+#define PERI_WIDEN_LO(a) ((PERI_HALF){ (double)(a)[0], (double)(a)[1] })
+#define PERI_WIDEN_HI(a) ((PERI_HALF){ (double)(a)[2], (double)(a)[3] })
+#endif
 
 #elif PERI_V_ISA == 0
 #if PERI_T_BOND == 64

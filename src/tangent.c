@@ -173,10 +173,12 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     t.q = peri__new_vector(b);
     t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
     if (p && t.q && (t.change || !m->states)) {
-        for (int64_t k = 0; k < count; ++k) peri__put_real(p, b->f32, k % m->dim * m->stride + k / m->dim, in[k]);
+        for (int64_t i = 0; i < m->points; ++i)
+            for (int32_t d = 0; d < m->dim; ++d) peri__put_real(p, b->f32, d * m->stride + i, in[i * m->dim + d]);
         peri__apply_tangent(&t, 0);
-        for (int64_t k = 0; k < count; ++k)
-            out[k] = -unit * m->volume[k / m->dim] * peri__get_real(t.q, b->f32, k % m->dim * m->stride + k / m->dim);
+        for (int64_t i = 0; i < m->points; ++i)
+            for (int32_t d = 0; d < m->dim; ++d)
+                out[i * m->dim + d] = -unit * m->volume[i] * peri__get_real(t.q, b->f32, d * m->stride + i);
     } else
         status = peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
     peri__delete_vector(b, p);
