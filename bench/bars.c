@@ -70,6 +70,8 @@ static void textbook_rows(bench_run *run, table *t, int32_t law, int32_t space, 
         put_number(t, best[1] / best[2 + k]);
         put_number(t, reals[k] == PERI_F32 ? bar_single : NOTHING);
         put_number(t, facts[k].bytes);
+        put_number(t, w.flop / best[2 + k]);
+        put_number(t, w.bytes / best[2 + k]);
         put_number(t, facts[k].columns > 0 ? bonds / (16.0 * (double)facts[k].columns) : NOTHING);
         put_number(t, limit);
         put_number(t, 100.0 * limit / best[2 + k]);
@@ -87,7 +89,8 @@ void bench_textbook(bench_run *run) {
         { "book f64", "textbook_double_ns", 8, 2 }, { "book f32", "textbook_single_ns", 8, 2 },
         { "ns/bond", "ns_per_bond", 8, 2 },         { "x f64", "faster_than_double", 6, 2 },
         { "x f32", "faster_than_single", 6, 2 },    { "bar", "bar", 5, 1 },
-        { "bytes/pt", "bytes_per_point", 8, 0 },    { "filled", "lanes_filled", 6, 2 },
+        { "bytes/pt", "bytes_per_point", 8, 0 },    { "GFLOP/s", "gflops", 7, 1 },
+        { "GB/s", "gbytes_per_s", 6, 1 },           { "filled", "lanes_filled", 6, 2 },
         { "limit", "limit_ns_per_bond", 6, 2 },     { "share %", "share_percent", 7, 0 },
         { "by", "limited_by", -5, 0 },
     };
@@ -107,7 +110,7 @@ static void thread_row(bench_run *run, table *t, int32_t law, int32_t precision,
     bench_case c = { law, PERI_SOLID, precision, PERI_NONLINEAR, 1, 0.5, cloud, { edge, edge, edge }, 3 };
     peri_body *body[2];
     bench_facts facts[2];
-    double best[2] = { 1e300, 1e300 };
+    double best[2] = { 1e300, 1e300 }, work[2] = { 1e300, 1e300 };
     char name[128];
     case_name(&c, name, sizeof name);
     for (int k = 0; k < 2; ++k) {
@@ -120,14 +123,16 @@ static void thread_row(bench_run *run, table *t, int32_t law, int32_t precision,
     if (!body[0] || !body[1]) exit(1);
     for (int64_t r = 0; r < 3 * run->repeats; ++r)
         for (int k = 0; k < 2; ++k) {
-            const double taken = s->steps(body[k], 2, 2) * 1e9 / (2.0 * (double)facts[k].bonds);
+            const double start = processor_seconds(), taken = s->steps(body[k], 2, 2) * 1e9 / (2.0 * (double)facts[k].bonds);
             if (taken < best[k]) best[k] = taken;
+            if (processor_seconds() - start < work[k]) work[k] = processor_seconds() - start;
         }
     for (int k = 0; k < 2; ++k) s->read_state(body[k], state + 2 * k * size, state + (2 * k + 1) * size, size);
     put_text(t, name);
     put_number(t, best[0]);
     put_number(t, best[1]);
     put_number(t, best[0] / best[1]);
+    put_number(t, work[1] / work[0]);
     put_text(t, memcmp(state, state + 2 * size, (size_t)(2 * size) * sizeof *state) == 0 ? "same" : "DIFFERENT");
     free(state);
     for (int k = 0; k < 2; ++k) s->destroy(body[k]);
@@ -136,14 +141,17 @@ static void thread_row(bench_run *run, table *t, int32_t law, int32_t precision,
 void bench_threads(bench_run *run) {
     static const column columns[] = {
         { "case", "case", -40, 0 },       { "1 thread", "one_ns_per_bond", 9, 2 }, { "2 threads", "two_ns_per_bond", 9, 2 },
-        { "ratio", "ratio", 6, 2 },       { "bits", "bits", -9, 0 },
+        { "ratio", "ratio", 6, 2 },       { "work", "work_of_two_over_one", 6, 2 },
+        { "bits", "bits", -9, 0 },
     };
     table t;
 #ifndef _OPENMP
     printf("\nThreads: compiled without OpenMP\n");
     return;
 #endif
-    printf("\nThreads, bodies harmed (bar 1.80, same bits)");
+    printf("\nThreads, bodies harmed (bar 1.80, same bits), by the clock on the wall: needs two idle cores, and threads that do not spin\n"
+           "while they wait (OMP_WAIT_POLICY=passive). work: time of the processor of both threads over that of one, whatever else runs:\n"
+           "at 1.00 two free cores take half the time, and what one waits for the other");
     table_open(&t, "out/threads.csv", columns, (int)(sizeof columns / sizeof columns[0]));
     thread_row(run, &t, PERI_BOND_BASED, PERI_F64, 0, 48);
     thread_row(run, &t, PERI_BOND_BASED, PERI_F32, 0, 48);

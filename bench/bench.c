@@ -1,18 +1,24 @@
 /* bench.c - the proof of speed: `bench [--large] [--repeats n] [section ...]`, all sections but `large` where none is named. One row a
-   case, as CSV too. Each figure is the least of n >= 7 timings of about 6 ms; what is compared takes turns in one run, so that
-   ratios hold on a noisy machine. One thread, unless a row says otherwise.
+   case, as CSV too. Each figure is the least of n >= 7 timings of about 6 ms or of one step, where that is longer; what is compared takes
+   turns in one run. One thread, unless a row says otherwise, and then in time of the processor, so that other work on the machine only
+   counts by what it takes of caches and memory.
 
-     limits     out/limits.csv, out/work.csv   what one core can do: additions, multiplications, both side by side, fused ones, roots,
-                and divisions, 1e9 per second, and GB/s of b = s a and a = s a by size; operations per bond and their equations
+     limits     out/limits.csv     what one core can do: additions, multiplications, both side by side, fused ones, roots and divisions,
+                                   1e9 per second
+                out/flow.csv       GB/s of b = s a and of a = s a by the size of the arrays
+                out/work.csv       operations per bond, and the equations that they are of
      cases      out/cases.csv      three laws, three grids, three precisions, intact and harmed (2 % of the bonds cut at random, and a
-                crack), lattice and cloud. The library compiled twice in one program: -O2 (ns/bond) and -O3 -march=native (native);
-                `ratio` -O2 over native; `harmed` over the same row intact; all that the body holds and the most it holds during
-                peri_build, bytes per point; time of peri_build per bond
+                                   crack), lattice and cloud. ns per directed bond and step: the library compiled twice in one program,
+                                   -O2 and -O3 -march=native (`native`; `ratio` of the first over it); `harmed`: over the same row
+                                   intact; bytes per point of all that the body holds, and the most that it holds during peri_build;
+                                   ns per bond of peri_build, search of neighbours and all
      textbook   out/textbook.csv   plain loops in double and in single precision against the library
-     threads    out/threads.csv    one and two threads, and whether their states are the same to the last bit
+     threads    out/threads.csv    one and two threads, by the clock on the wall, and whether their states are the same to the last bit
      operator   out/operator.csv   products with the tangent, and steps of linear geometry
      unused     out/unused.csv     what a scene pays for what it uses, and does not pay for what it does not
-     game, branching, large  out/runs.csv   whole runs: frames of a game, crack branching, 8 million points
+     game       out/game.csv       frames of a game
+     branching  out/branching_time.csv   a whole run of crack branching
+     large      out/large.csv      8 million points; also as --large
 
    The share of a row is the least time in which the machine could do the bond, over the time of the step per bond. The least time is the
    largest of three: bytes that must move over the flow of data measured at that size; roots and divisions, which share a pipe;
@@ -180,14 +186,19 @@ int main(int argc, char **argv) {
     int named = 0, wanted[16] = { 0 };
     run.repeats = 7;
     for (int k = 1; k < argc; ++k) {
-        if (strcmp(argv[k], "--repeats") == 0 && k + 1 < argc) {
+        const char *word = strcmp(argv[k], "--large") == 0 ? "large" : argv[k];
+        int s = 0;
+        if (strcmp(word, "--repeats") == 0 && k + 1 < argc) {
             run.repeats = atol(argv[++k]);
             continue;
         }
-        for (int s = 0; s < count; ++s)
-            if (strcmp(argv[k] + (strcmp(argv[k], "--large") == 0 ? 2 : 0), sections[s].name) == 0) named += wanted[s] = 1;
+        while (s < count && strcmp(word, sections[s].name) != 0) ++s;
+        if (s == count) {
+            fprintf(stderr, "bench: no section `%s`; see bench/bench.c\n", word);
+            return 2;
+        }
+        wanted[s] = named = 1;
     }
-    if (argc > 1 && named == 0 && run.repeats == 7) fprintf(stderr, "bench: no such section; all but large\n");
     if (run.repeats < 7) run.repeats = 7;
     machine_measure(&run.machine, run.repeats);
     for (int s = 0; s < count; ++s)
