@@ -46,7 +46,7 @@ build/tests/%: tests/%.c $(wildcard tests/*.h) build/peri.o
 	@mkdir -p $(@D)
 	$(COMPILE) $< build/peri.o -o $@ -lm
 
-build/bench/statics: bench/statics.c bench/bench.h build/peri.o
+build/bench/%: bench/%.c bench/bench.h build/peri.o
 	@mkdir -p $(@D)
 	$(COMPILE) $< build/peri.o -o $@ -lm
 
