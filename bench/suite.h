@@ -73,6 +73,7 @@ const char *machine_vectors(void);
 
 typedef struct bench_work { /* per directed bond and step                                                                        */
     double add, mul, root, div; /* add: subtractions and comparisons, too                                                        */
+    double wide;                /* of `add`: in double, where the rest is in single precision                                    */
     double flop;                /* all of them without comparisons                                                               */
     double bytes;               /* that must come from and go to beyond the registers, each array once per pass                  */
     double set;                 /* [bytes] of the arrays that a step touches, whole body                                         */

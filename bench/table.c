@@ -24,7 +24,7 @@ static void next(table *t) {
 
 void put_text(table *t, const char *text) {
     printf("%*s", t->columns[t->at].width, text);
-    if (t->csv) fprintf(t->csv, "%s", text);
+    if (t->csv) fprintf(t->csv, strchr(text, ',') ? "\"%s\"" : "%s", text);
     next(t);
 }
 
