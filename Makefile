@@ -1,7 +1,7 @@
 # make demo      builds and runs the flagship: dynamic crack branching in glass -> out/branching.png, out/branching.vtu
 # make test      builds and runs every test, closing with "N passed, N failed"
 # make validate  the long tables of the source texts
-# make bench     performance tables
+# make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
 # make examples  builds and runs every example
 # make lib       build/libperi.a and build/libperi.so
 # make dist      build/dist/peri.h, the single-file header
@@ -13,6 +13,8 @@ CFLAGS ?= -O2
 STRICT = -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror
 OPENMP := $(shell echo 'int main(void){return 0;}' | $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 COMPILE = $(CC) $(STRICT) $(CFLAGS) $(OPENMP) -I.
+NATIVE := $(shell for n in -march=native -mcpu=native; do \
+    echo 'int main(void){return 0;}' | $(CC) $$n -x c - -o /dev/null 2>/dev/null && echo $$n && break; done)
 
 # threads that wait must not spin where other work shares the machine
 export OMP_WAIT_POLICY ?= passive
@@ -47,6 +49,24 @@ build/tests/%: tests/%.c $(wildcard tests/*.h) build/peri.o
 build/bench/%: bench/%.c bench/bench.h build/peri.o
 	@mkdir -p $(@D)
 	$(COMPILE) $< build/peri.o -o $@ -lm
+
+# the same library twice in one program: plain -O2 as users compile it, and with all that the compiler has. The second without
+# warnings: what gcc 12 -O3 takes for not initialised is
+build/bench/cases_plain.o: FLAGS = $(STRICT) -O2
+build/bench/cases_native.o: FLAGS = -std=c99 -w -O3 $(NATIVE)
+build/bench/cases_%.o: bench/cases.c $(wildcard bench/*.h) $(SOURCES)
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) $(OPENMP) -I. -DCASES=cases_$* -c $< -o $@
+
+build/bench/textbook.o: FLAGS = -O2 $(NATIVE)
+build/bench/limits.o: FLAGS = -O3 $(NATIVE)
+build/bench/%.o: bench/%.c $(wildcard bench/*.h bench/*.inl tests/test_glass.h)
+	@mkdir -p $(@D)
+	$(CC) $(STRICT) $(or $(FLAGS),-O2) $(OPENMP) -I. -c $< -o $@
+
+BENCH = bench bars cases_native cases_plain glass limits runs table textbook work
+build/bench/bench: $(BENCH:%=build/bench/%.o) build/peri.o
+	$(CC) $(OPENMP) $^ -o $@ -lm
 
 demo: build/examples/branching
 	@mkdir -p out

@@ -20,6 +20,9 @@ static inline double seconds(void) {
 #endif
 }
 
+/* Time of the processor, all threads together: that of the wall on an idle machine, for one thread, and not disturbed by others. */
+static inline double processor_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
 static uint64_t bytes_now, bytes_most;
 
 static inline void *count_allocate(void *user, uint64_t bytes) {
@@ -36,8 +39,8 @@ static inline void count_release(void *user, void *pointer, uint64_t bytes) {
 }
 
 static inline void need(peri_body *body, int64_t result) {
-    peri_error error;
-    char text[256];
+    peri_error error = { 0, 0, -1, 0.0, "", "" };
+    char text[256] = "";
     if (result >= 0) return;
     (void)peri_last_error(body, &error);
     (void)peri_error_format(&error, text, sizeof text);
