@@ -90,7 +90,8 @@ static int peri__is_blurred(const peri__cloud *c, int64_t i, int64_t j, double l
     return length < PERI_BLUR || fabs(sqrt(square) - length) > PERI_BLUR * length;
 }
 
-/* Weights of a block of rows. sums->bad with sums->n = status; sums->a: blurred bonds. */
+/* Weights of a block of rows, in the order of places. sums->bad: the least id of a row that is refused, sums->n: its status; sums->a:
+   blurred bonds. */
 static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri__cloud *c = (peri__cloud *)context;
     const peri_body *b = c->body;
@@ -98,17 +99,15 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     peri__bond bond;
     peri__parts parts;
     peri__clear_parts(&parts);
-    for (int64_t i = begin; i < end; ++i) {
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
         double total = 0.0, stiff = 0.0;
-        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at) {
+        int32_t status = PERI_OK;
+        for (int64_t at = m->start[i]; at < m->start[i] + m->count[i] && status == PERI_OK; ++at) {
             const int64_t j = peri__entry_id(m, at);
             int finite = peri__weigh_bond(c, &parts, i, j, &bond);
             peri__put_real(m->weight, b->b32, at, bond.weight);
-            if (!finite || !peri__finite(peri__get_real(m->weight, b->b32, at))) { /* the second: beyond the range of float */
-                sums->bad = i;
-                sums->n = PERI_ERROR_INFLUENCE;
-                return;
-            }
+            if (!finite || !peri__finite(peri__get_real(m->weight, b->b32, at))) status = PERI_ERROR_INFLUENCE; /* or beyond float */
             if (m->bond) peri__put_real(m->bond, b->b32, at, bond.length);
             if (m->part) m->part[at] = (float)bond.share;
             for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->b32, at * m->dim + d, bond.centre[d]);
@@ -116,11 +115,11 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
         }
-        if (!(total > 0.0) || (m->laws[m->material[i]].model != PERI_BOND_BASED && !(stiff > 0.0))) {
-            sums->bad = i;
-            sums->n = total > 0.0 ? PERI_ERROR_INFLUENCE : PERI_ERROR_FAMILY;
-            return;
-        }
+        if (status == PERI_OK && !(total > 0.0)) status = PERI_ERROR_FAMILY;
+        if (status == PERI_OK && m->laws[m->material[i]].model != PERI_BOND_BASED && !(stiff > 0.0)) status = PERI_ERROR_INFLUENCE;
+        if (status == PERI_OK || (sums->bad >= 0 && sums->bad < i)) continue;
+        sums->bad = i;
+        sums->n = status;
     }
 }
 
@@ -221,7 +220,8 @@ static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *
 static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__cloud *c = (const peri__cloud *)context;
     const peri__model *m = c->model;
-    for (int64_t i = begin; i < end; ++i) {
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
         double rate = 0.0;
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
             rate += m->pairs[m->material[i] * m->materials + m->material[peri__entry_id(m, at)]].c
@@ -263,8 +263,10 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     } else {
         peri__for_points(b, m->points, 8 * m->width, peri__weigh_block, c, sums);
     }
+    const peri__sums *first = NULL;
     for (int64_t k = 0; k < m->blocks; ++k)
-        if (sums[k].bad >= 0) return peri__fail(b, (int32_t)sums[k].n, "influence", sums[k].bad, 0.0);
+        if (sums[k].bad >= 0 && (!first || sums[k].bad < first->bad)) first = &sums[k];
+    if (first) return peri__fail(b, (int32_t)first->n, "influence", first->bad, 0.0);
     const int kept = m->bond != NULL, needed = m->width > PERI_VECTOR_LIMIT || peri__total(sums, m->points).a > 0.0;
     return needed && !kept ? peri__keep_lengths(b, c) : PERI_OK;
 }

@@ -205,7 +205,7 @@ static void peri__find_models(peri_body *b) {
 
 static void peri__copy_models(peri_body *b, int planes) {
     const peri__model *m = b->model;
-    const size_t real = b->f32 ? sizeof(float) : sizeof(double);
+    const size_t real = peri__bond_real(b);
     for (int64_t g = 0; g < m->lanes.groups; ++g) {
         const int64_t to = g * PERI_LANES, from = (int64_t)b->rate[g] * PERI_LANES, count = peri__min(PERI_LANES, m->points - to);
         for (int plane = 0; from != to && plane < planes; ++plane) {

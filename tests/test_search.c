@@ -470,7 +470,7 @@ static void constants_shared(void) {
             CHECK(peri_body_create(&d, &body, NULL) == PERI_OK);
             peri_material_init(&m, models[k % 3]);
             m.young = m.density = 1.0;
-            m.poisson = 0.2;
+            m.poisson = 0.4; /* theta adds to the stiffness */
             MUST(body, peri_add_material(body, &m));
             if (ball) MUST(body, peri_add_ball(body, 0, centre, dim == 2 ? 20.0 : 7.5, 1.0));
             else MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
