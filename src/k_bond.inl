@@ -5,7 +5,7 @@
 
    weight = w beta V_j is stored. The extension is taken as e = (2 xi.eta + eta.eta)/(|xi+eta| + |xi|): the difference of two
    lengths loses every digit at strains of 1e-7 in single precision, this form none.
-   Each row adds its own bonds in ascending order and writes only to its own point. Both ends of a bond compute the same e to the last
+   Each row adds its own bonds in the order of the list and writes only to its own point. Both ends of a bond compute the same e to the last
    bit (only signs differ), so both find it broken in the same step without telling each other. */
 
 /* Bond (i, j), entry `at`: reference bond xi and relative displacement eta. */

@@ -94,7 +94,7 @@ static int64_t peri__next_bond(const peri__row *row, int64_t after) {
     return next;
 }
 
-/* Place of j in row i, or -1. */
+/* Which bond of row i leads to j, or -1. */
 static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
     const peri__lanes *lanes = &m->lanes;
     const int64_t g = i / PERI_LANES;

@@ -126,7 +126,7 @@ typedef struct peri__model {
     int32_t   *count;    /* [points] family sizes                                                                        */
     peri__lanes lanes;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
     int32_t   *order;    /* [points] id by place, see search.c: the order of the rows in the list, of the passes over it and of the
-                            records of body->pack; NULL, ids then being places, where rows were not searched, and on columns */
+                            records of body->pack; NULL, places then being ids, where rows were not searched, and on columns */
     int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
     int64_t    entries;  /* bonds, and PERI_LANES more that kernels may read                                             */
     int32_t   *ids;      /* [entries] Ibond without its padding: places of the neighbours, ascending; see peri__entry_id */

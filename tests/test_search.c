@@ -311,6 +311,47 @@ static void renumbered(void) {
     }
 }
 
+static double written_out(void *user, double q) {
+    switch (*(const int32_t *)user) {
+    case PERI_INFLUENCE_LINEAR: return 1 - q;
+    case PERI_INFLUENCE_CUBIC: return 1 - 3 * q * q + 2 * q * q * q;
+    case PERI_INFLUENCE_QUINTIC: return 1 - q * q * q * (10 - 15 * q + 6 * q * q);
+    default: return exp(-q * q);
+    }
+}
+
+/* Truth: the same function of the caller, which is asked bond by bond. The two moments differ by what their quadratures leave. */
+static void influences(void) {
+    static const int32_t kinds[4] = { PERI_INFLUENCE_LINEAR, PERI_INFLUENCE_CUBIC, PERI_INFLUENCE_QUINTIC, PERI_INFLUENCE_GAUSSIAN };
+    static double force[2][3 * N_MAX];
+    int k, user;
+    for (k = 0; k < 4; ++k) {
+        double largest = 0.0, apart = 0.0;
+        int64_t i;
+        fill(&given, 3, 500, 2.2);
+        scatter(&given, 7.9);
+        for (user = 0; user < 2; ++user) {
+            int32_t kind = kinds[k];
+            peri_body_desc d = desc_of(&given);
+            peri_body *body;
+            d.influence = user ? PERI_INFLUENCE_USER : kind;
+            d.influence_fn = user ? written_out : NULL;
+            d.influence_user = &kind;
+            body = body_of(&given, &d);
+            MUST(body, peri_build(body));
+            for (i = 0; i < 3 * given.count; ++i) force[user][i] = 1e-2 * sin(0.37 * (double)i);
+            MUST(body, peri_write(body, PERI_DISPLACEMENT, force[user], 3 * given.count));
+            MUST(body, peri_read(body, PERI_FORCE_DENSITY, force[user], 3 * given.count));
+            peri_body_destroy(body);
+        }
+        for (i = 0; i < 3 * given.count; ++i) {
+            largest = fmax(largest, fabs(force[1][i]));
+            apart = fmax(apart, fabs(force[0][i] - force[1][i]));
+        }
+        CHECK(largest > 0.0 && apart <= 1e-9 * largest);
+    }
+}
+
 /* Bonds are found from either end, and cut once. */
 static void pairs_found(void) {
     peri_body_desc desc;
@@ -505,6 +546,7 @@ int main(int argc, char **argv) {
     RUN(far_away);
     RUN(twins);
     RUN(renumbered);
+    RUN(influences);
     RUN(pairs_found);
     RUN(any_threads);
     RUN(lattices);
