@@ -16,8 +16,9 @@ check example_length sh -c 'for e in examples/*.c; do
 # ---- every way to compile it
 sanitized=""
 if echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; then
-    sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads test_plan \
-        test_loadsteps test_loose test_memory test_output test_precision test_quadrature test_random test_search test_solvers"
+    sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
+        test_loadsteps test_loose test_memory test_output test_plan test_precision test_quadrature test_random test_search \
+        test_solvers"
     queue sanitized_library "$CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o"
 else
     skip sanitized "no sanitizers on this machine"
@@ -27,8 +28,11 @@ for compiler in gcc clang; do
     out=build/checks/$compiler
     queue "strict_$compiler" "$compiler $STRICT -O1 -c peri_impl.c -o $out.o"
     queue "strict_${compiler}_header_only" "$compiler $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c peri.h -o $out.h.o"
-    queue "strict_${compiler}_no_stdio" "$compiler $STRICT -O0 -DPERI_NO_STDIO -c peri_impl.c -o $out.n.o"
-    queue "static_in_two_units_$compiler" "$compiler $STRICT -O0 -I. tests/static_a.c tests/static_b.c -o $out.static -lm && $out.static"
+    queue "static_in_two_units_$compiler" "$compiler $STRICT -O0 -DPERI_PLAIN -I. tests/static_a.c tests/static_b.c -o $out.static -lm && \
+        $out.static"
+    vectors=PERI_PLAIN
+    [ $compiler = clang ] || vectors=PERI_PORTABLE
+    queue "${compiler}_${vectors}_no_stdio" "$compiler $STRICT -O1 -DPERI_NO_STDIO -D$vectors -c peri_impl.c -o $out.other.o"
 done
 if command -v g++ > /dev/null; then
     queue cxx11 "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/peri.o \
@@ -43,6 +47,12 @@ else
 fi
 queue dist "sh tests/check_dist.sh"
 run_queue
+
+# ---- the same bits, whatever the vectors and the compiler
+bits() { $CC $STRICT -I. tests/bits.c "$1" -o "$1.bits" $OPENMP -lm && "$1.bits" > "$1.text" && cmp "$1.text" build/checks/bits.text; }
+$CC $STRICT -I. tests/bits.c build/peri.o -o build/checks/bits $OPENMP -lm
+build/checks/bits > build/checks/bits.text
+for other in build/checks/*.other.o; do check "same_bits_$(basename "$other" .other.o)" bits "$other"; done
 
 # ---- under sanitizers, what is quick enough
 if [ -n "$sanitized" ]; then
