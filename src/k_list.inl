@@ -31,11 +31,6 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(span)(PERI_LANES_FN(piece) *s, 
     if (linear) s->now = s->rest;
 }
 
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(chunk)(PERI_LANES_FN(piece) *s, const peri_r *pack, int32_t slots, const int32_t *ids,
-                                                        const peri_r *own, const int linear) {
-    for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) PERI_LANES_FN(span)(s + n, pack, slots, ids + n * PERI_WIDTH, own, linear);
-}
-
 /* product: |xi| |y|; returns R = |xi| (|y| + |xi|). Then |xi| e = |xi|^2 along/R, and LPS, whose gauge is |xi|, needs no square root but
    that of |xi|^2 |y|^2: `bond` is |xi|^2 with LPS, and |xi| else. */
 PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(roots)(const PERI_LANES_FN(piece) *s, PERI_VECTOR *bond, PERI_VECTOR *product,
@@ -79,7 +74,6 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     const PERI_VECTOR pi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D] : 0);
     const PERI_VECTOR qi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D + 1] : 0);
     const int32_t *ids = &m->ids[first];
-    PERI_LANES_FN(piece) next[PERI_CHUNK / PERI_WIDTH];
     PERI_STATE sum[PERI_D][PERI_CHUNK / PERI_WIDTH];
     PERI_VECTOR c = PERI_V(set1)((peri_b)m->pairs->c);
     peri_b table[PERI_MATERIAL_LIMIT], pick[PERI_WIDTH];
@@ -91,17 +85,14 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n)
         for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
-    PERI_LANES_FN(chunk)(next, pack, slots, ids, own, linear);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
-        PERI_LANES_FN(piece) now[PERI_CHUNK / PERI_WIDTH];
-        for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) now[n] = next[n];
-        if (k + PERI_CHUNK < count) PERI_LANES_FN(chunk)(next, pack, slots, ids + k + PERI_CHUNK, own, linear);
         for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) {
             const int64_t at = k + n * PERI_WIDTH;
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + at);
-            const PERI_LANES_FN(piece) s = now[n];
+            PERI_LANES_FN(piece) s;
+            PERI_LANES_FN(span)(&s, pack, slots, ids + at, own, linear);
             PERI_VECTOR scale, bond, product, reach;
             reach = PERI_LANES_FN(roots)(&s, &bond, &product, model, linear);
             if (states) { /* w (p g + q e)/|y| */
@@ -148,21 +139,17 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     const peri_r *pack = (const peri_r *)b->pack;
     const peri_b *weights = (const peri_b *)m->weight + first;
     const int32_t *ids = &m->ids[first];
-    PERI_LANES_FN(piece) next[PERI_CHUNK / PERI_WIDTH];
     PERI_STATE sum[PERI_CHUNK / PERI_WIDTH];
     peri_r own[8] = { 0 };
     const peri_r none[PERI_WIDTH] = { 0 };
     for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) sum[n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * 8 + d];
-    PERI_LANES_FN(chunk)(next, pack, 8, ids, own, linear);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
-        PERI_LANES_FN(piece) now[PERI_CHUNK / PERI_WIDTH];
-        for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) now[n] = next[n];
-        if (k + PERI_CHUNK < count) PERI_LANES_FN(chunk)(next, pack, 8, ids + k + PERI_CHUNK, own, linear);
         for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) {
             PERI_VECTOR part = PERI_V(loadu)(weights + k + n * PERI_WIDTH), bond, product, reach;
-            const PERI_LANES_FN(piece) s = now[n];
+            PERI_LANES_FN(piece) s;
+            PERI_LANES_FN(span)(&s, pack, 8, ids + k + n * PERI_WIDTH, own, linear);
             part = part * s.along;
             if (!linear || model != PERI_LPS) {
                 reach = PERI_LANES_FN(roots)(&s, &bond, &product, model, linear);
