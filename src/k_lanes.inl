@@ -174,6 +174,28 @@ PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64
     else PERI_LANES_FN(stretched_of)(b, g, gauged, sum, 0);
 }
 
+/* sum w e^2 V of the points of group g to out, in bond-based bodies times c/|xi|: in double whatever the precision. */
+PERI_LANES_TARGET static void PERI_LANES_FN(squares)(const peri_body *b, int64_t g, double out[PERI_LANES]) {
+    PERI_NO_CONTRACTION
+    const int linear = b->desc.geometry == PERI_LINEAR, states = b->model->states;
+    PERI_LANES_FN(group) s;
+    PERI_LANES_FN(bond) bond;
+    PERI_LANES_FN(enter)(&s, b, g, 0);
+    for (int l = 0; l < PERI_LANES; ++l) out[l] = 0.0;
+    while (PERI_LANES_FN(next)(&s, &bond)) {
+        const double weight = states ? (double)bond.weight : bond.row[7] * (double)bond.weight / (double)bond.length;
+        const PERI_VECTOR length = PERI_V(set1)(bond.length);
+        peri_b e[PERI_LANES];
+        for (int n = 0; n < PERI_PIECES; ++n) {
+            PERI_VECTOR eta[PERI_D], y[PERI_D], along;
+            PERI_LANES_FN(moved)(&s, &bond, n, eta);
+            const PERI_VECTOR now = PERI_LANES_FN(extend)(&bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
+            PERI_V(storeu)(e + n * PERI_WIDTH, PERI_KEEP(PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH)), along / reach));
+        }
+        for (int l = 0; l < PERI_LANES; ++l) out[l] += weight * ((double)e[l] * (double)e[l]);
+    }
+}
+
 /* One column of ordinary state-based bonds; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2; gauged = |xi|,
    or 1. */
 PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,

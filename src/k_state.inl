@@ -447,14 +447,34 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
     }
 }
 
+/* Energy densities of group g, by columns; not of correspondence. */
+static void PERI_FN(group_energy)(const peri_body *b, int64_t g, double density[PERI_LANES]) {
+    const peri__model *m = b->model;
+    const peri_b *constant = (const peri_b *)b->constant + m->margin + g * PERI_LANES;
+    peri_r sum[PERI_LANES] = { 0 };
+    PERI_ON_LANES(m->lanes.isa, squares, (b, g, density));
+    if (m->dilates) PERI_ON_LANES(m->lanes.isa, stretched, (b, g, m->ordinary != PERI_OTERKUS, sum));
+    for (int l = 0; l < PERI_LANES; ++l) {
+        if (!m->states) density[l] *= 0.25;
+        else
+            density[l] = 0.5 * (double)constant[PERI__SPRING * m->stride + l] * density[l]
+                       + 0.5 * (double)constant[PERI__PRESS * m->stride + l] * (double)constant[PERI__DILATE * m->stride + l]
+                             * peri__square((double)sum[l]);
+    }
+}
+
 /* Elastic energy of live bonds: sums->a, and per point to step->out where it is not NULL. */
 static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
-    const peri__model *m = step->body->model;
+    const peri_body *b = step->body;
+    const peri__model *m = b->model;
+    const int columns = m->lanes.columns > 0 && !m->tensors;
+    double group[PERI_LANES];
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {
-        peri__read_row(step->body, i, &row);
-        double density = PERI_FN(point_energy)(step->body, i, &row);
+        if (columns && i % PERI_LANES == 0) PERI_FN(group_energy)(b, i / PERI_LANES, group);
+        if (!columns) peri__read_row(b, i, &row);
+        const double density = columns ? group[i % PERI_LANES] : PERI_FN(point_energy)(b, i, &row);
         if (step->out) step->out[i] = density;
         sums->a += density * m->volume[i];
     }

@@ -34,6 +34,7 @@ static void peri__sum_bonds(peri_body *b, peri__step *step, peri__sums *sums) {
 /* Energy of the intact bonds; per point to density[points] where it is not NULL. */
 static double peri__elastic_energy(peri_body *b, double *density) {
     peri__step step = peri__no_step(b);
+    peri__update_lanes(b);
     peri__refresh(b);
     step.out = density;
     peri__for_points(b, b->model->points, 4 * b->model->width, b->ops->energy, &step, b->sums);

@@ -81,8 +81,8 @@ static void deform(peri_body *b, double amount) {
 static void compare(const scene *s) {
     const double unit = s->precision == PERI_F64 ? 2.3e-16 : 1.2e-7;
     peri_body *b[KERNELS];
-    double *f[KERNELS], *u[KERNELS], largest = 0, moved = 0;
-    int64_t n = 0, i, step;
+    double *f[KERNELS], *u[KERNELS], *w[KERNELS], largest = 0, moved = 0, dense = 0;
+    int64_t n = 0, points = 0, i, step;
     int k;
     for (k = 0; k < KERNELS; ++k) {
         b[k] = make(s, k);
@@ -91,7 +91,14 @@ static void compare(const scene *s) {
         u[k] = (double *)malloc((size_t)n * sizeof(double));
         deform(b[k], 1.0);
         MUST(b[k], peri_read(b[k], PERI_FORCE_DENSITY, f[k], n));
+        points = peri_point_count(b[k]);
+        w[k] = (double *)malloc((size_t)points * sizeof(double));
+        MUST(b[k], peri_read(b[k], PERI_ENERGY_DENSITY, w[k], points));
     }
+    for (i = 0; i < points; ++i) dense = fmax(dense, w[TEXTBOOK][i]);
+    CHECK(dense > 1e-6);
+    for (k = LIST; k < KERNELS; ++k)
+        for (i = 0; i < points; ++i) CHECK_NEAR(w[k][i], w[TEXTBOOK][i], 0, 60 * unit * dense);
     for (i = 0; i < n; ++i) largest = fmax(largest, fabs(f[TEXTBOOK][i]));
     CHECK(largest > 0.01);
     for (k = LIST; k < KERNELS; ++k)
@@ -113,6 +120,7 @@ static void compare(const scene *s) {
         peri_body_destroy(b[k]);
         free(f[k]);
         free(u[k]);
+        free(w[k]);
     }
 }
 
