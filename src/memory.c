@@ -20,15 +20,28 @@ static void peri__free(void *user, void *pointer, uint64_t bytes) {
 /* What the hook is asked for where count items of size bytes are wanted. */
 static uint64_t peri__block_bytes(int64_t count, size_t size) { return (uint64_t)count * size + PERI_ALIGN + sizeof(void *); }
 
-/* Zeroed memory for count items of size bytes; NULL where the hook fails or the size does not fit. count 0 gives a block. */
-static void *peri__new(const peri__memory *memory, int64_t count, size_t size) {
+/* Memory for count items of size bytes, as the hook gives it; NULL where that fails or the size does not fit. count 0 gives a block. */
+static void *peri__new_unset(const peri__memory *memory, int64_t count, size_t size) {
     if (count < 0 || (uint64_t)count > ((uint64_t)SIZE_MAX / 2 - PERI_ALIGN * 2) / size) return NULL;
     void *raw = memory->allocate(memory->user, peri__block_bytes(count, size));
     if (!raw) return NULL;
     uintptr_t place = ((uintptr_t)raw + sizeof(void *) + PERI_ALIGN - 1) & ~(uintptr_t)(PERI_ALIGN - 1);
     memcpy((void *)(place - sizeof(void *)), &raw, sizeof raw);
-    memset((void *)place, 0, (size_t)count * size);
     return (void *)place;
+}
+
+/* The same, all zero. */
+static void *peri__new(const peri__memory *memory, int64_t count, size_t size) {
+    void *made = peri__new_unset(memory, count, size);
+    if (made) memset(made, 0, (size_t)count * size);
+    return made;
+}
+
+/* The same, the last `rest` items zero: for large arrays of which all others are written before they are read. */
+static void *peri__new_tail(const peri__memory *memory, int64_t count, size_t size, int64_t rest) {
+    char *made = (char *)peri__new_unset(memory, count, size);
+    if (made) memset(made + (size_t)(count - rest) * size, 0, (size_t)rest * size);
+    return made;
 }
 
 /* count and size as at peri__new. */
@@ -40,7 +53,7 @@ static void peri__delete(const peri__memory *memory, void *pointer, int64_t coun
 }
 
 static void *peri__copy(const peri__memory *memory, const void *from, int64_t count, size_t size) {
-    void *to = peri__new(memory, count, size);
+    void *to = peri__new_unset(memory, count, size);
     if (to && count > 0) memcpy(to, from, (size_t)count * size);
     return to;
 }

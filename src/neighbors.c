@@ -81,7 +81,7 @@ static int peri__make_rows(peri__model *m) {
         if (m->count[i] > m->width) m->width = m->count[i];
     }
     m->entries = m->bonds + PERI_LANES;
-    m->ids = (int32_t *)peri__new(&m->memory, m->entries, sizeof *m->ids);
+    m->ids = (int32_t *)peri__new_tail(&m->memory, m->entries, sizeof *m->ids, PERI_LANES);
     return m->ids != NULL;
 }
 
@@ -189,7 +189,7 @@ static int32_t peri__write_families(peri_body *b, peri__cloud *c, int numbered) 
     numbered = numbered || m->width > PERI_VECTOR_LIMIT;
     c->weighs = !numbered && b->desc.quadrature == PERI_FULL_VOLUME && b->desc.influence != PERI_INFLUENCE_USER;
     peri__sums *sums = (peri__sums *)peri__new(&m->memory, blocks, sizeof *sums);
-    if (c->weighs) m->weight = peri__new(&m->memory, m->entries, peri__bond_real(b));
+    if (c->weighs) m->weight = peri__new_tail(&m->memory, m->entries, peri__bond_real(b), PERI_LANES);
     if (!sums || (c->weighs && !m->weight)) {
         peri__delete(&m->memory, sums, blocks, sizeof *sums);
         return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);

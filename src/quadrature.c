@@ -248,7 +248,7 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     if (c->weighs) return PERI_OK;
     const size_t real = peri__bond_real(b);
     const int parts = b->desc.quadrature != PERI_FULL_VOLUME, centroids = b->desc.quadrature == PERI_PARTIAL_CENTROID;
-    if (!m->weight) m->weight = peri__new(&m->memory, m->entries, real);
+    if (!m->weight) m->weight = peri__new_tail(&m->memory, m->entries, real, PERI_LANES);
     if (centroids) m->bond = peri__new(&m->memory, m->entries, real);
     if (parts) m->part = (float *)peri__new(&m->memory, m->entries, sizeof(float));
     if (centroids) m->centroid = peri__new(&m->memory, m->entries * m->dim, real);
