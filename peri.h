@@ -445,8 +445,9 @@ PERI_API int64_t peri_broken_count(const peri_body *body);   /* bonds (pairs) br
 PERI_API int64_t peri_step_count(const peri_body *body);     /* steps and load steps since build or reset                */
 PERI_API double  peri_time(const peri_body *body);           /* [T] since build or reset                                 */
 
-/* How the bonds are worked on: "columns, AVX-512", "list, SSE2", ...; "rows": one by one, which is what several models in one body and
-   the energy criteria ask for; "reference". Constant text, "" before peri_build. */
+/* How the bonds are worked on: "columns, AVX-512", "list, SSE2", ...; "rows": one by one, which is what several models in one body, the
+   energy criteria, families above 1024 bonds, and in single precision points nearer than its rounding ask for; "reference". Constant text,
+   "" before peri_build. */
 PERI_API const char *peri_kernel_text(const peri_body *body);
 
 /* Largest stable time step [T], 2/sqrt(lambda) with lambda bounded by the stiffness of the actual bonds of each point
@@ -777,9 +778,10 @@ typedef struct peri_plan_report {
     int64_t bytes;       /* total of peri_read_memory after peri_build: to the byte of a box without correction, else to 5 %. Cuts, loads,
                             supports and views come on top                                                               */
     int64_t peak;        /* most that is held at a time until peri_build has returned, to 5 % or half a megabyte         */
-    double  stable_step; /* [T] as peri_stable_step will say: of a box without correction exact where the horizon is 5 (3D), 15 (2D)
-                            spacings or less, else to 5 %. Corrections take up to 30 % off it, clouds 15 %, and more where points
-                            are close together: measuring sees much of that                                              */
+    double  stable_step; /* [T] as peri_stable_step will say: of a box without correction, thicker than a horizon, exact where that is 5
+                            (3D), 15 (2D) spacings or less, else to 5 %. Corrections take up to 30 % off it, of parts thinner than
+                            two horizons up to 70 %, clouds 15 %, and more where points are close together: measuring sees much
+                            of that                                                                                      */
     double  seconds;     /* per step of one thread, on this machine; 0 where it was not measured. Processor time (C's clock): other
                             threads of the process should rest. Within 10 % of large lattices, 20 % of clouds in order; points that
                             come in no order take up to twice as long                                                    */

@@ -196,6 +196,10 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     if (!m->x || !m->volume || !m->material || !m->count) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
 
     peri__scale_points(b, m, cloud->x);
+    for (int64_t i = 0; i < m->points; ++i) { /* extents or cells beyond the range of double */
+        if (!peri__finite_vector(&cloud->x[i * dim], dim)) return peri__fail(b, PERI_ERROR_POINT, "positions", i, 0.0);
+        if (!(m->volume[i] > 0.0 && peri__finite(m->volume[i]))) return peri__fail(b, PERI_ERROR_POINT, "volumes", i, m->volume[i]);
+    }
     for (int64_t i = 0; i < m->points; ++i)
         for (int32_t d = 0; d < dim; ++d) peri__put_real(m->x, b->f32, d * m->stride + i, cloud->x[i * dim + d]);
     for (int64_t p = 0; p < b->setup.piece_count; ++p)

@@ -8,13 +8,20 @@
    Each row adds its own bonds in the order of the list and writes only to its own point. Both ends of a bond compute the same e to the last
    bit (only signs differ), so both find it broken in the same step without telling each other. */
 
-/* Bond (i, j), entry `at`: reference bond xi and relative displacement eta. */
-PERI_INLINE void PERI_FN(bond_vectors)(const peri_body *b, int64_t i, int64_t at, int64_t j, peri_b *xi, peri_b *eta) {
+/* Component d of xi of bond k of a row, where the places of its ends are `apart`. Points decide about the bonds that they share each for
+   itself: they must take the same xi, and so must columns and rows. */
+PERI_INLINE peri_b PERI_FN(xi_of)(const peri__row *row, int64_t k, int d, peri_r apart) {
+    return row->vector ? (peri_b)row->table[row->vector[k] * PERI_TABLE_ROW + d] : (peri_b)apart;
+}
+
+/* Bond k of row i: reference bond xi and relative displacement eta. */
+PERI_INLINE void PERI_FN(bond_vectors)(const peri_body *b, int64_t i, const peri__row *row, int64_t k, peri_b *xi, peri_b *eta) {
     const peri__model *m = b->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
+    const int64_t j = row->ids[k];
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *xd = x + d * m->stride, *ud = u + d * m->stride;
-        xi[d] = m->centroid ? ((const peri_b *)m->centroid)[at * PERI_D + d] : (peri_b)(xd[j] - xd[i]);
+        xi[d] = m->centroid ? ((const peri_b *)m->centroid)[(row->first + k) * PERI_D + d] : PERI_FN(xi_of)(row, k, d, xd[j] - xd[i]);
         eta[d] = (peri_b)(ud[j] - ud[i]);
     }
 }
@@ -47,10 +54,12 @@ PERI_INLINE const peri__pair *PERI_FN(pair)(const peri_body *b, int64_t i, int64
 
 /* Stretch of bond (i, j) as point j sees it. With centroid bonds the two ends differ; the end of lower id decides for both. */
 static peri_b PERI_FN(other_stretch)(const peri_body *b, int64_t i, int64_t j) {
-    const peri__model *m = b->model;
-    int64_t at = m->start[j] + peri__find_bond(m, j, i); /* centroid bonds are only in the list */
-    peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e, bond = ((const peri_b *)m->bond)[at];
-    PERI_FN(bond_vectors)(b, j, at, i, xi, eta);
+    peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e;
+    peri__row row;
+    peri__read_row(b, j, &row);
+    const int64_t k = peri__find_bond(b->model, j, i);
+    const peri_b bond = ((const peri_b *)row.bond)[k];
+    PERI_FN(bond_vectors)(b, j, &row, k, xi, eta);
     (void)PERI_FN(extension)(b->desc.geometry == PERI_LINEAR, xi, eta, bond, &e, y);
     return e / bond;
 }
@@ -63,13 +72,13 @@ static int32_t PERI_FN(bond_row_reference)(const peri__step *step, int64_t i, co
     int linear = b->desc.geometry == PERI_LINEAR;
     int32_t broke = 0;
     for (int64_t k = 0; k < row->count; ++k) {
-        int64_t at = row->first + k, j = row->ids[k];
+        const int64_t j = row->ids[k];
         uint32_t *flags = b->alive ? &b->alive[i * m->words + k / 32] : NULL, flag = (uint32_t)1 << (k % 32);
         const peri__pair *pair = PERI_FN(pair)(b, i, j);
         peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e, s, length, force;
         peri_b bond = ((const peri_b *)row->bond)[k], weight = ((const peri_b *)row->weight)[k];
         if (flags && !(*flags & flag)) continue;
-        PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
+        PERI_FN(bond_vectors)(b, i, row, k, xi, eta);
         length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         s = e / bond;
         force = (peri_b)pair->c * s * weight;
@@ -120,7 +129,7 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
                 s0 = step->breaking ? (peri_b)pairs[cls[j]].s0 : (peri_b)PERI_NEVER;
             }
             for (int d = 0; d < PERI_D; ++d) {
-                xi[d] = (peri_b)(x[d * stride + j] - xi_[d]);
+                xi[d] = PERI_FN(xi_of)(row, first + k, d, x[d * stride + j] - xi_[d]);
                 eta[d] = (peri_b)(u[d * stride + j] - ui[d]);
                 if (linear) {
                     y[d] = xi[d];

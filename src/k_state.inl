@@ -38,7 +38,7 @@ static int32_t PERI_FN(share_row_reference)(const peri__step *step, int64_t i, c
         peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], t[PERI_D], e, central = 0, length;
         const peri_b bond = ((const peri_b *)row->bond)[k];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
+        PERI_FN(bond_vectors)(b, i, row, k, xi, eta);
         length = PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         for (int d = 0; d < PERI_D; ++d) t[d] = 0;
         PERI_FN(half_bond)(b, i, j, ((const peri_b *)row->weight)[k], xi, eta, bond, e, &central, t);
@@ -102,7 +102,8 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const 
             peri_b y[PERI_D], along = 0, square = 0, length, reach, pull;
             if (flagged && !(live >> k & 1)) continue;
             for (int d = 0; d < PERI_D; ++d) {
-                const peri_b xi = (peri_b)(x[d * stride + j] - here[d]), eta = (peri_b)(u[d * stride + j] - moved[d]);
+                const peri_b xi = PERI_FN(xi_of)(row, first + k, d, x[d * stride + j] - here[d]);
+                const peri_b eta = (peri_b)(u[d * stride + j] - moved[d]);
                 y[d] = linear ? xi : xi + eta;
                 along += (linear ? xi : 2 * xi + eta) * eta;
                 square += y[d] * y[d];
@@ -223,7 +224,7 @@ static void PERI_FN(shape)(const peri_body *b, int64_t i, const peri__row *row, 
         const peri_b weight = ((const peri_b *)row->weight)[k];
         peri_b xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
+        PERI_FN(bond_vectors)(b, i, row, k, xi, eta);
         for (int a = 0; a < PERI_D; ++a)
             for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
     }
@@ -288,7 +289,7 @@ static double PERI_FN(stretched)(const peri_body *b, int64_t i, const peri__row 
         const peri_b bond = ((const peri_b *)row->bond)[k], weight = ((const peri_b *)row->weight)[k];
         peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e;
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
+        PERI_FN(bond_vectors)(b, i, row, k, xi, eta);
         (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
         sum += weight * (oterkus ? 1 : bond) * e;
         squares += (double)weight * (double)e * (double)e;
@@ -316,7 +317,8 @@ static peri_r PERI_FN(stretched_row)(const peri_body *b, int64_t i, const peri__
         peri_b along = 0, square = 0;
         if (flagged && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         for (int d = 0; d < PERI_D; ++d) {
-            const peri_b xi = (peri_b)(x[d * stride + j] - here[d]), eta = (peri_b)(u[d * stride + j] - moved[d]), y = xi + eta;
+            const peri_b xi = PERI_FN(xi_of)(row, k, d, x[d * stride + j] - here[d]), eta = (peri_b)(u[d * stride + j] - moved[d]);
+            const peri_b y = xi + eta;
             along += (linear ? xi : 2 * xi + eta) * eta;
             square += y * y;
         }
@@ -342,11 +344,11 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
     double density = 0.0, square = 0.0;
     if (law->model == PERI_BOND_BASED) {
         for (int64_t k = 0; k < row->count; ++k) {
-            const int64_t at = row->first + k, j = row->ids[k];
+            const int64_t j = row->ids[k];
             peri_b xi[PERI_D], eta[PERI_D], y[PERI_D], e;
             const peri_b bond = ((const peri_b *)row->bond)[k], weight = ((const peri_b *)row->weight)[k];
             if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-            PERI_FN(bond_vectors)(b, i, at, j, xi, eta);
+            PERI_FN(bond_vectors)(b, i, row, k, xi, eta);
             (void)PERI_FN(extension)(linear, xi, eta, bond, &e, y);
             density += 0.25 * PERI_FN(pair)(b, i, j)->c * (double)weight * (double)e * (double)e / (double)bond;
         }
@@ -368,7 +370,7 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
     for (int64_t k = 0; k < row->count; ++k) { /* sum w |Y - F xi|^2 V */
         peri_b xi[PERI_D], eta[PERI_D];
         if (b->alive && !(b->alive[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-        PERI_FN(bond_vectors)(b, i, row->first + k, row->ids[k], xi, eta);
+        PERI_FN(bond_vectors)(b, i, row, k, xi, eta);
         for (int a = 0; a < PERI_D; ++a) {
             peri_r z = eta[a];
             for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * xi[d];

@@ -99,8 +99,8 @@ static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri_
     return *slot - 1;
 }
 
-/* Both directions of a bond must have exactly opposite vectors, or momentum drifts by rounding; and the same length whatever they weigh,
-   or only one of them breaks. */
+/* Both directions of a bond must have exactly opposite vectors and the same length, whatever they weigh, or momentum drifts by rounding,
+   and only one of them breaks: they get those of the first row that is alike. What weighs the same must to the last bit. */
 static void peri__oppose_vectors(peri__draft *d) {
     const int32_t materials = d->cloud->model->materials;
     for (int32_t a = 0; a < d->count; ++a) {
@@ -109,13 +109,14 @@ static void peri__oppose_vectors(peri__draft *d) {
         int32_t first = 0;
         for (int k = 0; k < 5; ++k) key[k] = k < 3 ? -row->key[k] : row->key[k];
         key[5] = row->key[5] % materials * materials + row->key[5] / materials;
-        int32_t other = *peri__vector_slot(d, key) - 1;
+        const int32_t other = *peri__vector_slot(d, key) - 1;
         if (other > a) {
-            for (int k = 0; k < 3; ++k) d->row[other].bond.xi[k] = -row->bond.xi[k];
             d->row[other].weight = row->weight;
             d->row[other].bond.share = row->bond.share;
         }
         while (memcmp(d->row[first].key, key, 3 * sizeof *key) != 0 && memcmp(d->row[first].key, row->key, 3 * sizeof *key) != 0) ++first;
+        const int same = memcmp(d->row[first].key, row->key, 3 * sizeof *key) == 0;
+        for (int k = 0; k < 3; ++k) row->bond.xi[k] = same ? d->row[first].bond.xi[k] : -d->row[first].bond.xi[k];
         row->length = d->row[first].length;
     }
 }

@@ -369,7 +369,9 @@ static int32_t peri__plan_step(peri__sketch *s, double *step) {
         const double coarser = s->model.horizon / s->model.spacing / most;
         for (int32_t d = 0; d < s->body.dim; ++d) {
             const double extent = s->piece.cell[d] * (double)s->piece.cells[d], edge = s->body.desc.horizon / most;
-            s->piece.cells[d] = coarser > 1.0 && extent > edge ? (int64_t)(extent / edge + 0.5) : 1;
+            const int64_t least = peri__min(2, s->piece.cells[d]);
+            const int64_t fit = coarser > 1.0 && extent > edge ? (int64_t)(extent / edge + 0.5) : 1;
+            s->piece.cells[d] = fit > least ? fit : least;
             s->piece.cell[d] = extent / (double)s->piece.cells[d];
         }
         int32_t status = peri__lay_sketch(s);

@@ -15,6 +15,7 @@ static void peri__expand_row(const peri_body *b, int64_t i, peri__row *row) {
         if (!(column[c].member >> (i % PERI_LANES) & 1)) continue;
         row->ids_room[n] = (int32_t)(i + column[c].offset);
         row->part_room[n] = (float)entry[5];
+        row->vector_room[n] = column[c].vector;
         if (b->b32) {
             row->bond_room.f32[n] = (float)entry[3];
             row->weight_room.f32[n] = (float)entry[4];
@@ -30,6 +31,8 @@ static void peri__expand_row(const peri_body *b, int64_t i, peri__row *row) {
     row->weight = row->back = &row->weight_room;
     row->bond = &row->bond_room;
     row->part = lanes->parts ? row->part_room : NULL;
+    row->vector = row->vector_room;
+    row->table = lanes->table;
 }
 
 /* |xi| of the bonds of row i, from the places of points. Seen from either end the same, to the last bit. */
@@ -73,6 +76,7 @@ static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
     row->weight = (const char *)m->weight + (size_t)row->first * real;
     row->back = (const char *)m->back + (size_t)row->first * real;
     row->part = m->part ? &m->part[row->first] : NULL;
+    row->vector = NULL;
     if (m->bond) row->bond = (const char *)m->bond + (size_t)row->first * real;
     else peri__measure_row(b, i, row);
 }

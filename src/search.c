@@ -78,7 +78,7 @@ static int64_t peri__divide(const double *extent, double reach2, int64_t points,
         count = 1.0;
         for (int32_t d = 0; d < 3; ++d) {
             const double along = floor(extent[d] / edge);
-            cells[d] = along < 1.0 ? 1 : along < 9e15 ? (int64_t)along : (int64_t)9e15;
+            cells[d] = along >= 9e15 ? (int64_t)9e15 : along >= 1.0 ? (int64_t)along : 1;
             count *= (double)cells[d];
         }
         edge *= 1.25;

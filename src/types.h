@@ -158,13 +158,16 @@ typedef union peri__reals {
     float  f32[PERI_VECTOR_LIMIT];
 } peri__reals;
 
-typedef struct peri__row { /* the family of a point, see peri__read_row; 25 kB, and not to be copied                      */
+typedef struct peri__row { /* the family of a point, see peri__read_row; 27 kB, and not to be copied                      */
     int64_t        count, first;          /* first: its entry in the list; 0 on columns                                   */
     const int32_t *ids;                   /* ascending by place in the order of the model                                 */
     const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
     const float   *part;                  /* NULL for whole cells                                                         */
+    const uint16_t *vector;               /* on columns: rows of `table`, where xi is; NULL on the list, where x tells    */
+    const double  *table;
     int32_t        ids_room[PERI_VECTOR_LIMIT];
     float          part_room[PERI_VECTOR_LIMIT];
+    uint16_t       vector_room[PERI_VECTOR_LIMIT];
     peri__reals    weight_room, bond_room;
 } peri__row;
 

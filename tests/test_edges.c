@@ -286,6 +286,15 @@ static void too_large_numbers(void) {
     MUST(b, peri_add_box(b, 0, lo, hi, 1.0));
     CHECK(peri_build(b) == PERI_ERROR_RANGE);
     peri_body_destroy(b);
+    for (n = 0; n < 3; ++n) { /* an extent beyond double; one that is so in units of a spacing; a spacing below double */
+        const double places[2][4] = {{-1.7e308, 0, 1.7e308, 0}, {0, 0, 1e300, 0}}, volumes[2][2] = {{1, 1}, {1e-30, 1e-30}};
+        const double thin[2] = {4.9e-324, 4};
+        b = empty(PERI_PLANE_STRESS, PERI_F64, n == 2 ? 10 : 2, PERI_FULL_VOLUME, 0, 0);
+        if (n < 2) MUST(b, peri_add_points(b, 2, places[n], volumes[n], NULL));
+        else MUST(b, peri_add_box(b, 0, lo, thin, 1.0));
+        CHECK(peri_build(b) == PERI_ERROR_POINT);
+        peri_body_destroy(b);
+    }
     b = plate(0);
     n = peri_field_size(b, PERI_DISPLACEMENT);
     x = (double *)calloc((size_t)n, sizeof(double));

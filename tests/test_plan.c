@@ -183,6 +183,8 @@ static void corrections_and_large_families_are_planned(void) {
     CHECK_NEAR(r.bytes, s.memory.live, 0, 0);
     CHECK_NEAR(r.stable_step, peri_stable_step(s.body), 0.05, 0);
     peri_body_destroy(s.body);
+    set_scene(&s, PERI_PLANE_STRESS, 1000, PERI_BOND_BASED, 40, 40, 1, 1); /* all with all */
+    CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK && r.bonds == 1600 * 1599 && r.width == 1599 && r.stable_step > 0);
 }
 
 static void clouds_are_planned_to_5_percent(void) {
