@@ -465,12 +465,13 @@ static void PERI_FN(group_energy)(const peri_body *b, int64_t g, double density[
     }
 }
 
-/* Elastic energy of live bonds: sums->a, and per point to step->out where it is not NULL. */
+/* Elastic energy of live bonds: sums->a, and per point to step->out where it is not NULL. By rows, too, of points that begin within a
+   group. */
 static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     const peri_body *b = step->body;
     const peri__model *m = b->model;
-    const int columns = m->lanes.columns > 0 && !m->tensors;
+    const int columns = m->lanes.columns > 0 && !m->tensors && begin % PERI_LANES == 0;
     double group[PERI_LANES];
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {
