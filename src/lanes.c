@@ -24,7 +24,7 @@
 typedef struct peri__vector { /* a row of the table, its key in grains, and the first bond that made it                   */
     int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j; the pair of materials                                       */
     peri__bond bond;
-    double    length, weight; /* rounded as real                                                                         */
+    double    length, weight; /* rounded as bond                                                                         */
     double    own, other;     /* V_i, V_j                                                                                */
 } peri__vector;
 

@@ -10,7 +10,8 @@
      K, F      shape tensor, deformation gradient         H      F - 1, displacement gradient
    Inside, lengths are in units of `length` (the spacing), stresses of `stress` (Young's modulus), densities of `density`,
    times of length*sqrt(density/stress). So c, forces and velocities are of order one for nanometres and for kilometres, and the
-   coordinates of a lattice are small half-integers: exact in single precision too.
+   coordinates of a lattice are small half-integers: exact in single precision too. `real` is the type of the state, `bond` that of what
+   bonds are reckoned with (peri_r and peri_b of kernels.inl); they differ in mixed precision.
 
    Who owns what: peri__model is what peri_build makes and nothing changes afterwards; clones share it by count.
    peri_body holds the rest. */
@@ -99,7 +100,7 @@ typedef struct peri__lanes { /* see lanes.c                                     
     int64_t      *begin;          /* [groups+1] columns of the groups before                                             */
     int64_t      *first;          /* [groups] place in `column` of the first of a group; equal groups share their columns */
     peri__column *column;         /* [kept] ascending by offset, then vector, in a group                                 */
-    double       *table;          /* [vectors][PERI_TABLE_ROW], rounded as real                                          */
+    double       *table;          /* [vectors][PERI_TABLE_ROW], rounded as bond                                          */
     int32_t       vectors, isa;   /* isa: which instruction set the kernels use                                          */
     int32_t       parts;          /* 1: cells may be partial                                                             */
 } peri__lanes;
@@ -130,11 +131,11 @@ typedef struct peri__model {
     int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
     int64_t    entries;  /* bonds, and PERI_LANES more that kernels may read                                             */
     int32_t   *ids;      /* [entries] Ibond without its padding: places of the neighbours, ascending; see peri__entry_id */
-    void      *weight;   /* real [entries] w(|xi|) beta V_j                                                              */
-    void      *back;     /* real [entries] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal  */
-    void      *bond;     /* real [entries] |xi|; NULL where x tells: not with the centroid rule, for families larger than the
+    void      *weight;   /* bond [entries] w(|xi|) beta V_j                                                              */
+    void      *back;     /* bond [entries] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal  */
+    void      *bond;     /* bond [entries] |xi|; NULL where x tells: not with the centroid rule, for families larger than the
                             room of peri__row, and where single precision blurs it                                       */
-    void      *centroid; /* real [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
+    void      *centroid; /* bond [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
     float     *part;     /* [entries] beta V_j; NULL for whole cells                                                     */
     int32_t    slots;    /* reals per record of body->pack: 4, 8, 12 or 16; 0 where k_list.inl does not serve            */
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
@@ -161,7 +162,7 @@ typedef union peri__reals {
 typedef struct peri__row { /* the family of a point, see peri__read_row; 27 kB, and not to be copied                      */
     int64_t        count, first;          /* first: its entry in the list; 0 on columns                                   */
     const int32_t *ids;                   /* ascending by place in the order of the model                                 */
-    const void    *weight, *bond, *back;  /* real, as the arrays of the model                                             */
+    const void    *weight, *bond, *back;  /* bond, as the arrays of the model                                             */
     const float   *part;                  /* NULL for whole cells                                                         */
     const uint16_t *vector;               /* on columns: rows of `table`, where xi is; NULL on the list, where x tells    */
     const double  *table;
@@ -343,9 +344,9 @@ struct peri_body {
     peri__pair *pairs;       /* [classes][classes]                                                                       */
     int32_t   classes;
     peri__sums *sums;        /* [blocks]                                                                                 */
-    void     *constant;      /* real [constants][stride], see peri__constant, with a margin before and after; NULL, like the next,
+    void     *constant;      /* bond [constants][stride], see peri__constant, with a margin before and after; NULL, like the next,
                                 without state-based laws                                                                 */
-    void     *response;      /* real [1 + dim*dim][stride]: p, and Q where there are tensors; with margins               */
+    void     *response;      /* bond [1 + dim*dim][stride]: p, and Q where there are tensors; with margins               */
     double   *rate, *wide;   /* [points] row sum of the stiffness over rho; what theta or F of a point adds to those of others */
     double    fastest;       /* largest rate                                                                             */
     int32_t   stale;         /* 1: bonds have changed since the constants were made                                      */
