@@ -49,14 +49,15 @@ typedef int32_t peri__int4 __attribute__((vector_size(16)));
 #endif
 #endif
 
-/* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted. */
-static int32_t peri__isa(void) {
+/* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted; no more than `most`, a peri_instructions or 0. */
+static int32_t peri__isa(int32_t most) {
 #ifdef PERI_ISA
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")
-        && __builtin_cpu_supports("avx512bw"))
+    if ((most == 0 || most >= PERI_AVX512) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+        && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
         return 2;
-    if (__builtin_cpu_supports("avx2")) return 1;
+    if ((most == 0 || most >= PERI_AVX2) && __builtin_cpu_supports("avx2")) return 1;
 #endif
+    (void)most;
     return 0;
 }
 

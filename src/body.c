@@ -221,8 +221,7 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     if (status == PERI_OK) status = peri__fill_families(b, m, cloud, sums);
     if (status == PERI_OK && !m->states && !(m->rate > 1e-30 && m->rate < 1e30))
         status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
-    m->lanes.isa = peri__isa();
-    if (b->desc.instructions > 0) m->lanes.isa = (int32_t)peri__min(m->lanes.isa, b->desc.instructions - PERI_BASELINE);
+    m->lanes.isa = peri__isa(b->desc.instructions);
     peri__fit_model(b, m);
     return status;
 }

@@ -6,6 +6,8 @@
    What is needed of a neighbour lies side by side in its record, body->pack, m->slots reals: x, u, then p and q, or Q and k, or the
    material. */
 
+#define PERI_PIECES (PERI_CHUNK / PERI_WIDTH)
+
 typedef struct PERI_LANES_FN(piece) { /* PERI_WIDTH bonds                                                                 */
     PERI_VECTOR got[8];               /* the records of the neighbours, less x and u of the point                        */
     PERI_VECTOR y[PERI_D], along;     /* as in k_lanes.inl                                                               */
@@ -17,7 +19,6 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(span)(PERI_LANES_FN(piece) *s, 
     PERI_NO_CONTRACTION
     PERI_LANES_FN(differ)(pack, slots, ids, own, s->got);
     if (slots > 4) PERI_LANES_FN(differ)(pack + 4, slots, ids, own + 4, s->got + 4);
-    else s->got[4] = s->got[0]; /* not used, but copied */
     for (int d = 0; d < PERI_D; ++d) {
         const PERI_VECTOR xi = s->got[d], eta = s->got[PERI_D + d];
         const PERI_VECTOR along = PERI_IF(linear, xi, xi + xi + eta) * eta, rest = xi * xi;
@@ -74,7 +75,7 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     const PERI_VECTOR pi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D] : 0);
     const PERI_VECTOR qi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D + 1] : 0);
     const int32_t *ids = &m->ids[first];
-    PERI_STATE sum[PERI_D][PERI_CHUNK / PERI_WIDTH];
+    PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_VECTOR c = PERI_V(set1)((peri_b)m->pairs->c);
     peri_b table[PERI_MATERIAL_LIMIT], pick[PERI_WIDTH];
     peri_r own[8] = { 0 };
@@ -82,12 +83,12 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     int hit = 0;
     for (int32_t k = 0; !states && mixed && k < m->materials; ++k)
         table[k] = (peri_b)m->pairs[m->material[i] * m->materials + k].c;
-    for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n)
+    for (int n = 0; n < PERI_PIECES; ++n)
         for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
-        for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) {
+        for (int n = 0; n < PERI_PIECES; ++n) {
             const int64_t at = k + n * PERI_WIDTH;
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + at);
@@ -139,14 +140,14 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     const peri_r *pack = (const peri_r *)b->pack;
     const peri_b *weights = (const peri_b *)m->weight + first;
     const int32_t *ids = &m->ids[first];
-    PERI_STATE sum[PERI_CHUNK / PERI_WIDTH];
+    PERI_STATE sum[PERI_PIECES];
     peri_r own[8] = { 0 };
     const peri_r none[PERI_WIDTH] = { 0 };
-    for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) sum[n] = PERI_LANES_FN(take)(none);
+    for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * 8 + d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
-        for (int n = 0; n < PERI_CHUNK / PERI_WIDTH; ++n) {
+        for (int n = 0; n < PERI_PIECES; ++n) {
             PERI_VECTOR part = PERI_V(loadu)(weights + k + n * PERI_WIDTH), bond, product, reach;
             PERI_LANES_FN(piece) s;
             PERI_LANES_FN(span)(&s, pack, 8, ids + k + n * PERI_WIDTH, own, linear);
@@ -171,7 +172,6 @@ PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b
 /* ---- correspondence ----------------------------------------------------------------------------------------------- */
 
 #define PERI_TENSOR_SLOTS (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                              */
-#define PERI_PIECES (PERI_CHUNK / PERI_WIDTH)
 
 /* sum w eta xi V of the point at a place. */
 PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int64_t place, peri_r shape[PERI_D][PERI_D]) {
@@ -250,8 +250,8 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *step, 
     return hit;
 }
 #undef PERI_TENSOR_SLOTS
-#undef PERI_PIECES
 
+#undef PERI_PIECES
 #undef PERI_VECTOR
 #undef PERI_WIDTH
 #undef PERI_V

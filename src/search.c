@@ -120,7 +120,7 @@ static int32_t peri__sort_cells(peri__cloud *c) {
     const peri__model *m = c->model;
     const peri__memory *memory = &m->memory;
     peri__choose_cells(c);
-    c->isa = peri__isa();
+    c->isa = peri__isa(c->body->desc.instructions);
     c->start = (int32_t *)peri__new(memory, c->cell_count + 1, sizeof *c->start);
     c->order = (int32_t *)peri__new(memory, m->points, sizeof *c->order);
     c->cell = (int32_t *)peri__new(memory, m->points, sizeof *c->cell);
