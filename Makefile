@@ -38,17 +38,18 @@ build/libperi.so: build/peri.o
 
 lib: build/libperi.a build/libperi.so
 
-build/examples/%: examples/%.c $(wildcard examples/*.h) build/peri.o
+# programs are compiled beside the library, which takes longest
+.SECONDARY:
+build/examples/%.o: examples/%.c peri.h $(wildcard examples/*.h)
 	@mkdir -p $(@D)
-	$(COMPILE) $< build/peri.o -o $@ -lm
+	$(COMPILE) -c $< -o $@
 
-build/tests/%: tests/%.c $(wildcard tests/*.h) build/peri.o
+build/tests/%.o: tests/%.c peri.h $(wildcard tests/*.h)
 	@mkdir -p $(@D)
-	$(COMPILE) $< build/peri.o -o $@ -lm
+	$(COMPILE) -c $< -o $@
 
-build/bench/%: bench/%.c bench/bench.h build/peri.o
-	@mkdir -p $(@D)
-	$(COMPILE) $< build/peri.o -o $@ -lm
+build/%: build/%.o build/peri.o
+	$(CC) $(OPENMP) $^ -o $@ -lm
 
 # the same library twice in one program: plain -O2 as users compile it, and with all that the compiler has. The second without
 # warnings: what gcc 12 -O3 takes for not initialised is

@@ -1,11 +1,12 @@
 #!/bin/sh
-# The single-file header: generated twice alike, self-contained, the same machine code as the tree, only peri_ names exported, no state,
-# only PERI macros left defined.
+# The single-file header: generated twice alike, self-contained, the same tokens as the tree, only peri_ names exported, no state, only PERI
+# macros left defined.
 set -e
 cc=${CC:-cc}
 dir=build/checks/dist
+file=build/dist/peri.h
 rm -rf $dir
-mkdir -p $dir
+mkdir -p $dir build/dist
 must_be_empty() { # must_be_empty WHAT FILE
     if [ -s "$2" ]; then
         echo "$1:"
@@ -13,26 +14,29 @@ must_be_empty() { # must_be_empty WHAT FILE
         exit 1
     fi
 }
-awk -f tools/dist.awk peri.h > $dir/peri.h
-awk -f tools/dist.awk peri.h | cmp - $dir/peri.h
-grep -n '^#include "' $dir/peri.h > $dir/includes || true
+awk -f tools/dist.awk peri.h > $file
+awk -f tools/dist.awk peri.h | cmp - $file
+grep -n '^#include "' $file > $dir/includes || true
 must_be_empty "not self-contained" $dir/includes
 
-printf '#define PERI_IMPLEMENTATION\n#include "peri.h"\n' > $dir/one.c
-(cd $dir && $cc -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror -O1 -fno-pic -c one.c -o dist.o)
-$cc -std=c99 -O1 -fno-pic -c peri_impl.c -o $dir/tree.o
-if command -v objdump > /dev/null; then
-    objdump -d $dir/dist.o | sed 1,3d > $dir/dist.s
-    objdump -d $dir/tree.o | sed 1,3d > $dir/tree.s
-    cmp $dir/dist.s $dir/tree.s
-fi
+# what the compiler sees, line marks aside: then the machine code is the same under any flags
+tokens() { $cc -std=c99 -E -P "$@" > $dir/tokens; }
+tokens peri_impl.c
+mv $dir/tokens $dir/tree
+for header in peri.h $file; do
+    tokens -DPERI_IMPLEMENTATION -x c $header
+    cmp $dir/tokens $dir/tree
+done
+
 if command -v nm > /dev/null; then
-    nm -g --defined-only $dir/dist.o | grep -v ' peri_' > $dir/foreign || true
+    nm -g --defined-only build/peri.o | grep -v ' peri_' > $dir/foreign || true
     must_be_empty "exported names without peri_" $dir/foreign
-    nm $dir/dist.o | grep -i ' [bcd] ' > $dir/state || true
+fi
+if command -v objdump > /dev/null; then # .data.rel.ro: constants that hold addresses
+    objdump -t build/peri.o | grep -E '[[:space:]](\.(data|bss|tdata|tbss)|\*COM\*)' | grep -vE ' d +\.|\.data\.rel\.ro' > $dir/state || true
     must_be_empty "writable data" $dir/state
 fi
 printf '#include <stdint.h>\n#include <stddef.h>\n' | $cc -std=c99 -dM -E - | sort > $dir/before
-printf '#include <stdint.h>\n#include <stddef.h>\n#include "peri.h"\n' | $cc -std=c99 -I$dir -dM -E - | sort > $dir/after
+printf '#include <stdint.h>\n#include <stddef.h>\n#include "peri.h"\n' | $cc -std=c99 -Ibuild/dist -dM -E - | sort > $dir/after
 comm -13 $dir/before $dir/after | grep -v '^#define PERI_' > $dir/macros || true
 must_be_empty "macros left defined" $dir/macros
