@@ -796,6 +796,59 @@ PERI_API void peri_plan_desc_init(peri_plan_desc *plan);
    whether a box gets columns or a list is an estimate. */
 PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error);
 
+/* ---- which trade to take ------------------------------------------------------------------------------------------ */
+
+/* What is to be right, and which length the resolution goes by: the `feature`. */
+typedef enum peri_quantity {
+    PERI_FOR_DEFORMATION = 1, /* displacements, stiffness, elastic energy. feature: the least thickness of a part that carries     */
+    PERI_FOR_STRESS      = 2, /* stress around holes and notches, from 0.3 radii of the rim on. feature: the radius       */
+    PERI_FOR_WAVES       = 3, /* the way of waves. feature: the shortest wavelength that matters                         */
+    PERI_FOR_FRACTURE    = 4  /* when cracks grow: energy release rate. feature: the length of the crack                 */
+} peri_quantity;
+
+/* Named errors, each for a use. */
+typedef enum peri_preset {
+    PERI_PRESET_GAME        = 1, /* 20 %: looks right                                                                    */
+    PERI_PRESET_TEACHING    = 2, /* 10 %: what is taught is there                                                        */
+    PERI_PRESET_ENGINEERING = 3, /* 5 %: as good as the data of most materials                                           */
+    PERI_PRESET_REFERENCE   = 4  /* to compare others with: deformation 1 %, stress 2 %, waves 3 %, fracture 2 %         */
+} peri_preset;
+
+/* A preset or an error to reach at least cost; or a budget, or both of its kinds, to be as right as can be in. With both an error and a
+   budget the cheapest choice for the error must fit. */
+typedef struct peri_goal {
+    uint64_t cookie;   /* set by peri_goal_init                                                                          */
+    int32_t  preset;   /* peri_preset. Default 0: none                                                                   */
+    int32_t  quantity; /* peri_quantity. Required                                                                        */
+    double   error;    /* (0, 1) relative error to reach. Default 0: not given                                           */
+    double   seconds;  /* [s] of one thread of this machine, per step. Default 0: any. Asks for the clock, as `measure` of peri_plan_desc */
+    int64_t  bytes;    /* most that is held until peri_build has returned. Default 0: any                                */
+    double   feature;  /* [L] > 0. Required                                                                              */
+    double   lo[3];    /* [L] corners of the scene; 2D: the third is ignored. Required                                   */
+    double   hi[3];
+} peri_goal;
+
+typedef struct peri_choice {
+    double           spacing; /* [L] for peri_add_box                                                                    */
+    double           across;  /* spacings across the feature                                                             */
+    double           error;   /* not above this for the quantity: twice the largest in the table at this or finer resolutions */
+    const char      *text;    /* constant text: the choice in words                                                      */
+    peri_plan_report cost;    /* as peri_plan says; seconds where the goal has them                                      */
+} peri_choice;
+
+/* Fills every field with its default. NULL is ignored. */
+PERI_API void peri_goal_init(peri_goal *goal);
+
+/* Fills body (precision, influence, quadrature, correction, horizon) and material (model, and with it poisson and stabilization) with the
+   best choice for a goal, from a table that `make tradeoff` measured on lattices, Poisson's ratio 0.1, 0.3 and 0.45; all else in them, and
+   both where the call fails, stays as it is. body needs its space, material its constants and its ratio: PERI_BOND_BASED stands for the
+   ratio that it has. Bond-based is chosen only where the ratio and the criterion allow it. The error is one of discretization, for parts
+   not much smaller than the feature under smooth loads; horizons reach 1.5 to 3 spacings into what is at a surface.
+   PERI_ERROR_RANGE: "error": out of reach of the table (value: what is in reach), "poisson": outside [0, 0.45], "seconds", "bytes": out
+   of the budget (value: what it takes, 0 where not even the coarsest fits). error may be NULL. */
+PERI_API int32_t peri_choose(const peri_goal *goal, peri_body_desc *body, peri_material *material, peri_choice *choice,
+                             peri_error *error);
+
 /* ---- results ------------------------------------------------------------------------------------------------------ */
 
 typedef enum peri_field {

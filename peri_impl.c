@@ -87,5 +87,6 @@
 #include "src/output.c"     /* VTU, CSV                                                                    */
 #include "src/sketch.c"     /* a body that is only described  -> its bonds and columns                     */
 #include "src/plan.c"       /* what a scene would cost                                                     */
+#include "src/choose.c"     /* the knobs for an accuracy or a budget                                       */
 
 #undef PERI_IMPL
