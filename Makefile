@@ -46,6 +46,11 @@ build/tests/%: tests/%.c $(wildcard tests/*.h) build/peri.o
 	@mkdir -p $(@D)
 	$(COMPILE) $< build/peri.o -o $@ -lm
 
+EXTREMES = $(wildcard tests/extremes/*.c)
+build/tests/extremes: $(EXTREMES) tests/extremes/extremes.h tests/peri_test.h build/peri.o
+	@mkdir -p $(@D)
+	$(COMPILE) $(EXTREMES) build/peri.o -o $@ -lm
+
 build/bench/%: bench/%.c bench/bench.h build/peri.o
 	@mkdir -p $(@D)
 	$(COMPILE) $< build/peri.o -o $@ -lm
@@ -76,7 +81,7 @@ examples: $(EXAMPLES:%=build/examples/%)
 	@mkdir -p out
 	@for e in $(EXAMPLES); do echo "== $$e"; build/examples/$$e || exit 1; done
 
-programs: $(TESTS:%=build/tests/%) $(EXAMPLES:%=build/examples/%) build/libperi.so
+programs: $(TESTS:%=build/tests/%) build/tests/extremes $(EXAMPLES:%=build/examples/%) build/libperi.so
 
 test:
 	@$(MAKE) --no-print-directory -j2 programs
