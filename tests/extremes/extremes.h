@@ -10,7 +10,7 @@
 
 typedef struct outcome {
     int32_t     status; /* PERI_OK, or the first failure that the scene came to                                           */
-    const char *field;  /* that its record names, "" where none                                                           */
+    const char *field;  /* that its record names, "" where none; of a scene that came to its end: the worst case in it    */
     double      error;  /* distance from the truth, as a part of it                                                       */
 } outcome;
 
@@ -41,6 +41,8 @@ typedef struct extreme_pool {
     int     wrong;
 } extreme_pool;
 extern extreme_pool extreme_memory;
+
+extern int extreme_long; /* 1: with --long, for scenes that then do more                                                */
 
 /* A descriptor with defaults, one thread and that allocator. */
 void extreme_desc(peri_body_desc *desc, int32_t space, int32_t precision, double horizon);
