@@ -92,13 +92,15 @@ static void peri__stagger(peri_body *b, double dt, double damping) {
     peri__kick(b, &step, NULL);
 }
 
-static void peri__unstagger(peri_body *b, double dt, double damping) {
+static int32_t peri__unstagger(peri_body *b, double dt, double damping) {
     peri__step step = peri__no_step(b);
     double h = 0.5 * damping * dt;
+    int64_t bad = -1;
     step.keep = 1.0 / (1.0 + h);
     step.kick = 0.5 * dt * step.keep;
     step.loss_new = b->desc.ledger ? h : 0.0;
-    peri__kick(b, &step, NULL);
+    peri__kick(b, &step, &bad);
+    return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->time) : PERI_OK;
 }
 
 /* One step of dt (inner units) to the time `next`. */
@@ -239,7 +241,7 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
             run++;
             plan.done++;
         }
-        if (central && status == PERI_OK) peri__unstagger(b, size, damping);
+        if (central && status == PERI_OK) status = peri__unstagger(b, size, damping);
         left_to_frame -= run;
         if (status != PERI_OK) break;
         if (r->on_frame && (plan.done == plan.steps || (r->frame_steps > 0 && left_to_frame == 0))) {
