@@ -194,6 +194,7 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
                 if (!(load->owned[k] >> d & 1)) continue;
                 if (load->kind == PERI__DISPLACEMENT) {
                     value /= m->length;
+                    if (b->f32) value = (float)value; /* what u can hold: else it would move for ever by what is left over */
                     v = (value - peri__get_real(b->u, b->f32, at)) / dt;
                 } else {
                     value /= peri__velocity_unit(m);
