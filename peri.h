@@ -578,7 +578,7 @@ typedef struct peri_run {
     int32_t       integrator;   /* peri_integrator. Default PERI_VELOCITY_VERLET                                         */
     int32_t       force_step;   /* 1 = take time_step even if it is larger than peri_stable_step. Default 0: refused     */
     int64_t       steps;        /* run this many steps; or                                                               */
-    double        duration;     /* [T] run this long; the last step is shortened to end exactly there. One of the two is
+    double        duration;     /* [T] run this long; the last two steps are shortened alike to end exactly there. One of the two is
                                    required: both default to 0                                                           */
     double        time_step;    /* [T] > 0; 0 (default) = safety * peri_stable_step, made shorter where broken bonds shorten that */
     double        safety;       /* (0, 1]. Default 0.9                                                                   */
