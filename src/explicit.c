@@ -173,6 +173,10 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
     peri__refresh(b);
     double stable = peri__stable(b) * b->model->time, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
+    /* in the unit of time both may vanish */
+    if (!(step / b->model->time > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
+    if (r->duration > 0.0 && !(r->duration / b->model->time > 0.0))
+        return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
     if (r->damping * step > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
     if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
         return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
