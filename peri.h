@@ -609,7 +609,8 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again
    (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 1e-3, in mixed precision
    below 1e-7 and 1e-6: a tolerance out of reach ends with PERI_ERROR_CONVERGENCE at the best that there is. Where nothing acts (a body
-   turned rigidly) rounding is good enough. */
+   turned rigidly) rounding is good enough; forces below 1e-140 (single and mixed precision: 1e-42) of Young's modulus times a face of a
+   cell are nothing. */
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
     PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */

@@ -6,7 +6,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_NOTHING(b) ((b)->b32 ? 1e-30 : 1e-140) /* forces whose squares underflow; inner units                         */
+#define PERI_NOTHING(b) ((b)->b32 ? 1e-42 : 1e-140) /* forces that count as none: they, or their squares, underflow; inner units */
 
 static int peri__is_linear(const peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -87,7 +87,8 @@ static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
 /* Is a residual no more than rounding, of the bonds' forces or of what acted before, in a body that nothing loads and no support strains?
    Reactions then fall with it. */
 static int peri__is_nothing(const peri__solver *s, double residual, double loads) {
-    return residual <= PERI_NOTHING(s->body) || (loads == 0.0 && residual <= s->floor && s->scale <= s->floor);
+    const double nothing = PERI_NOTHING(s->body);
+    return (residual <= nothing && s->scale <= nothing) || (loads == 0.0 && residual <= s->floor && s->scale <= s->floor);
 }
 
 /* One more iteration, told to the callback. */

@@ -69,6 +69,16 @@ int extreme_fails(outcome *o, const peri_body *b, int64_t result) {
 
 double extreme_worst(double a, double b) { return a >= b ? a : b >= a ? b : NAN; }
 
+double extreme_roundoff(int32_t precision) { return precision == PERI_F64 ? 0x1p-53 : 0x1p-24; }
+
+void extreme_take(outcome *o, double error, const char *what, int a, int b, int c) {
+    static char text[64];
+    if (error <= o->error) return;
+    o->error = extreme_worst(error, o->error);
+    (void)sprintf(text, "%.40s %d %d %d", what, a % 1000, b % 1000, c % 1000);
+    o->field = text;
+}
+
 double *extreme_read(outcome *o, peri_body *b, int32_t field) {
     const int64_t n = peri_field_size(b, field);
     double *x = n < 0 ? NULL : (double *)malloc((size_t)n * sizeof *x + 1);

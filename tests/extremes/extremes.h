@@ -60,6 +60,12 @@ outcome extreme_end(outcome o, peri_body *b);
 /* The larger one, NaN where either is. */
 double extreme_worst(double a, double b);
 
+/* Half a unit in the last place of 1, in the arithmetic of bonds. */
+double extreme_roundoff(int32_t precision);
+
+/* Keeps the larger error, NaN included, and names its case: a text and up to three numbers of up to three digits. */
+void extreme_take(outcome *o, double error, const char *what, int a, int b, int c);
+
 /* A new array of a field of points; NULL where the call fails, which is noted. */
 double *extreme_read(outcome *o, peri_body *b, int32_t field);
 

@@ -3,17 +3,6 @@
 
 #define PI 3.14159265358979323846
 
-static double roundoff(int32_t precision) { return precision == PERI_F64 ? 1.1e-16 : 6e-8; } /* of the arithmetic of bonds */
-
-/* Notes the worst case of a scene: its error, and which it was. */
-static char worst_case[64];
-static void take(outcome *o, double error, const char *what, int a, int c, int d) {
-    if (error <= o->error) return;
-    o->error = extreme_worst(error, o->error);
-    (void)sprintf(worst_case, "%.36s %d %d %d", what, a % 1000, c % 1000, d % 1000);
-    o->field = worst_case;
-}
-
 static int32_t state_of(const peri_body *b, peri_error *e) {
     memset(e, 0, sizeof *e);
     return peri_last_error(b, e);
@@ -97,7 +86,7 @@ static outcome each(const extreme *row, int32_t precision, int32_t geometry, eac
                     (void)sprintf(what, "%.24s", kind_names[k]);
                     one(&part, b, row, (kind)k, &run, what);
                     if (part.status < 0) o = part;
-                    else take(&o, part.error, what, space, model, integrator);
+                    else extreme_take(&o, part.error, what, space, model, integrator);
                     (void)extreme_fails(&o, b, peri_reset(b));
                 }
                 o = extreme_end(o, b);
@@ -259,7 +248,7 @@ static outcome oscillate(const extreme *row, int32_t precision) {
                 peri_run run;
                 int64_t n = 0;
                 int turn;
-                if (o.status >= 0 && peri_stable_step(b) > 2 / omega * (1 + 8 * roundoff(precision))) take(&o, HUGE_VAL, "limit", model, 0, 0);
+                if (o.status >= 0 && peri_stable_step(b) > 2 / omega * (1 + 8 * extreme_roundoff(precision))) extreme_take(&o, HUGE_VAL, "limit", model, 0, 0);
                 pull(&o, b, size, 0, 0.5);
                 peri_run_init(&run);
                 run.integrator = integrator;
@@ -271,10 +260,10 @@ static outcome oscillate(const extreme *row, int32_t precision) {
                     if (extreme_fails(&o, b, peri_advance(b, &run))) break;
                     n += turn;
                     elongation(&o, b, &e, &rate);
-                    unit = (double)n * roundoff(precision) / sqrt(1 - s * s);
+                    unit = (double)n * extreme_roundoff(precision) / sqrt(1 - s * s);
                     off = fabs(e - size * cos((double)n * theta)) / size;
                     off = extreme_worst(off, fabs(rate * run.time_step / size + sin(theta) * sin((double)n * theta)));
-                    take(&o, off / unit, "law, geometry, integrator", model, geometry, integrator);
+                    extreme_take(&o, off / unit, "law, geometry, integrator", model, geometry, integrator);
                 }
                 o = extreme_end(o, b);
                 if (o.status < 0) return o;
@@ -304,7 +293,7 @@ static outcome sharp(const extreme *row, int32_t precision) {
 static outcome long_run(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double n = extreme_long ? 1e7 : row->value, size = 1e-3, omega = sqrt(omega2_of(PERI_BOND_BASED, 1.5)), s = 0.9;
-    const double theta = 2 * asin(s), unit = roundoff(precision);
+    const double theta = 2 * asin(s), unit = extreme_roundoff(precision);
     peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, 1, 1);
     peri_run run;
     double e = 0, rate = 0, kept;
@@ -315,10 +304,10 @@ static outcome long_run(const extreme *row, int32_t precision) {
     run.integrator = row->choice;
     if (o.status >= 0 && !extreme_fails(&o, b, peri_advance(b, &run))) elongation(&o, b, &e, &rate);
     kept = sqrt(rate * rate / (omega * omega * (1 - s * s)) + e * e) / size;
-    take(&o, fabs(kept - 1) / (unit * sqrt(n) / (1 - s * s)), "invariant", 0, 0, 0);
-    if (16 * n * unit < 1) take(&o, fabs(e / size - cos(n * theta)) / (2 * n * unit), "phase", 0, 0, 0);
+    extreme_take(&o, fabs(kept - 1) / (unit * sqrt(n) / (1 - s * s)), "invariant", 0, 0, 0);
+    if (16 * n * unit < 1) extreme_take(&o, fabs(e / size - cos(n * theta)) / (2 * n * unit), "phase", 0, 0, 0);
     if (o.status >= 0 && (peri_step_count(b) != (int64_t)n || !(fabs(peri_time(b) / (n * run.time_step) - 1) < 1e-15)))
-        take(&o, HUGE_VAL, "time", 0, 0, 0);
+        extreme_take(&o, HUGE_VAL, "time", 0, 0, 0);
     return extreme_end(o, b);
 }
 
@@ -334,12 +323,12 @@ static outcome light(const extreme *row, int32_t precision) {
     peri_run_init(&run);
     run.steps = 50;
     if (o.status >= 0) s = 0.9 * peri_stable_step(b) * omega / 2;
-    if (!(s <= 0.9 + 1e-6 && s > 0.3)) take(&o, HUGE_VAL, "step", 0, 0, 0); /* safe, and sharp to a factor of 3 */
+    if (!(s <= 0.9 + 1e-6 && s > 0.3)) extreme_take(&o, HUGE_VAL, "step", 0, 0, 0); /* safe, and sharp to a factor of 3 */
     if (o.status >= 0 && !extreme_fails(&o, b, peri_advance(b, &run))) elongation(&o, b, &e, &rate);
     theta = 2 * asin(s);
-    take(&o, fabs(e / size - cos(50 * theta)), "elongation", 0, 0, 0);
+    extreme_take(&o, fabs(e / size - cos(50 * theta)), "elongation", 0, 0, 0);
     if (o.status >= 0) (void)extreme_fails(&o, b, peri_read_momentum(b, momentum, NULL));
-    take(&o, fabs(momentum[0]) / (rho * ratio / (1 + ratio) * size * omega), "momentum", 0, 0, 0);
+    extreme_take(&o, fabs(momentum[0]) / (rho * ratio / (1 + ratio) * size * omega), "momentum", 0, 0, 0);
     return extreme_end(o, b);
 }
 
@@ -362,13 +351,13 @@ static outcome overdamped(const extreme *row, int32_t precision) {
             run.damping = 2 / run.time_step;
             run.steps = 20;
             if (o.status >= 0 && !extreme_fails(&o, b, peri_advance(b, &run))) elongation(&o, b, &e, &rate);
-            take(&o, fabs(e / size - pow(factor, 20)), "law, integrator", model, integrator, 0);
+            extreme_take(&o, fabs(e / size - pow(factor, 20)), "law, integrator", model, integrator, 0);
             if (o.status >= 0) { /* a hair more is refused */
                 peri_error record;
                 run.damping *= 1 + 1e-15;
                 run.damping = run.damping * run.time_step > 2 ? run.damping : 2.0000001 / run.time_step;
                 if (peri_advance(b, &run) != PERI_ERROR_RANGE || state_of(b, &record) != PERI_OK || strcmp(record.field, "damping") != 0)
-                    take(&o, HUGE_VAL, "beyond", model, integrator, 0);
+                    extreme_take(&o, HUGE_VAL, "beyond", model, integrator, 0);
             }
             o = extreme_end(o, b);
             if (o.status < 0) return o;
@@ -405,7 +394,7 @@ static int32_t add_impulse(void *user, peri_body *b) {
    steps are the momentum given. Sums of 16 points and 4 steps, of velocities a hundred times what is left: 1e3 roundings. */
 static void end_of(outcome *o, int32_t precision, int32_t model, int32_t integrator, int glides, double part, double more) {
     peri_body *b = body_of(o, precision, PERI_PLANE_STRESS, model, PERI_LINEAR, LATTICE), *free_body = NULL;
-    const double lo[2] = {0, 0}, hi[2] = {2, 4}, start[2] = {0.1, 0}, unit = roundoff(precision);
+    const double lo[2] = {0, 0}, hi[2] = {2, 4}, start[2] = {0.1, 0}, unit = extreme_roundoff(precision);
     const double last = more > 0 ? more : part > 1e-11 ? 0.5 * (1 + part) : 1;
     double dt, reaction[2] = {0, 0}, force = 0, scale = 0, from[2] = {0, 0}, to[2] = {0, 0}, *f = NULL, *v = NULL, *x = NULL;
     impulse sum = {-1, 0, 0, 0};
@@ -432,13 +421,13 @@ static void end_of(outcome *o, int32_t precision, int32_t model, int32_t integra
     sum.grip = grip;
     if (o->status >= 0) (void)extreme_fails(o, b, peri_read_momentum(b, from, NULL));
     if (o->status >= 0) (void)extreme_fails(o, b, peri_advance(b, &run));
-    if (o->status >= 0 && (peri_time(b) != run.duration || peri_step_count(b) != (part > 1e-11 ? 4 : 3))) take(o, HUGE_VAL, "time", model, 0, 0);
+    if (o->status >= 0 && (peri_time(b) != run.duration || peri_step_count(b) != (part > 1e-11 ? 4 : 3))) extreme_take(o, HUGE_VAL, "time", model, 0, 0);
     if (o->status >= 0 && more > 0) {
         run.duration = more * dt;
         (void)extreme_fails(o, b, peri_advance(b, &run));
     }
     if (o->status >= 0) (void)extreme_fails(o, b, peri_read_momentum(b, to, NULL));
-    take(o, fabs(sum.given - (to[0] - from[0])) / (1e3 * unit * (sum.scale + fabs(to[0]))), "impulse, law, integrator, glides", model, integrator,
+    extreme_take(o, fabs(sum.given - (to[0] - from[0])) / (1e3 * unit * (sum.scale + fabs(to[0]))), "impulse, law, integrator, glides", model, integrator,
          glides);
     if (o->status >= 0) (void)extreme_fails(o, b, peri_read_reaction(b, grip, reaction));
     if (o->status >= 0) (void)extreme_fails(o, b, peri_clone(b, &free_body, NULL));
@@ -452,10 +441,10 @@ static void end_of(outcome *o, int32_t precision, int32_t model, int32_t integra
             scale += fabs(f[2 * i]);
             if (x[2 * i] > 2) continue;
             force += f[2 * i];
-            take(o, fabs(v[2 * i] - (glides ? 0.3 : 0)) * dt / (unit * 16), "velocity, law, integrator, glides", model, integrator, glides);
+            extreme_take(o, fabs(v[2 * i] - (glides ? 0.3 : 0)) * dt / (unit * 16), "velocity, law, integrator, glides", model, integrator, glides);
         }
         /* over a step the force changes by at most dt times its rate, 2/(0.5 dt^2 per displacement) dt v: by its own size */
-        take(o, fabs(reaction[0] + force) / (scale * (last + 1e3 * unit)), "reaction, law, integrator, glides", model, integrator, glides);
+        extreme_take(o, fabs(reaction[0] + force) / (scale * (last + 1e3 * unit)), "reaction, law, integrator, glides", model, integrator, glides);
     }
     free(f);
     free(v);
@@ -499,7 +488,7 @@ static outcome pieces(const extreme *row, int32_t precision) {
                 run.steps = turn ? 1 : 60;
                 run.damping = 0.01;
                 for (n = 0; n < (turn ? 60 : 1) && o.status >= 0; ++n) (void)extreme_fails(&o, b, peri_advance(b, &run));
-                if (o.status >= 0 && !(fabs(peri_time(b) / (60 * run.time_step) - 1) <= 60 * 1.2e-16)) take(&o, HUGE_VAL, "time", 0, 0, 0);
+                if (o.status >= 0 && !(fabs(peri_time(b) / (60 * run.time_step) - 1) <= 60 * 1.2e-16)) extreme_take(&o, HUGE_VAL, "time", 0, 0, 0);
                 if (o.status >= 0) u[turn] = extreme_read(&o, b, PERI_DISPLACEMENT);
                 if (turn && u[0] && u[1]) {
                     double off = 0, most = 0;
@@ -508,7 +497,7 @@ static outcome pieces(const extreme *row, int32_t precision) {
                         off = extreme_worst(off, fabs(u[1][k] - u[0][k]));
                         most = extreme_worst(most, fabs(u[0][k]));
                     }
-                    take(&o, off / most, "space, law", space, model, 0);
+                    extreme_take(&o, off / most, "space, law", space, model, 0);
                 }
                 o = extreme_end(o, b);
             }
@@ -574,12 +563,12 @@ static outcome brief(const extreme *row, int32_t precision) {
         if (o.status < 0 || extreme_fails(&o, b, peri_advance(b, &run))) return extreme_end(o, b);
         elongation(&o, b, &e, &rate);
         (void)extreme_fails(&o, b, peri_read(b, PERI_FORCE_DENSITY, f, 6));
-        if (row->choice == DURATION && peri_time(b) != row->value) take(&o, HUGE_VAL, "time", integrator, 0, 0);
-        if (row->choice == TIME_STEP && !(fabs(peri_time(b) / 7 / row->value - 1) < 1e-15)) take(&o, HUGE_VAL, "time", integrator, 0, 0);
-        if (peri_step_count(b) != (row->choice == DURATION ? 1 : 7) || !(peri_time(b) > 0)) take(&o, HUGE_VAL, "steps", integrator, 0, 0);
-        take(&o, fabs(e / 1e-3 - 1), "elongation", integrator, 0, 0);
-        take(&o, fabs(rate / 1e-6 - 1), "rate", integrator, 0, 0);
-        take(&o, fabs(f[0] / want - 1), "force", integrator, 0, 0);
+        if (row->choice == DURATION && peri_time(b) != row->value) extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
+        if (row->choice == TIME_STEP && !(fabs(peri_time(b) / 7 / row->value - 1) < 1e-15)) extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
+        if (peri_step_count(b) != (row->choice == DURATION ? 1 : 7) || !(peri_time(b) > 0)) extreme_take(&o, HUGE_VAL, "steps", integrator, 0, 0);
+        extreme_take(&o, fabs(e / 1e-3 - 1), "elongation", integrator, 0, 0);
+        extreme_take(&o, fabs(rate / 1e-6 - 1), "rate", integrator, 0, 0);
+        extreme_take(&o, fabs(f[0] / want - 1), "force", integrator, 0, 0);
         o = extreme_end(o, b);
     }
     return o;
@@ -613,7 +602,7 @@ static outcome frames(const extreme *row, int32_t precision) {
                 code = peri_advance(b, &run);
                 (void)extreme_fails(&o, b, code);
                 if (code != (c.stop ? PERI_STOPPED : PERI_OK) || c.calls != runs[k].calls || peri_step_count(b) != runs[k].done)
-                    take(&o, 1, "run, timed, calls", k, timed, c.calls);
+                    extreme_take(&o, 1, "run, timed, calls", k, timed, c.calls);
             }
             o = extreme_end(o, b);
         }
@@ -644,11 +633,11 @@ static outcome nothing_left(const extreme *row, int32_t precision) {
             run.steps = 8;
             if (o.status >= 0) (void)extreme_fails(&o, b, peri_cut_if(b, cut_all, NULL));
             if (o.status >= 0) step = peri_stable_step(b);
-            if (!(step > 0 && step < HUGE_VAL)) take(&o, HUGE_VAL, "step, law", model, 0, 0);
+            if (!(step > 0 && step < HUGE_VAL)) extreme_take(&o, HUGE_VAL, "step, law", model, 0, 0);
             if (o.status >= 0) (void)extreme_fails(&o, b, peri_add_velocity(b, PERI_ALL, v));
             if (o.status >= 0 && !extreme_fails(&o, b, peri_advance(b, &run))) u = extreme_read(&o, b, PERI_DISPLACEMENT);
             for (k = 0; u && k < peri_field_size(b, PERI_DISPLACEMENT); ++k)
-                take(&o, fabs(u[k] / (v[k % 3] * peri_time(b)) - 1), "law, integrator", model, integrator, 0);
+                extreme_take(&o, fabs(u[k] / (v[k % 3] * peri_time(b)) - 1), "law, integrator", model, integrator, 0);
             free(u);
             o = extreme_end(o, b);
             if (o.status < 0) return o;
