@@ -165,7 +165,10 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t at = peri__dof(b, load, k, d);
-                peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d));
+                double force = peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d);
+                if (!(fabs(force) < (b->f32 ? FLT_MAX : DBL_MAX)))
+                    return peri__fail(b, PERI_ERROR_RANGE, "load at the point", peri__set_point(b, load->set, k), force);
+                peri__put_real(b->f, b->f32, at, force);
             }
     }
     return PERI_OK;
