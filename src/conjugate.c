@@ -113,6 +113,7 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
     for (int64_t k = 0;; ++k) {
         double before = rz, square, bent;
         if (k == 0) first = residual;
+        if (residual <= 0.01 * peri__rounding(b) * first) return PERI_OK; /* what is left of r says nothing any more: to be taken anew */
         if (residual <= reach * s->scale || peri__is_nothing(s, residual, residual <= reach * first ? loads : HUGE_VAL)) return PERI_OK;
         if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         rz = peri__precondition(s);

@@ -389,13 +389,14 @@ static void limit_one(outcome *o, const extreme *row, int32_t precision, int32_t
     for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
         for (method = PERI_NEWTON; method <= PERI_BICGSTAB && o->status >= 0; ++method) {
             peri_body *b = plate(o, precision, space, model, geometry, 1);
-            const double size = geometry == PERI_LINEAR ? 1e-3 : 1e-9; /* where both geometries agree */
+            const double size = geometry == PERI_LINEAR ? 1e-3 : 1e-16; /* where both geometries agree */
             peri_statics s;
             peri_error e;
             peri_statics_init(&s);
             s.tolerance = row->value;
             s.method = method;
-            s.iterations = 3000;
+            s.iterations = 300;
+            s.halvings = 0; /* else what is left is a smaller load's */
             (void)load_plate(o, b, size);
             if (o->status >= 0) {
                 const int32_t code = peri_solve(b, &s, NULL);
