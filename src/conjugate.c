@@ -80,7 +80,11 @@ static double peri__precondition(peri__solver *s) {
 static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
     double held = sqrt(sums.b);
     s->scale = loads > held ? loads : held;
-    if (s->scale > s->top && s->scale < HUGE_VAL) s->top = s->scale;
+    if (!(s->scale < HUGE_VAL)) { /* nothing is small beside that */
+        s->scale = 0.0;
+        return HUGE_VAL;
+    }
+    if (s->scale > s->top) s->top = s->scale;
     return sqrt(sums.a);
 }
 
@@ -113,9 +117,10 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
     for (int64_t k = 0;; ++k) {
         double before = rz, square, bent;
         if (k == 0) first = residual;
+        if (!(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
         if (residual <= 0.01 * peri__rounding(b) * first) return PERI_OK; /* what is left of r says nothing any more: to be taken anew */
         if (residual <= reach * s->scale || peri__is_nothing(s, residual, residual <= reach * first ? loads : HUGE_VAL)) return PERI_OK;
-        if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
+        if (s->left <= 0) return PERI_ERROR_CONVERGENCE;
         rz = peri__precondition(s);
         if (!(rz > 0.0)) return PERI_ERROR_CONVERGENCE;
         if (s->energy0 == 0.0) s->energy0 = rz;

@@ -91,8 +91,8 @@ static void peri__note_floor(peri__solver *s) {
 }
 
 static int peri__is_settled(peri__solver *s, double residual, double loads) {
-    if (residual < HUGE_VAL && residual <= peri__solve_tolerance(s) * s->scale) return 1;
-    if (!peri__is_nothing(s, residual, loads)) return 0;
+    if (residual <= peri__solve_tolerance(s) * s->scale) return 1;
+    if (!(residual < HUGE_VAL) || !peri__is_nothing(s, residual, loads)) return 0;
     s->report.residual = 0.0; /* rounding over rounding tells nothing */
     return 1;
 }
