@@ -688,8 +688,9 @@ PERI_API void peri_statics_init(peri_statics *statics);
 /* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule from each
    equilibrium to the next, those in between bonds breaking included. A step that fails leaves the body at the equilibrium before it; where
    there is none in this call, and after bonds have broken in it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or
-   softening: the tangent has a negative direction, and no equilibrium was found further down), PERI_ERROR_CONVERGENCE (value: residual
-   reached), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes
+   softening: the tangent has a negative direction, and no equilibrium was found further down; directions that nothing excites are not
+   looked for: a perfect strut stays straight until something pushes it aside), PERI_ERROR_CONVERGENCE (value: residual reached),
+   PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes
    them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
 
