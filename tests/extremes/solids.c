@@ -269,7 +269,7 @@ static outcome uniform(const extreme *row, int32_t precision) {
             }
             peri_statics_init(&st);
             st.loose = loose;
-            st.iterations = 1500;
+            st.iterations = floor > 0.01 * tolerance ? 1000 : 20000;
             if (o.status >= 0) {
                 code = peri_solve(b, &st, NULL);
                 if (code == PERI_ERROR_CONVERGENCE && floor > 0.01 * tolerance) tolerance = value_of(b); /* out of reach */
