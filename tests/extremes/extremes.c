@@ -187,7 +187,8 @@ static void play(const char *subject, const extreme *row) {
 int main(int argc, char **argv) {
     const extreme_table *const tables[] = {&extreme_units,    &extreme_elasticity, &extreme_motion, &extreme_stretches,
                                            &extreme_families, &extreme_damage,     &extreme_time,   &extreme_pairs,
-                                           &extreme_statics,  &extreme_solids,     &extreme_sizes,  &extreme_callbacks};
+                                           &extreme_statics,  &extreme_solids,     &extreme_trusses, &extreme_sizes,
+                                           &extreme_callbacks};
     size_t t;
     int k;
     test_begin(argc, argv);

@@ -62,7 +62,8 @@ static outcome oscillate(const extreme *row, int32_t precision) {
                 peri_run run;
                 int64_t n = 0;
                 int turn;
-                if (o.status >= 0 && peri_stable_step(b) > 2 / omega * (1 + 8 * extreme_roundoff(precision))) extreme_take(&o, HUGE_VAL, "limit", model, 0, 0);
+                if (o.status >= 0 && peri_stable_step(b) > 2 / omega * (1 + 8 * extreme_roundoff(precision)))
+                    extreme_take(&o, HUGE_VAL, "limit", model, 0, 0);
                 pull(&o, b, size, 0, 0.5);
                 peri_run_init(&run);
                 run.integrator = integrator;
@@ -125,7 +126,8 @@ static outcome long_run(const extreme *row, int32_t precision) {
     return extreme_end(o, b);
 }
 
-/* k = c V^2/xi and masses m, r m: omega^2 = k (1/m + 1/(r m)). The lighter point's share of the motion is 1/(1 + r), and the centre stays. */
+/* k = c V^2/xi and masses m, r m: omega^2 = k (1/m + 1/(r m)). The lighter point's share of the motion is 1/(1 + r), and the centre
+   stays. */
 static outcome light(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double rho = row->value, ratio = row->other, size = 1e-3;
@@ -216,7 +218,8 @@ static outcome wrong_number(const extreme *row, int32_t precision) {
     return extreme_end(o, b);
 }
 
-/* Short, but steps: u moves by v t, a force is what the bonds make of u, and the time is the duration. other: density, so the unit of time. */
+/* Short, but steps: u moves by v t, a force is what the bonds make of u, and the time is the duration. other: density, so the unit of
+   time. */
 static outcome brief(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t integrator;
@@ -235,11 +238,41 @@ static outcome brief(const extreme *row, int32_t precision) {
         elongation(&o, b, &e, &rate);
         (void)extreme_fails(&o, b, peri_read(b, PERI_FORCE_DENSITY, f, 6));
         if (row->choice == DURATION && peri_time(b) != row->value) extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
-        if (row->choice == TIME_STEP && !(fabs(peri_time(b) / 7 / row->value - 1) < 1e-15)) extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
-        if (peri_step_count(b) != (row->choice == DURATION ? 1 : 7) || !(peri_time(b) > 0)) extreme_take(&o, HUGE_VAL, "steps", integrator, 0, 0);
+        if (row->choice == TIME_STEP && !(fabs(peri_time(b) / 7 / row->value - 1) < 1e-15))
+            extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
+        if (peri_step_count(b) != (row->choice == DURATION ? 1 : 7) || !(peri_time(b) > 0))
+            extreme_take(&o, HUGE_VAL, "steps", integrator, 0, 0);
         extreme_take(&o, fabs(e / 1e-3 - 1), "elongation", integrator, 0, 0);
         extreme_take(&o, fabs(rate / 1e-6 - 1), "rate", integrator, 0, 0);
         extreme_take(&o, fabs(f[0] / want - 1), "force", integrator, 0, 0);
+        o = extreme_end(o, b);
+    }
+    return o;
+}
+
+/* A load that no step can take is named; without it the body is as new. */
+static outcome overloaded(const extreme *row, int32_t precision) {
+    outcome o = {PERI_OK, "", 0};
+    const double force[3] = {row->value, 0, 0};
+    int32_t integrator;
+    for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+        peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_NONLINEAR, 1, 1);
+        double u[6] = {0};
+        peri_run run;
+        int32_t code, load, k;
+        peri_run_init(&run);
+        run.integrator = integrator;
+        run.steps = 3;
+        if (o.status < 0) return extreme_end(o, b);
+        load = peri_apply_body_force(b, PERI_ALL, force, NULL, NULL);
+        (void)extreme_fails(&o, b, load);
+        code = peri_advance(b, &run);
+        if (code != PERI_ERROR_UNSTABLE && code != PERI_ERROR_RANGE) extreme_take(&o, HUGE_VAL, "status, integrator", -code, integrator, 0);
+        (void)extreme_fails(&o, b, peri_remove_load(b, load));
+        (void)extreme_fails(&o, b, peri_reset(b));
+        (void)extreme_fails(&o, b, peri_advance(b, &run));
+        (void)extreme_fails(&o, b, peri_read(b, PERI_DISPLACEMENT, u, 6));
+        for (k = 0; k < 6; ++k) extreme_take(&o, fabs(u[k]), "afterwards, integrator", integrator, 0, 0);
         o = extreme_end(o, b);
     }
     return o;
@@ -309,6 +342,9 @@ static const extreme rows[] = {
     {"duration of 1e-300", "peri.h: duration > 0", brief, 1e-300, 1, DURATION, PERI_OK, NULL, SMALL},
     {"duration of 5e-324", "peri.h: duration > 0", brief, 4.9406564584124654e-324, 1, DURATION, PERI_OK, NULL, SMALL},
     {"time step of 1e-300", "peri.h: time_step > 0", brief, 1e-300, 1, TIME_STEP, PERI_OK, NULL, SMALL},
+    {"time step of 5e-324", "peri.h: time_step > 0", brief, 4.9406564584124654e-324, 1, TIME_STEP, PERI_OK, NULL, SMALL},
+    {"a load of 1e30", "peri.h: faster than 1e9 speeds of sound", overloaded, 1e30, 0, 0, PERI_OK, NULL, NONE},
+    {"a load of 1e300", "the same, or beyond the range of the precision", overloaded, 1e300, 0, 0, PERI_OK, NULL, NONE},
     {"safety of 1e-300", "peri.h: safety in (0, 1]", brief, 1e-300, 1, SAFETY, PERI_OK, NULL, SMALL},
     {"time step of 1e-320, unit of time 1e10", "no step in the unit of time: its range", brief, 1e-320, 1e20, TIME_STEP, PERI_ERROR_RANGE,
      "time_step", NONE},
@@ -334,8 +370,8 @@ static const extreme rows[] = {
     {"safety of -0.5", "peri.h: (0, 1]", wrong_number, -0.5, 1, SAFETY, PERI_ERROR_RANGE, "safety", NONE},
     {"safety of 1 + 2e-16", "peri.h: (0, 1]", wrong_number, 1 + 2.3e-16, 1, SAFETY, PERI_ERROR_RANGE, "safety", NONE},
     {"safety of NaN", "peri.h: not finite", wrong_number, NAN, 1, SAFETY, PERI_ERROR_RANGE, "safety", NONE},
-    {"safety of 5e-324, unit of time 1e-10", "no step in the unit of time: its range", wrong_number, 4.9406564584124654e-324, 1e-20, SAFETY,
-     PERI_ERROR_RANGE, "safety", NONE},
+    {"safety of 5e-324, unit of time 1e-10", "no step in the unit of time: its range", wrong_number, 4.9406564584124654e-324, 1e-20,
+     SAFETY, PERI_ERROR_RANGE, "safety", NONE},
     {"damping of -1", "peri.h: a >= 0", wrong_number, -1, 1, DAMPING, PERI_ERROR_RANGE, "damping", NONE},
     {"damping of NaN", "peri.h: not finite", wrong_number, NAN, 1, DAMPING, PERI_ERROR_RANGE, "damping", NONE},
     {"damping of 1e308", "peri.h: a dt <= 2", wrong_number, 1e308, 1, DAMPING, PERI_ERROR_RANGE, "damping", NONE},

@@ -248,14 +248,15 @@ static void end_of(outcome *o, int32_t precision, int32_t model, int32_t integra
     sum.grip = grip;
     if (o->status >= 0) (void)extreme_fails(o, b, peri_read_momentum(b, from, NULL));
     if (o->status >= 0) (void)extreme_fails(o, b, peri_advance(b, &run));
-    if (o->status >= 0 && (peri_time(b) != run.duration || peri_step_count(b) != (part > 1e-11 ? 4 : 3))) extreme_take(o, HUGE_VAL, "time", model, 0, 0);
+    if (o->status >= 0 && (peri_time(b) != run.duration || peri_step_count(b) != (part > 1e-11 ? 4 : 3)))
+        extreme_take(o, HUGE_VAL, "time", model, 0, 0);
     if (o->status >= 0 && more > 0) {
         run.duration = more * dt;
         (void)extreme_fails(o, b, peri_advance(b, &run));
     }
     if (o->status >= 0) (void)extreme_fails(o, b, peri_read_momentum(b, to, NULL));
-    extreme_take(o, fabs(sum.given - (to[0] - from[0])) / (1e3 * unit * (sum.scale + fabs(to[0]))), "impulse, law, integrator, glides", model, integrator,
-         glides);
+    extreme_take(o, fabs(sum.given - (to[0] - from[0])) / (1e3 * unit * (sum.scale + fabs(to[0]))), "impulse, law, integrator, glides",
+                 model, integrator, glides);
     if (o->status >= 0) (void)extreme_fails(o, b, peri_read_reaction(b, grip, reaction));
     if (o->status >= 0) (void)extreme_fails(o, b, peri_clone(b, &free_body, NULL));
     if (o->status >= 0) (void)extreme_fails(o, free_body, peri_remove_load(free_body, grip));
@@ -268,10 +269,12 @@ static void end_of(outcome *o, int32_t precision, int32_t model, int32_t integra
             scale += fabs(f[2 * i]);
             if (x[2 * i] > 2) continue;
             force += f[2 * i];
-            extreme_take(o, fabs(v[2 * i] - (glides ? 0.3 : 0)) * dt / (unit * 16), "velocity, law, integrator, glides", model, integrator, glides);
+            extreme_take(o, fabs(v[2 * i] - (glides ? 0.3 : 0)) * dt / (unit * 16), "velocity, law, integrator, glides", model, integrator,
+                         glides);
         }
         /* over a step the force changes by at most dt times its rate, 2/(0.5 dt^2 per displacement) dt v: by its own size */
-        extreme_take(o, fabs(reaction[0] + force) / (scale * (last + 1e3 * unit)), "reaction, law, integrator, glides", model, integrator, glides);
+        extreme_take(o, fabs(reaction[0] + force) / (scale * (last + 1e3 * unit)), "reaction, law, integrator, glides", model, integrator,
+                     glides);
     }
     free(f);
     free(v);
@@ -315,7 +318,8 @@ static outcome pieces(const extreme *row, int32_t precision) {
                 run.steps = turn ? 1 : 60;
                 run.damping = 0.01;
                 for (n = 0; n < (turn ? 60 : 1) && o.status >= 0; ++n) (void)extreme_fails(&o, b, peri_advance(b, &run));
-                if (o.status >= 0 && !(fabs(peri_time(b) / (60 * run.time_step) - 1) <= 60 * 1.2e-16)) extreme_take(&o, HUGE_VAL, "time", 0, 0, 0);
+                if (o.status >= 0 && !(fabs(peri_time(b) / (60 * run.time_step) - 1) <= 60 * 1.2e-16))
+                    extreme_take(&o, HUGE_VAL, "time", 0, 0, 0);
                 if (o.status >= 0) u[turn] = extreme_read(&o, b, PERI_DISPLACEMENT);
                 if (turn && u[0] && u[1]) {
                     double off = 0, most = 0;
@@ -373,7 +377,7 @@ static outcome nothing_left(const extreme *row, int32_t precision) {
 
 /* ---- rows --------------------------------------------------------------------------------------------------------- */
 
-#define INVARIANT "invariant of velocity-Verlet for linear forces: kinetic energy from u = 0 stays below its start, its sum with the elastic one above"
+#define INVARIANT "invariant of velocity-Verlet: kinetic energy from u = 0 stays below its start, its sum with the elastic one above"
 #define LIMIT "peri.h: a step beyond the stable one is PERI_ERROR_STEP, names it, and nothing has moved"
 #define GROWTH "growth of the fastest mode beyond the limit; peri.h: PERI_ERROR_UNSTABLE beyond 1e9 speeds of sound"
 #define DURATION_TRUTH "peri.h: ends exactly there; a held point does not move, its reaction is minus the bonds' force"
