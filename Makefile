@@ -22,6 +22,7 @@ export OMP_WAIT_POLICY ?= passive
 SOURCES = peri.h peri_impl.c $(wildcard src/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
+EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
 .PHONY: all demo programs test validate bench examples lib dist lint clean
 all: lib
@@ -47,6 +48,14 @@ build/examples/%.o: examples/%.c peri.h $(wildcard examples/*.h)
 build/tests/%.o: tests/%.c peri.h $(wildcard tests/*.h)
 	@mkdir -p $(@D)
 	$(COMPILE) -c $< -o $@
+
+build/extremes/%.o: tests/extremes/%.c peri.h tests/peri_test.h $(wildcard tests/extremes/*.h)
+	@mkdir -p $(@D)
+	$(COMPILE) -c $< -o $@
+
+build/tests/extremes: $(EXTREMES:%=build/extremes/%.o) build/peri.o
+	@mkdir -p $(@D)
+	$(CC) $(OPENMP) $^ -o $@ -lm
 
 build/%: build/%.o build/peri.o
 	$(CC) $(OPENMP) $^ -o $@ -lm
@@ -77,7 +86,7 @@ examples: $(EXAMPLES:%=build/examples/%)
 	@mkdir -p out
 	@for e in $(EXAMPLES); do echo "== $$e"; build/examples/$$e || exit 1; done
 
-programs: $(TESTS:%=build/tests/%) $(EXAMPLES:%=build/examples/%) build/libperi.so
+programs: $(TESTS:%=build/tests/%) build/tests/extremes $(EXAMPLES:%=build/examples/%) build/libperi.so
 
 test:
 	@$(MAKE) --no-print-directory -j2 programs

@@ -578,7 +578,7 @@ typedef struct peri_run {
     int32_t       integrator;   /* peri_integrator. Default PERI_VELOCITY_VERLET                                         */
     int32_t       force_step;   /* 1 = take time_step even if it is larger than peri_stable_step. Default 0: refused     */
     int64_t       steps;        /* run this many steps; or                                                               */
-    double        duration;     /* [T] run this long; the last step is shortened to end exactly there. One of the two is
+    double        duration;     /* [T] run this long; the last two steps are shortened alike to end exactly there. One of the two is
                                    required: both default to 0                                                           */
     double        time_step;    /* [T] > 0; 0 (default) = safety * peri_stable_step, made shorter where broken bonds shorten that */
     double        safety;       /* (0, 1]. Default 0.9                                                                   */
@@ -609,7 +609,8 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again
    (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 1e-3, in mixed precision
    below 1e-7 and 1e-6: a tolerance out of reach ends with PERI_ERROR_CONVERGENCE at the best that there is. Where nothing acts (a body
-   turned rigidly) rounding is good enough. */
+   turned rigidly) rounding is good enough; forces below 1e-140 (single and mixed precision: 1e-42) of Young's modulus times a face of a
+   cell are nothing. */
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
     PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */
@@ -687,8 +688,9 @@ PERI_API void peri_statics_init(peri_statics *statics);
 /* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule from each
    equilibrium to the next, those in between bonds breaking included. A step that fails leaves the body at the equilibrium before it; where
    there is none in this call, and after bonds have broken in it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or
-   softening: the tangent has a negative direction, and no equilibrium was found further down), PERI_ERROR_CONVERGENCE (value: residual
-   reached), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes
+   softening: the tangent has a negative direction, and no equilibrium was found further down; directions that nothing excites are not
+   looked for: a perfect strut stays straight until something pushes it aside), PERI_ERROR_CONVERGENCE (value: residual reached),
+   PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes
    them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
 

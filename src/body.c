@@ -117,10 +117,11 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
     for (int64_t i = 0; i < m->points; ++i) used[m->material[i]] = 1;
     m->pairs = (peri__pair *)peri__new(&m->memory, (int64_t)n * n, sizeof *m->pairs);
     if (!m->pairs) return peri__fail(b, PERI_ERROR_MEMORY, "materials", -1, 0.0);
-    m->density = b->materials[0].density;
+    m->density = HUGE_VAL;
     for (int32_t i = 0; i < n; ++i) {
-        double young = peri__young(&b->materials[i], b->desc.space);
+        double young = peri__young(&b->materials[i], b->desc.space), density = b->materials[i].density;
         if (used[i] && young > m->stress) m->stress = young;
+        if (used[i] && density < m->density) m->density = density;
     }
     m->time = m->length * sqrt(m->density / m->stress);
     m->energy = m->stress * m->length * m->length * (b->dim == 3 ? m->length : b->desc.thickness);

@@ -92,7 +92,7 @@ static void peri__note_floor(peri__solver *s) {
 
 static int peri__is_settled(peri__solver *s, double residual, double loads) {
     if (residual <= peri__solve_tolerance(s) * s->scale) return 1;
-    if (!peri__is_nothing(s, residual, loads)) return 0;
+    if (!(residual < HUGE_VAL) || !peri__is_nothing(s, residual, loads)) return 0;
     s->report.residual = 0.0; /* rounding over rounding tells nothing */
     return 1;
 }
@@ -269,12 +269,16 @@ static int32_t peri__newton(peri__solver *s) {
     for (int64_t k = 0;; ++k) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;
-        double residual = peri__static_residual(s, loads);
+        double residual = peri__static_residual(s, loads), told = s->report.residual;
         int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))
             return s->negative ? peri__fail(b, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
+        if (!(residual < HUGE_VAL) && k > 0) { /* the last way led out of all numbers: back */
+            memcpy(b->u, s->k.p, peri__vector_bytes(b));
+            s->report.residual = told;
+        }
         if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))
             return peri__fail(b, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
         if (gap) peri__lift(s, at_rest);
@@ -288,6 +292,7 @@ static int32_t peri__newton(peri__solver *s) {
         if (status == PERI_ERROR_MEMORY) return status;
         if (status == PERI_ERROR_LOOSE || (linear && s->negative))
             return peri__fail(b, status, "tangent", peri__most_moved(s), 0.0);
+        memcpy(s->k.p, b->u, peri__vector_bytes(b));
         if (linear || gap) {
             if (linear || status != PERI_STOPPED) peri__move(s, 1.0);
             if (status != PERI_STOPPED) loads = peri__static_forces(s);

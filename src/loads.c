@@ -165,7 +165,10 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t at = peri__dof(b, load, k, d);
-                peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d));
+                double force = peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d);
+                if (!(fabs(force) < (b->f32 ? FLT_MAX : DBL_MAX)))
+                    return peri__fail(b, PERI_ERROR_RANGE, "load at the point", peri__set_point(b, load->set, k), force);
+                peri__put_real(b->f, b->f32, at, force);
             }
     }
     return PERI_OK;
@@ -194,6 +197,7 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
                 if (!(load->owned[k] >> d & 1)) continue;
                 if (load->kind == PERI__DISPLACEMENT) {
                     value /= m->length;
+                    if (b->f32) value = (float)value; /* what u can hold: else it would move for ever by what is left over */
                     v = (value - peri__get_real(b->u, b->f32, at)) / dt;
                 } else {
                     value /= peri__velocity_unit(m);

@@ -33,7 +33,7 @@ static peri__law peri__law_of(const peri_material *m, int32_t space, double stre
     law.model = m->model;
     law.young = peri__young(m, space) / stress;
     law.mu = law.young / (2.0 * (1.0 + nu));
-    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / (1.0 - nu * nu) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / ((1.0 - nu) * (1.0 + nu)) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
     law.bulk = law.lambda + 2.0 * law.mu / dim;
     law.a = dim * (law.lambda - law.mu);
     law.b = dim * (dim + 2) * law.mu;

@@ -39,6 +39,7 @@ static int32_t peri__relax(peri__solver *s) {
     double loads, residual;
     s->floor = peri__rounding(b) * s->top;
     if (peri__gap(s)) peri__move(s, 1.0);
+    memcpy(s->k.d, b->u, peri__vector_bytes(b));
     memset(s->k.p, 0, peri__vector_bytes(b));
     for (int64_t k = 0;; ++k) {
         void *r = s->k.r;
@@ -50,6 +51,7 @@ static int32_t peri__relax(peri__solver *s) {
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (peri__is_settled(s, residual, loads)) return PERI_OK;
+        if (!(residual < HUGE_VAL)) memcpy(b->u, s->k.d, peri__vector_bytes(b)); /* it led out of all numbers: back */
         if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
         peri__relax_step(s, unit, k);
         int32_t status = peri__count_iteration(s, s->report.residual);
