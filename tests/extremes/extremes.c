@@ -2,6 +2,7 @@
      extremes WORD     only rows whose subject or name contains WORD
    A row counts as one test per precision. */
 #include "extremes.h"
+#include <stdarg.h>
 #include <time.h>
 
 #define LONGEST 10.0 /* [s] of a row in one precision, under sanitizers, too */
@@ -66,6 +67,19 @@ int extreme_fails(outcome *o, const peri_body *b, int64_t result) {
 }
 
 double extreme_worst(double a, double b) { return a >= b ? a : b >= a ? b : NAN; }
+
+void extreme_note(outcome *o, const extreme *row, int32_t precision, double error, const char *format, ...) {
+    const double bound = row->bound[precision == PERI_F64 ? 0 : precision == PERI_MIXED ? 1 : 2], before = o->error;
+    o->error = extreme_worst(before, error);
+    if (!(error <= bound) && !(error <= before)) {
+        va_list arguments;
+        va_start(arguments, format);
+        printf("    %.1e: ", error);
+        (void)vprintf(format, arguments);
+        printf("\n");
+        va_end(arguments);
+    }
+}
 
 double *extreme_read(outcome *o, peri_body *b, int32_t field) {
     const int64_t n = peri_field_size(b, field);

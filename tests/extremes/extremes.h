@@ -58,6 +58,9 @@ outcome extreme_end(outcome o, peri_body *b);
 /* The larger one, NaN where either is. */
 double extreme_worst(double a, double b);
 
+/* Notes an error of one of a scene's combinations, and where the row does not bear it prints what the format says: which it is. */
+void extreme_note(outcome *o, const extreme *row, int32_t precision, double error, const char *format, ...);
+
 /* A new array of a field of points; NULL where the call fails, which is noted. */
 double *extreme_read(outcome *o, peri_body *b, int32_t field);
 
