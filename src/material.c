@@ -42,6 +42,21 @@ static peri__law peri__law_of(const peri_material *m, int32_t space, double stre
     return law;
 }
 
+/* Fills the units of time and energy from those of length, stress and density. Results are products of units with numbers between 1e-30 and
+   1e30 or so: units that leave double no room for that are refused. */
+static int32_t peri__fill_units(peri_body *b, peri__model *m) {
+    const double volume = m->length * m->length * (b->dim == 3 ? m->length : b->desc.thickness);
+    m->time = m->length * (sqrt(m->density) / sqrt(m->stress)); /* the ratio itself may leave the range */
+    m->energy = m->stress * volume;
+    const double units[] = { volume, m->time, m->length / m->time, m->stress / m->length, m->stress / m->length / m->length, m->density,
+                             m->density * volume, m->energy, m->energy / m->length, m->energy / m->length / m->length,
+                             m->energy * m->time, m->energy * m->time / m->length };
+    for (size_t k = 0; k < sizeof units / sizeof *units; ++k)
+        if (!(units[k] > 1e-250 && units[k] < 1e250))
+            return peri__fail(b, PERI_ERROR_RANGE, "units of length, modulus, density", -1, units[k]);
+    return PERI_OK;
+}
+
 /* Energy criteria: the work w0 on a bond such that all bonds across a unit of area take G0 ([T] 1.100; in 3D the same integral over
    the ball: G0 = w0 int_0^h dz int_z^h 2 pi r^2 (1 - z/r) dr = w0 pi h^4/4). Per unit thickness in 2D. */
 static double peri__critical_energy(const peri_material *m, int32_t space, double horizon) {
