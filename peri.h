@@ -341,8 +341,9 @@ PERI_API int32_t peri_last_error(const peri_body *body, peri_error *error);
 
    A = 3K - 5 mu, B = 15 mu in 3D; 2 lambda - 2 mu, 8 mu in plane strain; the same with lambda' = E nu/(1-nu^2) in plane stress.
    LPS at the Poisson ratio of a bond-based material has A = 0 and skips theta. Oterkus takes the spring of LPS where a family has less
-   than a fifth of the moment that calibrates shear, and never one that could make the energy negative (families of
-   odd shape, or steep w, at low Poisson ratios). Oterkus's factor Lambda (cosine of the bond's rotation)
+   than a fifth of the moment that calibrates shear, and never one that could make the energy negative: with constant w shear is
+   softer than asked for below a Poisson ratio of -0.64 in plane stress and -0.72 in 3D (the log says so), where w is steep or the
+   family of odd shape before that. Oterkus's factor Lambda (cosine of the bond's rotation)
    is taken as 1: with it the law would not be objective. Bonds that are broken or cut are in none of the sums. A correspondence point
    whose live bonds span too little (K nearly singular) acts by central bonds alone, t = B w e/m0 with m0 of the whole family. */
 typedef enum peri_model {

@@ -128,6 +128,8 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
         m->rho[i] = used[i] ? b->materials[i].density / m->density : 1.0;
         m->laws[i] = peri__law_of(&b->materials[i], b->desc.space, m->stress);
         if (used[i]) peri__note_law(m, &m->laws[i], b->materials[i].criterion);
+        if (used[i] && peri__is_soft(b, &m->laws[i], 0.5 * m->spacing / m->horizon))
+            peri__log(b, 1, "Oterkus: at this Poisson ratio the spring of whole families is held back: shear is softer than asked for");
         status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
         if (status < 0) return status;
     }

@@ -33,13 +33,26 @@ static peri__law peri__law_of(const peri_material *m, int32_t space, double stre
     law.model = m->model;
     law.young = peri__young(m, space) / stress;
     law.mu = law.young / (2.0 * (1.0 + nu));
-    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / (1.0 - nu * nu) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    law.bulk = law.lambda + 2.0 * law.mu / dim;
+    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / ((1.0 - nu) * (1.0 + nu)) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    /* lambda + 2 mu/dim, by forms that cancel no digits near nu = -1 */
+    law.bulk = space == PERI_PLANE_STRESS ? law.young / (2.0 * (1.0 - nu))
+             : space == PERI_PLANE_STRAIN ? law.young / (2.0 * (1.0 + nu) * (1.0 - 2.0 * nu)) : law.young / (3.0 * (1.0 - 2.0 * nu));
     law.a = dim * (law.lambda - law.mu);
     law.b = dim * (dim + 2) * law.mu;
     if (fabs(nu - peri__bond_poisson(space)) < 1e-9) law.a = 0.0;
     law.stabilization = m->stabilization;
     return law;
+}
+
+/* Is the spring of Oterkus in a whole family less than shear asks for? See peri__respond; q m = D (D + 2) mu in the ball. */
+static int peri__is_soft(const peri_body *b, const peri__law *law, double edge) {
+    const int dim = b->dim;
+    double plain, length, m;
+    if (law->model != PERI_OTERKUS || !peri__moment(&b->desc, dim - 1, edge, &plain) || !peri__moment(&b->desc, dim, edge, &length)
+        || !peri__moment(&b->desc, dim + 1, edge, &m))
+        return 0;
+    const double room = m * plain / (length * length) - 1.0;
+    return (dim + 2) * law->mu * room > law->bulk * dim * (1.0 + room);
 }
 
 /* Fills the units of time and energy from those of length, stress and density. Results are products of units with numbers between 1e-30 and
