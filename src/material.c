@@ -226,7 +226,9 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
     if (status == PERI_OK) status = peri__pair_constants(b, i, j, stress, length, edge, own, &pair);
     b->running = running;
     if (status < 0) return status;
-    if (c) *c = pair.c * stress / (length * length * length * (solid ? length : b->desc.thickness));
+    const double unit = stress / length / length / length / (solid ? length : b->desc.thickness), micromodulus = pair.c * unit;
+    if (c && !(micromodulus >= DBL_MIN && peri__finite(micromodulus))) return peri__fail(b, PERI_ERROR_RANGE, "c", -1, micromodulus);
+    if (c) *c = micromodulus;
     if (s0) *s0 = pair.s0 < PERI_NEVER ? pair.s0 : HUGE_VAL;
     return PERI_OK;
 }
@@ -237,7 +239,10 @@ PERI_API int32_t peri_read_critical_energy(peri_body *b, int32_t material, doubl
     if (status < 0) return status;
     PERI_NEED(b, w0, "w0");
     const peri_material *m = &b->materials[material];
-    double thickness = b->desc.space == PERI_SOLID ? 1.0 : b->desc.thickness;
-    *w0 = m->criterion == PERI_CRITERION_STRETCH ? HUGE_VAL : peri__critical_energy(m, b->desc.space, b->desc.horizon) / thickness;
+    const double h = b->desc.horizon, last = b->desc.space == PERI_SOLID ? h : b->desc.thickness;
+    const double critical = peri__critical_energy(m, b->desc.space, 1.0) / h / h / h / last;
+    if (m->criterion != PERI_CRITERION_STRETCH && !(critical >= DBL_MIN && peri__finite(critical)))
+        return peri__fail(b, PERI_ERROR_RANGE, "w0", -1, critical);
+    *w0 = m->criterion == PERI_CRITERION_STRETCH ? HUGE_VAL : critical;
     return PERI_OK;
 }
