@@ -35,6 +35,7 @@
      Units    Any consistent set. [L] length, [M] mass, [T] time; [M L^-1 T^-2] is a stress or a modulus. Inside, lengths are
               scaled by the spacing and stresses by Young's modulus, so nanometres in single precision are as good as metres.
               Where a product of units (energy, time, momentum, ...) leaves 1e-250..1e250 peri_build refuses: PERI_ERROR_RANGE.
+              So it does where materials of one body differ in E by 1e25 in single and mixed precision, in density in single.
      Arrays   Per-point vectors are interleaved: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D ("[points*dim]").
               `const double *p` for one place or one vector has dim entries. All of the API speaks double.
      Planes   In PERI_PLANE_STRESS and PERI_PLANE_STRAIN a point's "volume" is its area [L^2], and the "area" of a loaded
