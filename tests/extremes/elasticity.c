@@ -251,6 +251,79 @@ static outcome bulk_for_young(const extreme *row, int32_t precision) {
     return o;
 }
 
+/* ---- contrast ----------------------------------------------------------------------------------------------------- */
+
+/* Two blocks out of each other's reach in one body, the second of modulus (choice 1: density) ten^value of the first. Each moves as it
+   would by itself: strained alike they have stresses, forces and energies as their moduli, and under one force density velocities as
+   1/density. other 1: but in double precision it may be refused. */
+static outcome contrast(const extreme *row, int32_t precision) {
+    const double ratio = pow(10, row->value), young = row->choice ? 1 : ratio, density = row->choice ? ratio : 1;
+    outcome o = {PERI_OK, "", 0};
+    int32_t model, space;
+    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID && o.status == PERI_OK; ++space) {
+            static const int32_t fields[4] = {PERI_STRESS, PERI_FORCE_STRESS, PERI_FORCE_DENSITY, PERI_ENERGY_DENSITY};
+            const double lo[3] = {0, 0, 0}, hi[3] = {4, 4, 3}, lo2[3] = {64, 0, 0}, hi2[3] = {68, 4, 3}, push[3] = {1e-3, 2e-3, 0};
+            const double solid[9] = {1e-3, 2e-4, 0, 0, -5e-4, 0, 0, 0, 3e-4}, plane[4] = {1e-3, 2e-4, 0, -5e-4};
+            const double *gradient = space == PERI_SOLID ? solid : plane;
+            const int dim = dim_of(space);
+            peri_body_desc d;
+            peri_material m;
+            peri_body *b = NULL;
+            peri_run run;
+            double *x, *v, before[3] = {0};
+            int64_t i, n;
+            int k;
+            extreme_desc(&d, space, precision, 2);
+            extreme_material(&m, model, 0.3, 0);
+            (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
+            (void)extreme_fails(&o, b, peri_add_material(b, &m));
+            m.young = young;
+            m.density = density;
+            (void)extreme_fails(&o, b, peri_add_material(b, &m));
+            (void)extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, 1, lo2, hi2, 1));
+            if (extreme_fails(&o, b, peri_build(b))) {
+                o = extreme_end(o, b);
+                if (row->other == 1 && precision != PERI_F64 && o.status == PERI_ERROR_RANGE) o.status = PERI_OK;
+                break;
+            }
+            x = extreme_read(&o, b, PERI_POSITION);
+            n = peri_point_count(b) / 2;
+            for (i = 0; x && i < 2 * n; ++i) {
+                for (k = 0; k < dim; ++k) before[k] = x[i * dim + k] - (k == 0 && i >= n ? 64 : 0);
+                for (k = 0; k < dim; ++k)
+                    x[i * dim + k] = gradient[k * dim] * before[0] + gradient[k * dim + 1] * before[1]
+                                   + (dim == 3 ? gradient[k * dim + 2] * before[2] : 0);
+            }
+            if (x) (void)extreme_fails(&o, b, peri_write(b, PERI_DISPLACEMENT, x, 2 * n * dim));
+            for (k = 0; k < 4 && o.status == PERI_OK; ++k) {
+                const int64_t half = peri_field_size(b, fields[k]) / 2;
+                double *f = extreme_read(&o, b, fields[k]), most = 0, worst = 0;
+                for (i = 0; f && i < half; ++i) {
+                    most = extreme_worst(most, fabs(f[i]));
+                    worst = extreme_worst(worst, fabs(f[half + i] / young - f[i]));
+                }
+                extreme_note(&o, row, precision, worst / most, "field %d: model %d, space %d", (int)fields[k], (int)model, (int)space);
+                free(f);
+            }
+            (void)extreme_fails(&o, b, peri_reset(b));
+            (void)extreme_fails(&o, b, peri_apply_body_force(b, PERI_ALL, push, NULL, NULL));
+            peri_run_init(&run);
+            run.steps = 10;
+            if (o.status == PERI_OK) (void)extreme_fails(&o, b, peri_advance(b, &run));
+            v = extreme_read(&o, b, PERI_VELOCITY);
+            for (i = 0; v && i < 2 * n; ++i) /* all points of a block alike: no bond is strained */
+                for (k = 0; k < 2; ++k)
+                    extreme_note(&o, row, precision, fabs(v[i * dim + k] / (push[k] * peri_time(b) / (i < n ? 1 : density)) - 1),
+                                 "velocity: model %d, space %d, point %d", (int)model, (int)space, (int)i);
+            free(v);
+            free(x);
+            o = extreme_end(o, b);
+        }
+    return o;
+}
+
 /* ---- the stable step ---------------------------------------------------------------------------------------------- */
 
 /* A small block thrown into vibration at random, at 0.9 of the stable step. Where the geometry is linear, velocity-Verlet keeps
@@ -385,6 +458,7 @@ static outcome sheared(const extreme *row, int32_t precision) {
 #define HOOKE "linear elasticity: W = 1/2 K tr^2 + mu |dev|^2, stress its derivative"
 #define VERLET "velocity-Verlet keeps 1/2 v^2 + 1/2 w^2 u^2 (1 - (w dt)^2/4) of each mode; (w dt)^2/4 <= 0.81"
 #define AFFINE "whole families in uniform strain feel no force: the inside follows the rim"
+#define BLOCKS "blocks out of reach of each other: as each by itself"
 #define NONE {0, 0, 0}
 
 static const extreme rows[] = {
@@ -408,6 +482,19 @@ static const extreme rows[] = {
     {"uniform strain, correspondence, ratio to 1/2", HOOKE, uniform_strain, PERI_CORRESPONDENCE, 2, PERI_CORRESPONDENCE, PERI_OK, NULL,
      SUMS},
     {"K in place of E", "K = E/(3(1-2 nu)): the same solid", bulk_for_young, 0, 0, 0, PERI_OK, NULL, {1e-13, 1e-6, 1e-6}},
+    {"moduli of 1 and 1e-16 in one body", BLOCKS, contrast, -16, 0, 0, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"moduli of 1 and 1e-24 in one body", BLOCKS, contrast, -24, 0, 0, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"moduli of 1 and 1e-40 in one body", "right, or refused in single", contrast, -40, 1, 0, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"moduli of 1 and 1e-240 in one body", "right, or refused in single", contrast, -240, 1, 0, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"moduli of 1 and 1e16 in one body", BLOCKS, contrast, 16, 0, 0, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"densities of 1 and 1e-11 in one body", BLOCKS, contrast, -11, 0, 1, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"densities of 1 and 1e11 in one body", BLOCKS, contrast, 11, 0, 1, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"densities of 1 and 1e24 in one body", BLOCKS, contrast, 24, 0, 1, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"densities of 1 and 1e40 in one body", "right, or refused in single", contrast, 40, 1, 1, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
+    {"moduli of 1 and 1e-260 in one body", "beyond what the unit of stress leaves", contrast, -260, 0, 0, PERI_ERROR_RANGE, NULL, NONE},
+    {"moduli of 1 and 1e260 in one body", "beyond what the unit of stress leaves", contrast, 260, 0, 0, PERI_ERROR_RANGE, NULL, NONE},
+    {"densities of 1 and 1e-260 in one body", "beyond what the unit of density leaves", contrast, -260, 0, 1, PERI_ERROR_RANGE, NULL, NONE},
+    {"densities of 1 and 1e260 in one body", "beyond what the unit of density leaves", contrast, 260, 0, 1, PERI_ERROR_RANGE, NULL, NONE},
     {"stable step, LPS", VERLET, stable, 400, 0, PERI_LPS, PERI_OK, NULL, {1, 1, 1}},
     {"stable step, Oterkus", VERLET, stable, 400, 0, PERI_OTERKUS, PERI_OK, NULL, {1, 1, 1}},
     {"stable step, correspondence", VERLET, stable, 400, 0, PERI_CORRESPONDENCE, PERI_OK, NULL, {1, 1, 1}},
