@@ -222,7 +222,8 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
         (void)extreme_fails(o, b, round);
     }
     peri_run_init(&run);
-    run.steps = STEPS;
+    if (c->exact) run.steps = STEPS;
+    else run.duration = 9 * t;
     run.damping = 0.02 / t;
     if (o->status == PERI_OK) (void)extreme_fails(o, b, peri_advance(b, &run));
     keep_all(r, o, b, s, c, 0);
@@ -351,7 +352,9 @@ static outcome every_thickness(const extreme *row, int32_t precision) {
     int32_t model, space;
     for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
         for (space = PERI_PLANE_STRESS; space <= PERI_PLANE_STRAIN; ++space) {
-            const scene c = {space, precision, model, PERI_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+            const int by_energy = model != PERI_BOND_BASED && space == PERI_PLANE_STRAIN;
+            const int32_t criterion = by_energy ? PERI_CRITERION_BOND_ENERGY : PERI_CRITERION_STRETCH;
+            const scene c = {space, precision, model, PERI_NONLINEAR, criterion, 0, 0};
             record want = {{0}, {0}, {0}, 0, 0};
             int k;
             o = extreme_end(o, pull(&o, &one, &c, &want));
@@ -530,7 +533,7 @@ static outcome obstacle(const extreme *row, int32_t precision) {
     return extreme_end(o, b);
 }
 
-/* STEPS steps add up rounding twice, 30^2 units of 1.1e-16, of places that are 100 times the extensions and depths. Where bonds are in
+/* Some 30 steps add up rounding twice, 30^2 units of 1.1e-16, of places that are 100 times the extensions and depths. Where bonds are in
    single precision the same data are the same floats, but for one in a million: one that is not leaves 6e-8 in each step. */
 #define MOTION {1e-11, 6e-5, 6e-5}
 /* Two equilibria of a residual of 1e-8, 1e-5, 1e-4, in a bar whose softest motion (bending) is 100 times softer than a bond. */
