@@ -404,6 +404,7 @@ static outcome sheared(const extreme *row, int32_t precision) {
         for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
             for (k = 0; k < (row->choice == PERI_BOND_BASED ? 1 : 5) && o.status == PERI_OK; ++k) {
                 const int dim = dim_of(space);
+                if (geometry == PERI_LINEAR && k % 2) continue; /* the simpler one at every other ratio */
                 const double ratio = row->choice == PERI_BOND_BASED ? bond_ratio(space) : row->value == 0 ? usual[k] : high[k];
                 const double edge = dim == 3 ? 8 : 12, grip = dim == 3 ? 3 : 4, lo[3] = {0, 0, 0}, hi[3] = {edge, edge, edge};
                 peri_body_desc d;
@@ -495,9 +496,9 @@ static const extreme rows[] = {
     {"moduli of 1 and 1e260 in one body", "beyond what the unit of stress leaves", contrast, 260, 0, 0, PERI_ERROR_RANGE, NULL, NONE},
     {"densities of 1 and 1e-260 in one body", "beyond what the unit of density leaves", contrast, -260, 0, 1, PERI_ERROR_RANGE, NULL, NONE},
     {"densities of 1 and 1e260 in one body", "beyond what the unit of density leaves", contrast, 260, 0, 1, PERI_ERROR_RANGE, NULL, NONE},
-    {"stable step, LPS", VERLET, stable, 400, 0, PERI_LPS, PERI_OK, NULL, {1, 1, 1}},
-    {"stable step, Oterkus", VERLET, stable, 400, 0, PERI_OTERKUS, PERI_OK, NULL, {1, 1, 1}},
-    {"stable step, correspondence", VERLET, stable, 400, 0, PERI_CORRESPONDENCE, PERI_OK, NULL, {1, 1, 1}},
+    {"stable step, LPS", VERLET, stable, 150, 0, PERI_LPS, PERI_OK, NULL, {1, 1, 1}},
+    {"stable step, Oterkus", VERLET, stable, 150, 0, PERI_OTERKUS, PERI_OK, NULL, {1, 1, 1}},
+    {"stable step, correspondence", VERLET, stable, 150, 0, PERI_CORRESPONDENCE, PERI_OK, NULL, {1, 1, 1}},
     {"sheared at rest, bond-based", AFFINE, sheared, 0, 0, PERI_BOND_BASED, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},
     {"sheared at rest, LPS", AFFINE, sheared, 0, 0, PERI_LPS, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},
     {"sheared at rest, LPS, ratio to 1/2", AFFINE, sheared, 1, 0, PERI_LPS, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},

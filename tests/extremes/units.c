@@ -301,8 +301,8 @@ static outcome every_unit(const extreme *row, int32_t precision) {
     record want[6];
     int k;
     memset(want, 0, sizeof want);
-    for (k = 0; k < 33 && o.status == PERI_OK; ++k) { /* equilibria: each pair of units, not each three */
-        if (k >= 6 && row->other == 1 && (k + (k - 6) / 3 + (k - 6) / 9) % 3) continue;
+    for (k = 0; k < 33 && o.status == PERI_OK; ++k) { /* but for motion of lattices: each pair of units, not each three */
+        if (k >= 6 && row->other != 0 && (k + (k - 6) / 3 + (k - 6) / 9) % 3) continue;
         scene c = {PERI_SOLID - k % 3, precision, row->choice, PERI_LINEAR - k / 3 % 2, (int32_t)row->value, 0, 0};
         const int at = k % 6;
         if (row->other == 2) c.source = 1 + at % 3;
