@@ -34,6 +34,8 @@
    CONVENTIONS
      Units    Any consistent set. [L] length, [M] mass, [T] time; [M L^-1 T^-2] is a stress or a modulus. Inside, lengths are
               scaled by the spacing and stresses by Young's modulus, so nanometres in single precision are as good as metres.
+              Where a product of units (energy, time, momentum, ...) leaves 1e-250..1e250 peri_build refuses: PERI_ERROR_RANGE.
+              So it does where materials of one body differ in E by 1e25 in single and mixed precision, in density in single.
      Arrays   Per-point vectors are interleaved: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D ("[points*dim]").
               `const double *p` for one place or one vector has dim entries. All of the API speaks double.
      Planes   In PERI_PLANE_STRESS and PERI_PLANE_STRAIN a point's "volume" is its area [L^2], and the "area" of a loaded
@@ -340,8 +342,9 @@ PERI_API int32_t peri_last_error(const peri_body *body, peri_error *error);
 
    A = 3K - 5 mu, B = 15 mu in 3D; 2 lambda - 2 mu, 8 mu in plane strain; the same with lambda' = E nu/(1-nu^2) in plane stress.
    LPS at the Poisson ratio of a bond-based material has A = 0 and skips theta. Oterkus takes the spring of LPS where a family has less
-   than a fifth of the moment that calibrates shear, and never one that could make the energy negative (families of
-   odd shape, or steep w, at low Poisson ratios). Oterkus's factor Lambda (cosine of the bond's rotation)
+   than a fifth of the moment that calibrates shear, and never one that could make the energy negative: with constant w shear is
+   softer than asked for below a Poisson ratio of -0.64 in plane stress and -0.72 in 3D (the log says so), where w is steep or the
+   family of odd shape before that. Oterkus's factor Lambda (cosine of the bond's rotation)
    is taken as 1: with it the law would not be objective. Bonds that are broken or cut are in none of the sums. A correspondence point
    whose live bonds span too little (K nearly singular) acts by central bonds alone, t = B w e/m0 with m0 of the whole family. */
 typedef enum peri_model {
@@ -689,9 +692,10 @@ PERI_API void peri_statics_init(peri_statics *statics);
    equilibrium to the next, those in between bonds breaking included. A step that fails leaves the body at the equilibrium before it; where
    there is none in this call, and after bonds have broken in it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or
    softening: the tangent has a negative direction, and no equilibrium was found further down; directions that nothing excites are not
-   looked for: a perfect strut stays straight until something pushes it aside), PERI_ERROR_CONVERGENCE (value: residual reached),
-   PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes
-   them at 1, and at its time, again. */
+   looked for: a perfect strut stays straight until something pushes it aside), PERI_ERROR_CONVERGENCE (value: residual
+   reached), PERI_ERROR_RANGE (all loads over E, and ways of supports over the spacing, are below 1e-132, in mixed precision 1e-25, in
+   single 1e-26, which cannot be told from rest), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when
+   forces are read; peri_advance takes them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
 
 /* Tractions that pass the patch test: value[dim] [M L^-1 T^-2] on a face of `area` and outward `normal`, given to all points that feel the

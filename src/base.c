@@ -88,6 +88,18 @@ static double peri__dot(const double *a, const double *b, int32_t dim) {
     return sum;
 }
 
+/* a/|a| for any size of a; 0 where a has no direction. */
+static int peri__unit_vector(int32_t dim, const double *a, double *unit) {
+    double largest = 0.0, length;
+    for (int32_t d = 0; d < dim; ++d)
+        if (fabs(a[d]) > largest) largest = fabs(a[d]);
+    if (!(largest > 0.0)) return 0;
+    for (int32_t d = 0; d < dim; ++d) unit[d] = a[d] / largest;
+    length = sqrt(peri__dot(unit, unit, dim));
+    for (int32_t d = 0; d < dim; ++d) unit[d] /= length;
+    return 1;
+}
+
 /* splitmix64: a fixed generator, so that a seed means the same grid on every machine. Uniform in [-1, 1). */
 static double peri__random(uint64_t *state) {
     uint64_t z = (*state += UINT64_C(0x9E3779B97F4A7C15));

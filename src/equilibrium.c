@@ -90,6 +90,27 @@ static void peri__note_floor(peri__solver *s) {
     if (rounding > s->floor) s->floor = rounding;
 }
 
+/* Are the loads, and the ways that supports have to go (widest), so small that nothing is left of them beside PERI_NOTHING, where no more
+   acts (in z) and the body is displaced by no more? Their equilibrium cannot be told from rest. */
+static int32_t peri__check_faint(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    const double limit = PERI_NOTHING(b) / peri__solve_tolerance(s);
+    double asked = s->widest, others = 0.0;
+    for (int64_t l = 0; l < b->load_count; ++l) { /* as double has them: single precision may hold nothing of them */
+        const peri__load *load = &b->loads[l];
+        for (int64_t k = 0; load->kind == PERI__FORCE && k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d)
+                asked = fmax(asked, m->volume[peri__set_point(b, load->set, k)] * fabs(peri__load_force(b, load, k, d)));
+    }
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            const int64_t at = d * m->stride + i;
+            others = fmax(others, fmax(m->volume[i] * fabs(peri__get_real(s->k.z, b->f32, at)), fabs(peri__get_real(b->u, b->f32, at))));
+        }
+    return asked > 0.0 && asked < limit && others < limit ? peri__fail(b, PERI_ERROR_RANGE, "loads, supports", -1, asked) : PERI_OK;
+}
+
 static int peri__is_settled(peri__solver *s, double residual, double loads) {
     if (residual <= peri__solve_tolerance(s) * s->scale) return 1;
     if (!(residual < HUGE_VAL) || !peri__is_nothing(s, residual, loads)) return 0;
@@ -263,7 +284,10 @@ static void peri__lift(peri__solver *s, int at_rest) {
 static int32_t peri__newton(peri__solver *s) {
     peri_body *b = s->body;
     const int linear = peri__is_linear(b);
+    (void)peri__gap(s);
     double last = HUGE_VAL, loads = peri__static_forces(s);
+    int32_t faint = loads < 0.0 ? (int32_t)loads : peri__check_faint(s);
+    if (faint < 0) return faint;
     s->negative = s->energy_done = 0;
     s->floor = peri__rounding(b) * s->top;
     for (int64_t k = 0;; ++k) {

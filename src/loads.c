@@ -294,6 +294,10 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
     int64_t vector = m->stride * m->dim;
     PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
     peri__inner(b, place, obstacle->place);
+    for (int32_t d = 0; d < b->dim; ++d) /* beyond 1e15 spacings the surface of a ball is lost in rounding */
+        if (!(fabs(obstacle->place[d]) < (obstacle->kind == 2 ? 1e15 : DBL_MAX)))
+            return peri__fail(b, PERI_ERROR_RANGE, obstacle->kind == 2 ? "centre" : "place", -1, place[d]);
+    if (!(obstacle->radius < 1e15)) return peri__fail(b, PERI_ERROR_RANGE, "radius", -1, obstacle->radius * m->length);
     memcpy(obstacle->place0, obstacle->place, sizeof obstacle->place0);
     obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
     if (!peri__grow(&b->memory, &b->obstacles, &b->obstacle_capacity, b->obstacle_count + 1, sizeof *b->obstacles))
@@ -311,11 +315,9 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, cons
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, place);
     PERI_NEED_VECTOR(b, normal);
-    double length = sqrt(peri__dot(normal, normal, b->dim));
-    if (!(length > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, length);
     memset(&obstacle, 0, sizeof obstacle);
     obstacle.kind = 1;
-    for (int32_t d = 0; d < b->dim; ++d) obstacle.normal[d] = normal[d] / length;
+    if (!peri__unit_vector(b->dim, normal, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     obstacle.motion = motion;
     obstacle.user = user;
     return peri__add_obstacle(b, &obstacle, place, stiffness);

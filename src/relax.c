@@ -46,7 +46,8 @@ static int32_t peri__relax(peri__solver *s) {
         s->k.r = s->k.q;
         s->k.q = r;
         loads = peri__static_forces(s);
-        if (loads < 0.0) return (int32_t)loads;
+        int32_t status = loads < 0.0 ? (int32_t)loads : k == 0 ? peri__check_faint(s) : PERI_OK;
+        if (status < 0) return status;
         residual = peri__static_residual(s, loads);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
@@ -54,7 +55,7 @@ static int32_t peri__relax(peri__solver *s) {
         if (!(residual < HUGE_VAL)) memcpy(b->u, s->k.d, peri__vector_bytes(b)); /* it led out of all numbers: back */
         if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
         peri__relax_step(s, unit, k);
-        int32_t status = peri__count_iteration(s, s->report.residual);
+        status = peri__count_iteration(s, s->report.residual);
         if (status != PERI_OK) return status;
     }
 }

@@ -3,6 +3,7 @@
      extremes --long   longer runs where a scene has them
    A row counts as one test per precision. */
 #include "extremes.h"
+#include <stdarg.h>
 #include <time.h>
 
 #define LONGEST 10.0 /* [s] of a row in one precision, under sanitizers, too */
@@ -77,6 +78,19 @@ void extreme_take(outcome *o, double error, const char *what, int a, int b, int 
     o->error = extreme_worst(error, o->error);
     (void)sprintf(text, "%.40s %d %d %d", what, a % 1000, b % 1000, c % 1000);
     o->field = text;
+}
+
+void extreme_note(outcome *o, const extreme *row, int32_t precision, double error, const char *format, ...) {
+    const double bound = row->bound[precision == PERI_F64 ? 0 : precision == PERI_MIXED ? 1 : 2], before = o->error;
+    o->error = extreme_worst(before, error);
+    if (!(error <= bound) && !(error <= before)) {
+        va_list arguments;
+        va_start(arguments, format);
+        printf("    %.1e: ", error);
+        (void)vprintf(format, arguments);
+        printf("\n");
+        va_end(arguments);
+    }
 }
 
 double *extreme_read(outcome *o, peri_body *b, int32_t field) {
@@ -185,7 +199,7 @@ static void play(const char *subject, const extreme *row) {
 }
 
 int main(int argc, char **argv) {
-    const extreme_table *const tables[] = {&extreme_units,    &extreme_elasticity, &extreme_motion, &extreme_stretches,
+    const extreme_table *const tables[] = {&extreme_units,    &extreme_elasticity, &extreme_tiny,    &extreme_motion, &extreme_stretches,
                                            &extreme_families, &extreme_damage,     &extreme_time,   &extreme_pairs,
                                            &extreme_statics,  &extreme_solids,     &extreme_trusses, &extreme_sizes,
                                            &extreme_callbacks};

@@ -66,6 +66,9 @@ double extreme_roundoff(int32_t precision);
 /* Keeps the larger error, NaN included, and names its case: a text and up to three numbers of up to three digits. */
 void extreme_take(outcome *o, double error, const char *what, int a, int b, int c);
 
+/* Notes an error of one of a scene's combinations, and where the row does not bear it prints what the format says: which it is. */
+void extreme_note(outcome *o, const extreme *row, int32_t precision, double error, const char *format, ...);
+
 /* A new array of a field of points; NULL where the call fails, which is noted. */
 double *extreme_read(outcome *o, peri_body *b, int32_t field);
 
@@ -73,6 +76,6 @@ double *extreme_read(outcome *o, peri_body *b, int32_t field);
 void extreme_affine(outcome *o, peri_body *b, const double *gradient, const double *origin);
 
 extern const extreme_table extreme_units, extreme_elasticity, extreme_motion, extreme_stretches, extreme_families, extreme_damage,
-    extreme_time, extreme_pairs, extreme_statics, extreme_solids, extreme_trusses, extreme_sizes, extreme_callbacks;
+    extreme_tiny, extreme_time, extreme_pairs, extreme_statics, extreme_solids, extreme_trusses, extreme_sizes, extreme_callbacks;
 
 #endif
