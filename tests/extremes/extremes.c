@@ -161,6 +161,7 @@ static void play(const char *subject, const extreme *row) {
             printf("  FAIL %s: %s, %s precision: got %s, expected %s %s", subject, row->name, names[k], line[k], status_name(row->status),
                    row->field ? row->field : "");
             if (row->status >= 0) printf("to %.1e", row->bound[k]);
+            if (o.status >= 0 && *o.field) printf("; worst: %s", o.field);
             if (extreme_memory.blocks || extreme_memory.wrong) printf("; memory: %d left", (int)extreme_memory.blocks);
             if (seconds > LONGEST) printf("; %.1f s", seconds);
             printf("\n    truth: %s\n", row->truth);

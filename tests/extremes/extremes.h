@@ -10,7 +10,7 @@
 
 typedef struct outcome {
     int32_t     status; /* PERI_OK, or the first failure that the scene came to                                           */
-    const char *field;  /* that its record names, "" where none                                                           */
+    const char *field;  /* that its record names, "" where none; on success: where the error is, shown where that is too large */
     double      error;  /* distance from the truth, as a part of it                                                       */
 } outcome;
 
