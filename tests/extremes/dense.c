@@ -101,6 +101,27 @@ static double norm(int dim, double a[3][3]) {
     return sqrt(sum);
 }
 
+/* Smallest over largest eigenvalue of a symmetric matrix, by the roots of its characteristic polynomial. */
+static double roundness(int dim, double a[3][3]) {
+    double mean = 0, shear = 0, square = 0, turned, phi, b[3][3];
+    int p, q;
+    for (p = 0; p < dim; ++p) mean += a[p][p] / dim;
+    for (p = 0; p < dim; ++p)
+        for (q = 0; q < dim; ++q) {
+            b[p][q] = a[p][q] - (p == q ? mean : 0);
+            square += b[p][q] * b[p][q];
+        }
+    if (dim == 2) {
+        shear = sqrt(square / 2);
+        return (mean - shear) / (mean + shear);
+    }
+    shear = sqrt(square / 6);
+    if (!(shear > 0)) return 1;
+    turned = determinant(3, b) / (2 * shear * shear * shear);
+    phi = acos(turned > 1 ? 1 : turned < -1 ? -1 : turned) / 3;
+    return (mean + 2 * shear * cos(phi + 2 * PI / 3)) / (mean + 2 * shear * cos(phi));
+}
+
 /* T = w P K^-1 xi + k w (Y - F xi), W = SVK or Hooke + 1/2 k sum w |Y - F xi|^2 V. */
 static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], double stabilization) {
     node *n = &s->node[i];
@@ -161,7 +182,7 @@ static void respond(const dense *s, int64_t i, const peri_material *m) {
     node *n = &s->node[i];
     const int dim = s->dim;
     double stiff = 0, length = 0, plain = 0, shear = 0, shape[3][3] = {{0}}, theta = 0, big_theta = 0, square = 0, big_square = 0, whole = 0;
-    double trace = 0, bonds = 0, big_bonds = 0, d_, room;
+    double bonds = 0, big_bonds = 0, d_, room;
     bond g;
     int64_t k, j;
     int a, c, bonded = 0;
@@ -220,8 +241,7 @@ static void respond(const dense *s, int64_t i, const peri_material *m) {
         n->big_energy = 0.5 * (n->law.bulk + n->spring * stiff / (dim * dim)) * pow(d_ * big_theta, 2) + 0.5 * n->spring * big_square;
         return;
     default:
-        for (a = 0; a < dim; ++a) trace += shape[a][a];
-        if (determinant(dim, shape) > 0.07 * pow(trace / dim, dim)) { /* an eigenvalue below 0.02 of the others counts as none */
+        if (roundness(dim, shape) > 0.02) { /* what the library takes for spanning the space */
             deform(s, i, stiff, shape, m->stabilization);
             return;
         }
