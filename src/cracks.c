@@ -258,20 +258,19 @@ PERI_API int64_t peri_cut_rectangle(peri_body *b, const double *corner, const do
 
 PERI_API int64_t peri_cut_disc(peri_body *b, const double *centre, const double *normal, double radius) {
     peri__crack crack;
-    double length, opposite[3], touch;
+    double opposite[3], touch;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 3);
     PERI_NEED_VECTOR(b, centre);
     PERI_NEED_VECTOR(b, normal);
     PERI_NEED_NUMBER(b, radius >= 0.0, radius);
-    length = sqrt(peri__dot(normal, normal, 3));
-    if (!(length > 0.0) || !(radius > 0.0)) return peri__fail(b, PERI_ERROR_CRACK, radius > 0.0 ? "normal" : "radius", -1, 0.0);
-    touch = peri__touching(b);
     memset(&crack, 0, sizeof crack);
+    if (!peri__direction(normal, 3, crack.axis) || !(radius > 0.0))
+        return peri__fail(b, PERI_ERROR_CRACK, radius > 0.0 ? "normal" : "radius", -1, 0.0);
+    touch = peri__touching(b);
     peri__inner(b, centre, crack.centre);
     crack.radius = radius / b->model->length + touch;
     for (int d = 0; d < 3; ++d) {
-        crack.axis[d] = normal[d] / length;
         opposite[d] = -crack.axis[d];
         crack.lo[d] = crack.centre[d] - crack.radius - touch;
         crack.hi[d] = crack.centre[d] + crack.radius + touch;

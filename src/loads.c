@@ -307,11 +307,9 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, cons
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, place);
     PERI_NEED_VECTOR(b, normal);
-    double length = sqrt(peri__dot(normal, normal, b->dim));
-    if (!(length > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, length);
     memset(&obstacle, 0, sizeof obstacle);
+    if (!peri__direction(normal, b->dim, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     obstacle.kind = 1;
-    for (int32_t d = 0; d < b->dim; ++d) obstacle.normal[d] = normal[d] / length;
     obstacle.motion = motion;
     obstacle.user = user;
     return peri__add_obstacle(b, &obstacle, place, stiffness);
