@@ -174,8 +174,8 @@ static void play(const char *subject, const extreme *row) {
 
 int main(int argc, char **argv) {
     const extreme_table *const tables[] = {&extreme_units,    &extreme_elasticity, &extreme_motion, &extreme_stretches,
-                                           &extreme_families, &extreme_damage,     &extreme_time,   &extreme_statics,
-                                           &extreme_sizes,    &extreme_callbacks};
+                                           &extreme_families, &extreme_damage,     &extreme_cracks, &extreme_time,
+                                           &extreme_statics,  &extreme_sizes,      &extreme_callbacks};
     size_t t;
     int k;
     test_begin(argc, argv);

@@ -65,6 +65,6 @@ double *extreme_read(outcome *o, peri_body *b, int32_t field);
 void extreme_affine(outcome *o, peri_body *b, const double *gradient, const double *origin);
 
 extern const extreme_table extreme_units, extreme_elasticity, extreme_motion, extreme_stretches, extreme_families, extreme_damage,
-    extreme_time, extreme_statics, extreme_sizes, extreme_callbacks;
+    extreme_cracks, extreme_time, extreme_statics, extreme_sizes, extreme_callbacks;
 
 #endif
