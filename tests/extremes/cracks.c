@@ -1,4 +1,4 @@
-/* cracks.c - cracks through points, along rows, at bonds' ends, outside, of no extent, and ten thousand of them; and directions of any length. */
+/* cracks.c - cracks through points, along rows, outside, of no extent, and ten thousand of them; directions of any length. */
 #include "dense.h"
 #include <time.h>
 
@@ -164,8 +164,8 @@ static outcome disc(const extreme *row, int32_t precision) {
     return extreme_end(o, body);
 }
 
-enum no_crack { POINT_2D, TOO_SHORT, TOO_FAR, NOT_A_NUMBER, TWICE_THERE, DISC_2D, IN_3D, LINE_3D, NO_EDGE, NO_NORMAL, NO_RADIUS, LESS_RADIUS,
-                ENDLESS_RADIUS };
+enum no_crack { POINT_2D, TOO_SHORT, TOO_FAR, NOT_A_NUMBER, TWICE_THERE, DISC_2D, IN_3D, LINE_3D, NO_EDGE, NO_NORMAL, NO_RADIUS,
+                LESS_RADIUS, ENDLESS_RADIUS };
 
 static outcome no_crack(const extreme *row, int32_t precision) {
     static const double here[3] = {1, 2, 3}, odd[3] = {1, NAN, 3}, far_[3] = {1e308, 2, 3}, far_off[3] = {-1e308, 2, 3};
@@ -263,9 +263,11 @@ static const extreme rows[] = {
     {"a disc of negative radius", "peri.h: outside its range", no_crack, 0, 0, LESS_RADIUS, PERI_ERROR_RANGE, "radius", REFUSED},
     {"a disc of infinite radius", "peri.h: a number is not finite", no_crack, 0, 0, ENDLESS_RADIUS, PERI_ERROR_RANGE, "radius", REFUSED},
     {"a disc in the plane", "peri.h: a kind that this space does not have", no_crack, 0, 0, DISC_2D, PERI_ERROR_CRACK, NULL, REFUSED},
-    {"a polyline that stays", "peri.h: no extent, and a call that fails has cut nothing", no_crack, 0, 0, TWICE_THERE, PERI_ERROR_CRACK, NULL,
+    {"a polyline that stays", "peri.h: no extent, and a call that fails has cut nothing", no_crack, 0, 0, TWICE_THERE, PERI_ERROR_CRACK,
+     NULL,
      REFUSED},
-    {"10,000 cracks", "10 times as long as 1,000; noise of the clock up to a factor of 3", many_cracks, 1000, 0, 0, PERI_OK, NULL, {30, 30, 30}},
+    {"10,000 cracks", "10 times as long as 1,000; noise of the clock up to a factor of 3", many_cracks, 1000, 0, 0, PERI_OK, NULL, {30,
+     30, 30}},
     {"normals of 1e200", "a direction has no length", directions, 1e200, 0, 0, PERI_OK, NULL, ROUNDINGS(10)},
     {"normals of 1e-200", "a direction has no length", directions, 1e-200, 0, 0, PERI_OK, NULL, ROUNDINGS(10)},
 };

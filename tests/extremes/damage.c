@@ -185,7 +185,8 @@ static int32_t is_left(void *user, int64_t index, const double *x) {
 /* Halves that fly apart with +-value: their centres go straight. Elastic energy: rounding of displacements u makes extensions of up to
    4 roundings of u, and W is at most D (D+2)/2 times their square. */
 static double flying_probe(scene *s) {
-    double middle = s->desc.space == PERI_SOLID ? 2 : 4, speed[3] = {0, 0, 0}, way[2] = {0, 0}, mass[2] = {0, 0}, worst = 0, rounding, stray;
+    double middle = s->desc.space == PERI_SOLID ? 2 : 4, speed[3] = {0, 0, 0}, way[2] = {0, 0}, mass[2] = {0, 0};
+    double worst = 0, rounding, stray;
     double *x, *u, *volume;
     const int dim = peri_dimension(s->body);
     peri_energy start_, e;
@@ -221,8 +222,8 @@ static outcome flying(const extreme *row, int32_t precision) { return all(row, p
 
 /* ---- limits ------------------------------------------------------------------------------------------------------- */
 
-/* Uniform strain row->other with the limit row->value (-G0, or s0) and a tiny step: choice 1: all bonds break, 0: none does. Broken bonds take
-   the elastic energy with them. */
+/* Uniform strain row->other with the limit row->value (-G0, or s0) and a tiny step: choice 1: all bonds break, 0: none does. Broken bonds
+   take the elastic energy with them. */
 static double limit_probe(scene *s) {
     double broken, stored;
     peri_energy e;
@@ -397,24 +398,33 @@ static const extreme rows[] = {
      ROUNDINGS(100)},
     {"a point on none", "the laws written out; Verlet within (omega dt)^2/4, omega dt <= 0.4", hanging, 0, 0.04, 0, PERI_OK, NULL,
      ROUNDINGS(100)},
-    {"halves flying at 1000 c", "Newton's first law; elastic energy of 4 roundings of u", flying, 1000, 0, 0, PERI_OK, NULL, ROUNDINGS(1000)},
+    {"halves flying at 1000 c", "Newton's first law; elastic energy of 4 roundings of u", flying, 1000, 0, 0, PERI_OK, NULL,
+     ROUNDINGS(1000)},
     {"halves flying at 1e8 c", "Newton's first law; elastic energy of 4 roundings of u", flying, 1e8, 0, 0, PERI_OK, NULL, ROUNDINGS(1000)},
     {"no critical stretch, ten times as long", "peri.h: with neither, bonds do not break", limit, 0, 9, 0, PERI_OK, NULL, EXACT},
     {"critical stretch of 1e-12, at rest", "only bonds longer than at rest break", limit, 1e-12, 0, 0, PERI_OK, NULL, EXACT},
-    {"critical stretch of 1e-12, just beyond", "all break, and W with them: sums of 1400 bonds", limit, 1e-12, 1.001e-12, 1, PERI_OK, NULL, ROUNDINGS(1400)},
+    {"critical stretch of 1e-12, just beyond", "all break, and W with them: sums of 1400 bonds", limit, 1e-12, 1.001e-12, 1, PERI_OK,
+     NULL, ROUNDINGS(1400)},
     {"critical stretch of 1e-12, just below", "none breaks", limit, 1e-12, 0.999e-12, 0, PERI_OK, NULL, ROUNDINGS(100)},
-    {"critical stretch of 1e-300, compressed", "only bonds longer than at rest break", limit, 1e-300, -0.5, 0, PERI_OK, NULL, ROUNDINGS(100)},
+    {"critical stretch of 1e-300, compressed", "only bonds longer than at rest break", limit, 1e-300, -0.5, 0, PERI_OK, NULL,
+     ROUNDINGS(100)},
     {"critical stretch of 1e300, ten times as long", "none breaks", limit, 1e300, 9, 0, PERI_OK, NULL, ROUNDINGS(100)},
-    {"fracture energy of 1e-300", "all break, and W with them: sums of 1400 bonds", limit, -1e-300, 0.01, 1, PERI_OK, NULL, ROUNDINGS(1400)},
+    {"fracture energy of 1e-300", "all break, and W with them: sums of 1400 bonds", limit, -1e-300, 0.01, 1, PERI_OK, NULL,
+     ROUNDINGS(1400)},
     {"fracture energy of 1e300", "none breaks", limit, -1e300, 9, 0, PERI_OK, NULL, ROUNDINGS(100)},
     {"work on bonds, 1e-30", "all break, and W with them: sums of 1400 bonds", work_limit, -1e-30, 0.01, 1, PERI_OK, NULL, ROUNDINGS(1400)},
-    {"work on bonds, 1e-300", "all break, and W with them: sums of 1400 bonds", work_limit, -1e-300, 0.01, 1, PERI_OK, NULL, ROUNDINGS(1400)},
+    {"work on bonds, 1e-300", "all break, and W with them: sums of 1400 bonds", work_limit, -1e-300, 0.01, 1, PERI_OK, NULL,
+     ROUNDINGS(1400)},
     {"work on bonds, 1e300", "none breaks", work_limit, -1e300, 9, 0, PERI_OK, NULL, ROUNDINGS(100)},
-    {"work on bonds, 1e-300, compressed", "only bonds longer than at rest break", work_limit, -1e-300, -0.1, 0, PERI_OK, NULL, ROUNDINGS(100)},
-    {"energy of ends, 1e-30", "all break, and W with them: sums of 1400 bonds", node_limit, -1e-30, 0.01, 1, PERI_OK, NULL, ROUNDINGS(1400)},
-    {"energy of ends, 1e-300", "all break, and W with them: sums of 1400 bonds", node_limit, -1e-300, 0.01, 1, PERI_OK, NULL, ROUNDINGS(1400)},
+    {"work on bonds, 1e-300, compressed", "only bonds longer than at rest break", work_limit, -1e-300, -0.1, 0, PERI_OK, NULL,
+     ROUNDINGS(100)},
+    {"energy of ends, 1e-30", "all break, and W with them: sums of 1400 bonds", node_limit, -1e-30, 0.01, 1, PERI_OK, NULL,
+     ROUNDINGS(1400)},
+    {"energy of ends, 1e-300", "all break, and W with them: sums of 1400 bonds", node_limit, -1e-300, 0.01, 1, PERI_OK, NULL,
+     ROUNDINGS(1400)},
     {"energy of ends, 1e300", "none breaks", node_limit, -1e300, 9, 0, PERI_OK, NULL, ROUNDINGS(100)},
-    {"energy of ends, 1e-300, compressed", "only bonds longer than at rest break", node_limit, -1e-300, -0.1, 0, PERI_OK, NULL, ROUNDINGS(100)},
+    {"energy of ends, 1e-300, compressed", "only bonds longer than at rest break", node_limit, -1e-300, -0.1, 0, PERI_OK, NULL,
+     ROUNDINGS(100)},
     {"critical stretch not a number", "peri.h: a number is not finite", refused, NAN, 0, 0, PERI_ERROR_RANGE, "critical_stretch", REFUSED},
     {"critical stretch infinite", "peri.h: a number is not finite", refused, HUGE_VAL, 0, 0, PERI_ERROR_RANGE, "critical_stretch", REFUSED},
     {"critical stretch negative", "peri.h: > 0", refused, -1, 0, 0, PERI_ERROR_RANGE, "critical_stretch", REFUSED},

@@ -1,7 +1,7 @@
-/* dense.c - see dense.h. Formulas are those in the text of peri.h at peri_model; e without cancellation, e = (2 xi + eta).eta/(|xi+eta| + |xi|).
+/* dense.c - see dense.h. Formulas are those in the text of peri.h at peri_model; e = (2 xi + eta).eta/(|xi+eta| + |xi|), without cancellation.
 
-   Rounding. The sum (2 xi + eta).eta is uncertain by roundings of its terms, so e by roundings of reach = (2 |xi| + |eta|) |eta|/(|xi+eta| +
-   |xi|); the direction of a force by roundings of (|xi| + |eta|)/|xi+eta|. Sizes are carried along each formula with these in place of e,
+   Rounding. The sum (2 xi + eta).eta is uncertain by roundings of its terms, so e by roundings of reach = (2 |xi| + |eta|) |eta|/(|xi+eta|
+   + |xi|); the direction of a force by roundings of (|xi| + |eta|)/|xi+eta|. Sizes are carried along each formula with these in place of e,
    sums in place of differences, and the condition of K. */
 #include "dense.h"
 
@@ -126,8 +126,8 @@ static double roundness(int dim, double a[3][3]) {
 static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], double stabilization) {
     node *n = &s->node[i];
     const int dim = s->dim;
-    double inverse[3][3], h[3][3] = {{0}}, e[3][3], p[3][3], pulled = 0, condition, big_h, big_e, big_s, big_p, trace = 0, square = 0, apart = 0;
-    double big_apart = 0;
+    double inverse[3][3], h[3][3] = {{0}}, e[3][3], p[3][3], pulled = 0, condition, big_h, big_e, big_s, big_p;
+    double trace = 0, square = 0, apart = 0, big_apart = 0;
     bond g;
     int64_t k, j;
     int a, c, d;
@@ -181,8 +181,8 @@ static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], 
 static void respond(const dense *s, int64_t i, const peri_material *m) {
     node *n = &s->node[i];
     const int dim = s->dim;
-    double stiff = 0, length = 0, plain = 0, shear = 0, shape[3][3] = {{0}}, theta = 0, big_theta = 0, square = 0, big_square = 0, whole = 0;
-    double bonds = 0, big_bonds = 0, d_, room;
+    double stiff = 0, length = 0, plain = 0, shear = 0, shape[3][3] = {{0}}, theta = 0, big_theta = 0, square = 0, big_square = 0;
+    double whole = 0, bonds = 0, big_bonds = 0, d_, room;
     bond g;
     int64_t k, j;
     int a, c, bonded = 0;

@@ -9,8 +9,8 @@
 #define ROUNDINGS(n) {(n) * 1.1102230246251565e-16, (n) * 5.9604644775390625e-8, (n) * 5.9604644775390625e-8}
 
 /* Largest distance between the body's force densities, energy densities, total force, torque and elastic energy and those of the laws, each
-   over the sum of the sizes of its terms times their condition: of the order of the unit of rounding, whatever the displacement. w = 1, whole
-   cells, no correction; m[] by material id. NaN where a call fails, which is noted. */
+   over the sum of the sizes of its terms times their condition: of the order of the unit of rounding, whatever the displacement. w = 1,
+   whole cells, no correction; m[] by material id. NaN where a call fails, which is noted. */
 double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri_material *m);
 
 /* A built box of n^dim unit cells with a corner at the origin. NULL where a call fails, which is noted. */

@@ -30,8 +30,8 @@ static peri_body *lattice(scene *s, int nx, int ny, int nz) {
     return NULL;
 }
 
-/* Unit cells, or points of the mean volume 1: a pair 0.9 apart; 20 points along x or (1, 2, 3); 8 x 8 points in the plane of x and y or
-   across (1, 2, 3), about a spacing apart; a box; a cloud of volumes over six orders of magnitude; a box beside one of finer cells. */
+/* Unit cells, or points of the mean volume 1: a pair 0.9 apart; 20 points along x or (1, 2, 3); 8 x 8 points in the plane of x and y or 6 x
+   6 across (1, 2, 3), about a spacing apart; a box; a cloud of volumes over six orders of magnitude; a box beside one of finer cells. */
 static peri_body *make(scene *s) {
     const int dim = s->desc.space == PERI_SOLID ? 3 : 2;
     const double along[3] = {1 / sqrt(14.0), 2 / sqrt(14.0), 3 / sqrt(14.0)}, across[3] = {2 / sqrt(5.0), -1 / sqrt(5.0), 0};
@@ -46,16 +46,16 @@ static peri_body *make(scene *s) {
     case GRADED: return dim == 3 ? lattice(s, 3, 3, 3) : lattice(s, 5, 6, 1);
     case PAIR: count = 2; break;
     case OBLIQUE: count = 20; break;
-    case TILTED: count = 64; break;
-    default: count = 64;
+    case TILTED: count = 36; break;
+    default: count = dim == 3 ? 40 : 64;
     }
     for (i = 0; i < count; ++i) {
         const double p = 0.3 * test_random(&seed), q = 0.3 * test_random(&seed), spread = pow(10, 6 * test_random(&seed) - 3);
         volume[i] = s->shape == CLOUD ? spread : s->shape == PAIR ? 0.5 + i : 1;
         for (d = 0; d < dim; ++d) {
             const double axis = dim == 2 ? (d + 1) / sqrt(5.0) : along[d];
-            if (s->shape == CLOUD) x[i * dim + d] = (dim == 3 ? 3.8 : 7) * test_random(&seed);
-            else if (s->shape == TILTED) x[i * dim + d] = (i % 8 + p) * across[d] + (i / 8 + q) * third[d];
+            if (s->shape == CLOUD) x[i * dim + d] = (dim == 3 ? 3 : 7) * test_random(&seed);
+            else if (s->shape == TILTED) x[i * dim + d] = (i % 6 + p) * across[d] + (i / 6 + q) * third[d];
             else x[i * dim + d] = (s->shape == PAIR ? 0.9 * i : i + p) * axis;
         }
     }
@@ -144,7 +144,7 @@ static outcome families(const extreme *row, int32_t precision) {
 
 /* A bond for every pair of 1369 points within 18.3 spacings: families above 1024 bonds. */
 static outcome wide(const extreme *row, int32_t precision) {
-    static const int32_t models[2] = {PERI_BOND_BASED, PERI_CORRESPONDENCE};
+    static const int32_t models[2] = {PERI_BOND_BASED, PERI_LPS};
     outcome o = {PERI_OK, "", 0};
     int k;
     for (k = 0; k < 2; ++k) {
@@ -156,7 +156,10 @@ static outcome wide(const extreme *row, int32_t precision) {
         extreme_material(&s.material, models[k], 0.3, 0);
         s.body = lattice(&s, 37, 37, 1);
         dense_scatter(&o, s.body, 0.1, 23);
-        if (s.body) dense_note(&o, extreme_worst(peri_family_width(s.body) <= 1024, dense_error(&o, s.body, &s.desc, &s.material)), 1, models[k]);
+        if (s.body) {
+            dense_note(&o, peri_family_width(s.body) > 1024 ? 0 : 1, PERI_PLANE_STRESS, models[k]);
+            dense_note(&o, dense_error(&o, s.body, &s.desc, &s.material), PERI_PLANE_STRESS, models[k]);
+        }
         o = extreme_end(o, s.body);
     }
     return o;
@@ -183,7 +186,8 @@ static outcome shell(const extreme *row, int32_t precision) {
             }
             (void)(extreme_fails(&o, NULL, peri_body_create(&desc, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))
                    || extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, h)) || extreme_fails(&o, b, peri_build(b)));
-            if (o.status >= 0) dense_note(&o, fabs(peri_family_width(b) - (space == PERI_SOLID ? row->other : row->choice)), space, PERI_LPS);
+            if (o.status >= 0)
+                dense_note(&o, fabs(peri_family_width(b) - (space == PERI_SOLID ? row->other : row->choice)), space, PERI_LPS);
             o = extreme_end(o, b);
         }
     return o;
@@ -238,7 +242,8 @@ static double swing_probe(scene *s) {
 static outcome swing(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(row->value, PAIR, PAIR);
-    for (c.correction = PERI_NO_CORRECTION; c.correction <= PERI_MOMENT_CORRECTION; ++c.correction) each(&o, row, precision, &c, swing_probe);
+    for (c.correction = PERI_NO_CORRECTION; c.correction <= PERI_MOMENT_CORRECTION; ++c.correction)
+        each(&o, row, precision, &c, swing_probe);
     return o;
 }
 
@@ -288,7 +293,7 @@ static int32_t other_end(void *user, int64_t index, const double *x) {
 /* Pulled at its ends, along itself (choice: the axis), by a force density of 1e-3. Then the bonds carry what was put on. */
 static double pulled_probe(scene *s) {
     const int axis = s->row->choice % 10, dim = peri_dimension(s->body);
-    int shape = s->shape;
+    int shape = (int)s->shape;
     double force[3] = {0, 0, 0}, back[3] = {0, 0, 0}, *f, *u, worst = 0, moved = 0;
     const int64_t n = peri_point_count(s->body);
     peri_statics p;
@@ -363,7 +368,8 @@ static outcome given(const extreme *row, int32_t precision) {
                 for (k = 0; k < dim; ++k) x[i * dim + k] = i + (i ? 0.5 * test_random(&seed) : 0); /* exact differences from the origin */
             }
             (void)(extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))
-                   || extreme_fails(&o, b, peri_add_points(b, n, x, volume, NULL)) || extreme_fails(&o, b, peri_set_families(b, width, rows_))
+                   || extreme_fails(&o, b, peri_add_points(b, n, x, volume, NULL))
+                   || extreme_fails(&o, b, peri_set_families(b, width, rows_))
                    || (kind == MORE_POINTS && extreme_fails(&o, b, peri_add_points(b, 1, x, volume, NULL)))
                    || extreme_fails(&o, b, peri_build(b)));
             if (o.status >= 0) {
@@ -420,7 +426,7 @@ static outcome weights(const extreme *row, int32_t precision) {
     c.space = PERI_PLANE_STRAIN;
     for (c.quadrature = PERI_FULL_VOLUME; c.quadrature <= PERI_PARTIAL_VOLUME; ++c.quadrature)
         for (c.correction = PERI_NO_CORRECTION; c.correction <= PERI_MOMENT_CORRECTION; ++c.correction)
-            each(&o, row, precision, &c, weights_probe);
+            if (c.quadrature != PERI_VOLUME_RAMP || c.correction == PERI_NO_CORRECTION) each(&o, row, precision, &c, weights_probe);
     return o;
 }
 
@@ -448,10 +454,13 @@ static outcome weights_in_2d(const extreme *row, int32_t precision) {
 #define EXACT {0, 0, 0}
 static const extreme rows[] = {
     {"one point", "peri.h: no neighbour within its horizon", alone, 3, 0, PERI_SOLID, PERI_ERROR_FAMILY, "horizon", REFUSED},
-    {"one point, a short horizon", "peri.h: smaller than the spacing", alone, 0.5, 0, PERI_PLANE_STRESS, PERI_ERROR_HORIZON, "horizon", REFUSED},
-    {"two points", "closed forms of omega; Verlet's amplitude is (omega dt)^2/8 larger; 500 steps of rounding", swing, 3, 0, 0, PERI_OK, NULL,
+    {"one point, a short horizon", "peri.h: smaller than the spacing", alone, 0.5, 0, PERI_PLANE_STRESS, PERI_ERROR_HORIZON, "horizon",
+     REFUSED},
+    {"two points", "closed forms of omega; Verlet's amplitude is (omega dt)^2/8 larger; 500 steps of rounding", swing, 3, 0, 0, PERI_OK,
+     NULL,
      {1.24e-6, 3e-5, 3e-5}},
-    {"two points, horizon of 1000", "closed forms of omega; Verlet's amplitude is (omega dt)^2/8 larger; 500 steps of rounding", swing, 1000, 0, 0, PERI_OK,
+    {"two points, horizon of 1000", "closed forms of omega; Verlet's amplitude is (omega dt)^2/8 larger; 500 steps of rounding", swing,
+     1000, 0, 0, PERI_OK,
      NULL, {1.24e-6, 3e-5, 3e-5}},
     {"families of one spacing", "all pairs tried; the laws written out", families, 1, 0.1, GRADED, PERI_OK, NULL, ROUNDINGS(100)},
     {"families of 1.5 spacings", "all pairs tried; the laws written out", families, 1.5, 0.1, TILTED, PERI_OK, NULL, ROUNDINGS(100)},
@@ -474,9 +483,10 @@ static const extreme rows[] = {
     {"a line pulled, balanced", "equilibrium: bonds carry the loads, and none across", pulled, 1, 0, 30, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},
     {"a line bent, balanced", "peri.h: what is not resisted is left out", pulled, 1, 0, 31, PERI_OK, NULL, {1e-6, 1e-6, 1e-6}},
     {"a plane pulled, pinned", "equilibrium: bonds carry the loads, and none across", pulled, 2, 0, 20, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},
-    {"a plane pulled, balanced", "equilibrium: bonds carry the loads, and none across", pulled, 2, 0, 30, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},
+    {"a plane pulled, balanced", "equilibrium: bonds carry the loads, and none across", pulled, 2, 0, 30, PERI_OK, NULL, {1e-6, 1e-3,
+     1e-2}},
     {"a plane bent, balanced", "peri.h: what is not resisted is left out", pulled, 2, 0, 32, PERI_OK, NULL, {1e-6, 1e-6, 1e-6}},
-    {"a hub of 1500 bonds", "the laws written out; sums of 1500 terms", given, 1501, 1, HUB, PERI_OK, NULL, ROUNDINGS(1500)},
+    {"a hub of 1100 bonds", "the laws written out; sums of 1100 terms", given, 1101, 1, HUB, PERI_OK, NULL, ROUNDINGS(1100)},
     {"a chain of 1024 points", "the laws written out", given, 1024, 0.5, CHAIN, PERI_OK, NULL, ROUNDINGS(100)},
     {"all pairs of 64 points", "the laws written out", given, 64, 2, ALL_PAIRS, PERI_OK, NULL, ROUNDINGS(100)},
     {"a family that is one-sided", "peri.h: not mutual", given, 9, 2, ONE_SIDED, PERI_ERROR_IBOND, "ibond", REFUSED},
@@ -486,9 +496,10 @@ static const extreme rows[] = {
     {"points after families", "peri.h: the given families are not valid", given, 9, 2, MORE_POINTS, PERI_ERROR_IBOND, "ibond", REFUSED},
     {"bonds beyond w", "peri.h: no neighbour with a weight", given, 9, 0.5, NO_WEIGHT, PERI_ERROR_FAMILY, NULL, REFUSED},
     {"families of no width", "peri.h: a count that is not allowed", given, 9, 2, NO_WIDTH, PERI_ERROR_ARGUMENT, "width", REFUSED},
-    {"weights at 1 spacing", "Newton's third law, closed forms, W >= 0", weights, 1, LINE, GRADED, PERI_OK, NULL, ROUNDINGS(500)},
-    {"weights at 1.5 spacings", "Newton's third law, closed forms, W >= 0", weights, 1.5, LINE, TILTED, PERI_OK, NULL, ROUNDINGS(500)},
-    {"weights at 8 spacings, thin bodies", "Newton's third law, closed forms, W >= 0", weights, 8, PAIR, TILTED, PERI_OK, NULL, ROUNDINGS(500)},
+    {"weights at 1 spacing", "Newton's third law, closed forms, W >= 0", weights, 1, LINE, BOX, PERI_OK, NULL, ROUNDINGS(500)},
+    {"weights at 1.5 spacings", "Newton's third law, closed forms, W >= 0", weights, 1.5, LINE, CLOUD, PERI_OK, NULL, ROUNDINGS(500)},
+    {"weights at 8 spacings, thin bodies", "Newton's third law, closed forms, W >= 0", weights, 8, PAIR, TILTED, PERI_OK, NULL,
+     ROUNDINGS(500)},
     {"centroid rule", "nothing moves at rest; W >= 0", weights_in_2d, 2, CLOUD, PERI_PARTIAL_CENTROID, PERI_OK, NULL, ROUNDINGS(500)},
     {"moment rule", "Newton's third law, W >= 0", weights_in_2d, 2, -1, PERI_PARTIAL_MOMENT, PERI_OK, NULL, ROUNDINGS(500)},
 };
