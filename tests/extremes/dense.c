@@ -1,4 +1,4 @@
-/* dense.c - see dense.h. Formulas are those in the text of peri.h at peri_model; e = (2 xi + eta).eta/(|xi+eta| + |xi|), without cancellation.
+/* dense.c - see dense.h. Formulas are those at peri_model in peri.h; e = (2 xi + eta).eta/(|xi+eta| + |xi|), without cancellation.
 
    Rounding. The sum (2 xi + eta).eta is uncertain by roundings of its terms, so e by roundings of reach = (2 |xi| + |eta|) |eta|/(|xi+eta|
    + |xi|); the direction of a force by roundings of (|xi| + |eta|)/|xi+eta|. Sizes are carried along each formula with these in place of e,

@@ -6,11 +6,24 @@ typedef struct scene { /* one body of the loop, and what it is made of          
     outcome       *o;
     peri_body     *body;
     peri_body_desc desc;
-    peri_material  material;
-    int            cloud;
+    peri_material  material[2]; /* the second only of the right half of a mixture                                          */
+    int            cloud, mixture;
 } scene;
 
 typedef double (*probe_fn)(scene *s);
+
+/* A box of 64 cells, its right half of the second material. */
+static peri_body *mix(scene *s, int edge) {
+    const double lo[3] = {0, 0, 0}, middle[3] = {edge / 2, 0, 0}, half[3] = {edge / 2, edge, edge}, hi[3] = {edge, edge, edge};
+    outcome *o = s->o;
+    peri_body *b = NULL;
+    (void)(extreme_fails(o, NULL, peri_body_create(&s->desc, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &s->material[0]))
+           || extreme_fails(o, b, peri_add_material(b, &s->material[1])) || extreme_fails(o, b, peri_add_box(b, 0, lo, half, 1))
+           || extreme_fails(o, b, peri_add_box(b, 1, middle, hi, 1)) || extreme_fails(o, b, peri_build(b)));
+    if (o->status >= 0) return b;
+    peri_body_destroy(b);
+    return NULL;
+}
 
 /* A unit lattice, or 64 points moved off one, with volumes of 0.5 to 1.5. All are short binary fractions with a mean volume of 1 and a
    corner at the origin: places are exact in single precision and in the units of the body, so points can be made to meet exactly. */
@@ -19,31 +32,35 @@ static peri_body *make(scene *s) {
     double x[3 * 64], volume[64];
     uint64_t seed = 7;
     int i, d, at;
-    if (!s->cloud) return dense_box(s->o, &s->desc, &s->material, n);
+    if (s->mixture) return mix(s, edge);
+    if (!s->cloud) return dense_box(s->o, &s->desc, s->material, n);
     for (i = 0; i < 64; ++i) {
         for (d = 0, at = i; d < dim; ++d, at /= edge) x[i * dim + d] = at % edge + (i > 0 ? floor(150 * test_random(&seed)) / 256 : 0);
         volume[i] = i < 32 ? 0.5 + floor(64 * test_random(&seed)) / 64 : 2 - volume[i - 32];
     }
-    return dense_cloud(s->o, &s->desc, &s->material, 64, x, volume);
+    return dense_cloud(s->o, &s->desc, s->material, 64, x, volume);
 }
 
-/* The worst error of a probe over spaces, laws, and every step-th kind: lattices by each kernel, and clouds. */
+/* The worst error of a probe over spaces, laws, and every step-th kind: lattices by each kernel, clouds, and mixtures
+   with the next law. */
 static outcome each(const extreme *row, int32_t precision, int32_t geometry, double stretch, int step, probe_fn probe) {
     outcome o = {PERI_OK, "", 0};
     int32_t space, model;
     int kind;
     for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
         for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-            for (kind = 0; kind < 4 && o.status >= 0; kind += step) {
+            for (kind = 0; kind < 5 && o.status >= 0; kind += step) {
                 scene s;
                 double error;
                 s.row = row;
                 s.o = &o;
                 s.cloud = kind == 3;
+                s.mixture = kind == 4;
                 extreme_desc(&s.desc, space, precision, space == PERI_SOLID ? 2 : 3);
                 s.desc.geometry = geometry;
                 s.desc.kernel = kind < 3 ? kind : PERI_KERNEL_BEST;
-                extreme_material(&s.material, model, 0.3, stretch);
+                extreme_material(&s.material[0], model, 0.3, stretch);
+                extreme_material(&s.material[1], model % 4 + 1, 0.1, stretch);
                 s.body = make(&s);
                 error = s.body ? probe(&s) : NAN;
                 dense_note(&o, error, space, model);
@@ -52,7 +69,11 @@ static outcome each(const extreme *row, int32_t precision, int32_t geometry, dou
     return o;
 }
 
-static double dense_of(scene *s) { return dense_error(s->o, s->body, &s->desc, &s->material); }
+static int is_tensor(const scene *s) {
+    return s->material[0].model == PERI_CORRESPONDENCE || (s->mixture && s->material[1].model == PERI_CORRESPONDENCE);
+}
+
+static double dense_of(scene *s) { return dense_error(s->o, s->body, &s->desc, s->material); }
 
 static void stretch_by(scene *s, double x, double y, double z) {
     const double two[4] = {x - 1, 0, 0, y - 1}, three[9] = {x - 1, 0, 0, 0, y - 1, 0, 0, 0, z - 1};
@@ -63,14 +84,15 @@ static void stretch_by(scene *s, double x, double y, double z) {
 
 /* Energy density of point i under the same stretch in all directions. */
 static double closed_form(const scene *s, double stretch, const double *x, const double *volume, int64_t i) {
-    const dense_moduli law = dense_moduli_of(&s->material, s->desc.space);
     const int dim = s->desc.space == PERI_SOLID ? 3 : 2;
+    const peri_material *m = &s->material[s->mixture && x[i * dim] > (dim == 3 ? 2 : 4)];
+    const dense_moduli law = dense_moduli_of(m, s->desc.space);
     const double green = s->desc.geometry == PERI_LINEAR ? stretch : stretch * (1 + 0.5 * stretch), h = s->desc.horizon * (1 + 1e-8);
     double sum = 0;
     int64_t j, count = peri_point_count(s->body);
     int d;
-    if (s->material.model == PERI_CORRESPONDENCE) return 0.5 * dim * dim * law.bulk * green * green;
-    if (s->material.model != PERI_BOND_BASED) return 0.5 * dim * dim * law.bulk * stretch * stretch;
+    if (m->model == PERI_CORRESPONDENCE) return 0.5 * dim * dim * law.bulk * green * green;
+    if (m->model != PERI_BOND_BASED) return 0.5 * dim * dim * law.bulk * stretch * stretch;
     for (j = 0; j < count; ++j) {
         double square = 0;
         for (d = 0; d < dim; ++d) square += pow(x[j * dim + d] - x[i * dim + d], 2);
@@ -148,7 +170,7 @@ static double far_probe(scene *s) {
     const int64_t n = peri_field_size(s->body, PERI_DISPLACEMENT);
     double u[3 * 125] = {0}, largest = 0;
     int64_t i;
-    if (s->material.model != PERI_CORRESPONDENCE || s->desc.precision == PERI_F64) return scattered_probe(s);
+    if (!is_tensor(s) || s->desc.precision == PERI_F64) return scattered_probe(s);
     u[4] = s->row->value;
     if (peri_write(s->body, PERI_DISPLACEMENT, u, n) != PERI_ERROR_RANGE) return 1;
     if (extreme_fails(s->o, s->body, peri_read(s->body, PERI_DISPLACEMENT, u, n))) return NAN;
@@ -189,7 +211,7 @@ static void advance(scene *s, int64_t steps, double safety, double time_step) {
 
 /* Momenta after a run through each other, over the sums of their sizes. */
 static double passing_probe(scene *s) {
-    const int dim = peri_dimension(s->body), tensor = s->material.model == PERI_CORRESPONDENCE;
+    const int dim = peri_dimension(s->body), tensor = is_tensor(s);
     double linear[3] = {0}, angular[3] = {0}, size = 0, arm = 0, p = 0, l = 0, *at, *v, *volume;
     int64_t i;
     int d;
@@ -254,9 +276,9 @@ static int32_t is_rim(void *user, int64_t index, const double *x) {
    along F = f 1 is f^2 (lambda + 2 mu) + S; the stable step is that at rest. */
 static double shaken_probe(scene *s) {
     const double stretch = s->row->value, square = stretch * stretch, dim = peri_dimension(s->body);
-    const dense_moduli law = dense_moduli_of(&s->material, s->desc.space);
+    const dense_moduli law = dense_moduli_of(s->material, s->desc.space);
     const double harder = square + 0.5 * (square - 1) * dim * law.bulk / (law.lambda + 2 * law.mu);
-    const double tensor = s->material.model == PERI_CORRESPONDENCE ? sqrt(harder) : 1;
+    const double tensor = s->material[0].model == PERI_CORRESPONDENCE ? sqrt(harder) : 1;
     const int64_t n = peri_field_size(s->body, PERI_VELOCITY);
     double v[3 * 125], shake = 0, worst = 0;
     uint64_t seed = 3;
