@@ -330,6 +330,44 @@ static outcome pulled(const extreme *row, int32_t precision) {
     return o;
 }
 
+/* 200 steps of small swings within a line or a plane: points stay in it to the last bit, at rest as a whole, and the energy within
+   (omega dt)^2/4 of what it was. */
+static double flat_probe(scene *s) {
+    const int dim = peri_dimension(s->body), span = s->shape == LINE ? 1 : 2;
+    const int64_t n = peri_field_size(s->body, PERI_DISPLACEMENT);
+    double *u, momentum[3] = {0, 0, 0}, worst = 0;
+    peri_energy before, e;
+    peri_run run;
+    int64_t i;
+    dense_scatter(s->o, s->body, 0.001, 83);
+    u = extreme_read(s->o, s->body, PERI_DISPLACEMENT);
+    for (i = 0; u && i < n; ++i)
+        if (i % dim >= span) u[i] = 0;
+    if (u) (void)extreme_fails(s->o, s->body, peri_write(s->body, PERI_DISPLACEMENT, u, n));
+    free(u);
+    peri_run_init(&run);
+    run.steps = 200;
+    run.safety = 0.2;
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &before))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_advance(s->body, &run))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_read_momentum(s->body, momentum, NULL))) return NAN;
+    u = extreme_read(s->o, s->body, PERI_DISPLACEMENT);
+    for (i = 0; u && i < n; ++i)
+        if (i % dim >= span && u[i] != 0) worst = 1;
+    free(u);
+    for (i = 0; i < dim; ++i) /* of points of up to 1e-3 speeds of sound each */
+        if (!(fabs(momentum[i]) <= 200 * (s->desc.precision == PERI_F64 ? 1.11e-16 : 5.96e-8) * 1e-3 * (double)n)) worst = 1;
+    return extreme_worst(worst, fabs(e.error) / before.initial);
+}
+
+static outcome flat(const extreme *row, int32_t precision) {
+    outcome o = {PERI_OK, "", 0};
+    const setting c = plain(row->value, LINE, PLANE);
+    each(&o, row, precision, &c, flat_probe);
+    return o;
+}
+
 /* ---- families of the caller --------------------------------------------------------------------------------------- */
 
 enum given { HUB, CHAIN, ALL_PAIRS, ONE_SIDED, TWICE, NO_SUCH, LONELY, MORE_POINTS, NO_WEIGHT, NO_WIDTH };
@@ -486,6 +524,8 @@ static const extreme rows[] = {
     {"a plane pulled, balanced", "equilibrium: bonds carry the loads, and none across", pulled, 2, 0, 30, PERI_OK, NULL, {1e-6, 1e-3,
      1e-2}},
     {"a plane bent, balanced", "peri.h: what is not resisted is left out", pulled, 2, 0, 32, PERI_OK, NULL, {1e-6, 1e-6, 1e-6}},
+    {"lines and planes in motion", "Verlet within (omega dt)^2/4, omega dt <= 0.4; no force across; no net force", flat, 3, 0, 0, PERI_OK,
+     NULL, {0.04, 0.04, 0.04}},
     {"a hub of 1100 bonds", "the laws written out; sums of 1100 terms", given, 1101, 1, HUB, PERI_OK, NULL, ROUNDINGS(1100)},
     {"a chain of 1024 points", "the laws written out", given, 1024, 0.5, CHAIN, PERI_OK, NULL, ROUNDINGS(100)},
     {"all pairs of 64 points", "the laws written out", given, 64, 2, ALL_PAIRS, PERI_OK, NULL, ROUNDINGS(100)},

@@ -263,12 +263,17 @@ static outcome breaking(const extreme *row, int32_t precision) {
     return each(row, precision, PERI_NONLINEAR, row->value, 1, breaking_probe);
 }
 
+/* Where the last layer of cells begins. */
+static double inside(const scene *s) {
+    return (s->desc.space == PERI_SOLID ? 4 : 8) - (s->cloud || s->mixture ? 1 : 0);
+}
+
 static int32_t is_rim(void *user, int64_t index, const double *x) {
     const scene *s = (const scene *)user;
-    const double edge = s->cloud ? (s->desc.space == PERI_SOLID ? 4 : 8) : s->desc.space == PERI_SOLID ? 5 : 9;
+    const double inner = inside(s);
     int d, rim = 0;
     (void)index;
-    for (d = 0; d < (s->desc.space == PERI_SOLID ? 3 : 2); ++d) rim |= x[d] < 1 || x[d] > edge - 1;
+    for (d = 0; d < (s->desc.space == PERI_SOLID ? 3 : 2); ++d) rim |= x[d] < 1 || x[d] > inner;
     return rim;
 }
 
@@ -303,6 +308,90 @@ static double shaken_probe(scene *s) {
 
 static outcome shaken(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 3, shaken_probe); }
 
+/* ---- in equilibrium ----------------------------------------------------------------------------------------------- */
+
+/* |V f| of the points that are at an end, or of the others. */
+static double forces_of(scene *s, int ends) {
+    const int dim = peri_dimension(s->body);
+    double *f = extreme_read(s->o, s->body, PERI_FORCE_DENSITY), *x = extreme_read(s->o, s->body, PERI_POSITION), sum = 0;
+    double *volume = extreme_read(s->o, s->body, PERI_VOLUME);
+    int64_t i;
+    for (i = 0; f && x && volume && i < peri_field_size(s->body, PERI_POSITION); ++i) {
+        const double at = x[i - i % dim];
+        if (ends == (at < 1 || at > inside(s))) sum += pow(f[i] * volume[i / dim], 2);
+    }
+    free(f), free(x), free(volume);
+    return sqrt(sum);
+}
+
+/* The residual over the reactions: what bonds and loads leave on points that are not held, over what they leave on the others without
+   their supports. */
+static double unbalanced(scene *s, const int32_t *support) {
+    const double left = forces_of(s, 0);
+    (void)extreme_fails(s->o, s->body, peri_remove_load(s->body, support[0]));
+    (void)extreme_fails(s->o, s->body, peri_remove_load(s->body, support[1]));
+    return left / forces_of(s, 1);
+}
+
+static int32_t at_left(void *user, int64_t index, const double *x) {
+    (void)user, (void)index;
+    return x[0] < 1;
+}
+
+static int32_t at_right(void *user, int64_t index, const double *x) {
+    (void)index;
+    return x[0] > *(const double *)user;
+}
+
+/* A box of 9 x 9 or 5^3 cells, both ends held, one drawn away to row->value times the length: what peri.h calls converged is so, by the
+   forces of the laws written out. */
+static double drawn_probe(scene *s) {
+    const int dim = peri_dimension(s->body);
+    double right = inside(s);
+    const double away[3] = {(s->row->value - 1) * (right + 1), 0, 0};
+    const int32_t axes = dim == 3 ? 7 : 3;
+    int32_t load[2];
+    peri_statics p;
+    double error;
+    load[0] = peri_prescribe_displacement(s->body, peri_select_if(s->body, NULL, at_left, NULL), axes, NULL, NULL, NULL);
+    load[1] = peri_prescribe_displacement(s->body, peri_select_if(s->body, NULL, at_right, &right), axes, away, NULL, NULL);
+    peri_statics_init(&p);
+    p.steps = (int64_t)s->row->other;
+    if (extreme_fails(s->o, s->body, load[0]) || extreme_fails(s->o, s->body, load[1])) return NAN;
+    if (extreme_fails(s->o, s->body, peri_solve(s->body, &p, NULL))) return NAN;
+    error = unbalanced(s, load);
+    return dense_of(s) <= 100 * (s->desc.precision == PERI_F64 ? 1.11e-16 : 5.96e-8) ? error : NAN;
+}
+
+static outcome drawn(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 5, drawn_probe); }
+
+/* From row->choice: 0 collapsed, 1 inside out and shaken, 2 thrown about: loads on the free part. An equilibrium that is one, or a failure
+   that is named, with numbers that are finite. */
+static double wild_probe(scene *s) {
+    const int dim = peri_dimension(s->body);
+    double right = inside(s);
+    const double force[3] = {1e-3, -2e-3, 1e-3};
+    peri_statics p;
+    int32_t load[3], status;
+    if (s->row->choice == 0) stretch_by(s, 0, 0, 0);
+    else if (s->row->choice == 1) stretch_by(s, -1, 1, 1);
+    if (s->row->choice > 0) dense_scatter(s->o, s->body, s->row->value, 79);
+    load[0] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_left, NULL), dim == 3 ? 7 : 3, NULL, NULL, NULL);
+    load[2] = peri_apply_body_force(s->body, PERI_ALL, force, NULL, NULL);
+    load[1] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_right, &right), dim == 3 ? 7 : 3, NULL, NULL, NULL);
+    peri_statics_init(&p);
+    p.iterations = 300;
+    p.newton = 20;
+    p.halvings = 0;
+    if (extreme_fails(s->o, s->body, load[0]) || extreme_fails(s->o, s->body, load[1]) || extreme_fails(s->o, s->body, load[2])) return NAN;
+    status = peri_solve(s->body, &p, NULL);
+    if (status == PERI_ERROR_INDEFINITE || status == PERI_ERROR_CONVERGENCE || status == PERI_ERROR_LOOSE) return 0;
+    if (extreme_fails(s->o, s->body, status)) return NAN;
+    return unbalanced(s, load);
+}
+
+static outcome wild(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 2, wild_probe); }
+
 static const extreme rows[] = {
     {"10 times as long", "closed forms of W under e = 9|xi|; the laws written out", uniform, 10, 0, PERI_NONLINEAR, PERI_OK, NULL,
      ROUNDINGS(100)},
@@ -336,5 +425,15 @@ static const extreme rows[] = {
      {0.04, 0.04, 0.04}},
     {"shaken at ten times the length", "velocity-Verlet: within (omega dt)^2/4, omega dt <= 0.4, for ever", shaken, 10, 0.2, 0, PERI_OK,
      NULL, {0.04, 0.04, 0.04}},
+    {"drawn to twice the length", "peri.h: |residual| <= tolerance |reactions|; the laws written out", drawn, 2, 4, 0, PERI_OK, NULL,
+     {1.1e-8, 1.1e-5, 1.1e-4}},
+    {"drawn to ten times the length", "peri.h: |residual| <= tolerance |reactions|; the laws written out", drawn, 10, 20, 0, PERI_OK, NULL,
+     {1.1e-8, 1.1e-5, 1.1e-4}},
+    {"equilibrium from a collapsed body", "peri.h: |residual| <= tolerance |reactions|, or a named failure", wild, 0, 0, 0, PERI_OK, NULL,
+     {1.1e-8, 1.1e-5, 1.1e-4}},
+    {"equilibrium from inside out", "peri.h: |residual| <= tolerance |reactions|, or a named failure", wild, 0.3, 0, 1, PERI_OK, NULL,
+     {1.1e-8, 1.1e-5, 1.1e-4}},
+    {"equilibrium from a throw", "peri.h: |residual| <= tolerance |reactions|, or a named failure", wild, 3, 0, 2, PERI_OK, NULL,
+     {1.1e-8, 1.1e-5, 1.1e-4}},
 };
 const extreme_table extreme_stretches = EXTREME_TABLE("stretches", rows);
