@@ -258,8 +258,8 @@ static int32_t is_right(void *user, int64_t index, const double *x) {
     return x[0] > *(const double *)user;
 }
 
-/* Ends held and drawn apart by 1 %, with a critical stretch of 1e-12: what is between comes loose. Not of clouds: there a crack may run along
-   one grip, and the rest stay whole on the other. */
+/* Ends held and drawn apart by 1 %, with a critical stretch of 1e-12: what is between comes loose. Not of clouds: there a crack may run
+   along one grip, and the rest stay whole on the other. */
 static double torn_probe(scene *s) {
     double left = 1, right = s->desc.space == PERI_SOLID ? 3 : 7;
     const double away[3] = {0.01 * (right + 1), 0, 0};
@@ -376,11 +376,10 @@ static double reset_probe(scene *s) {
     double worst = 0;
     peri_energy a, b;
     int32_t field;
-    const int64_t lost = 7;
     (void)set_going(s);
     if (peri_broken_count(s->body) < 1) worst = 1;
     if (extreme_fails(s->o, s->body, peri_cut_if(s->body, any, NULL)) || extreme_fails(s->o, s->body, peri_reset(s->body))) return NAN;
-    if (peri_broken_count(s->body) + peri_step_count(s->body) != 0 || peri_time(s->body) != 0) worst = lost;
+    if (peri_broken_count(s->body) + peri_step_count(s->body) != 0 || peri_time(s->body) != 0) worst = 1;
     (void)set_going(s);
     fresh.body = make(&fresh);
     if (!fresh.body) return NAN;
