@@ -521,7 +521,8 @@ PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 #define PERI_Y 2
 #define PERI_Z 4
 
-/* Add the constant vector value[dim] to the displacement [L] / velocity [L T^-1] of a set, now; peri_reset clears both. */
+/* Add the constant vector value[dim] to the displacement [L] / velocity [L T^-1] of a set, now; peri_reset clears both. PERI_ERROR_RANGE,
+   as by peri_write, beyond 1e15 spacings (1e11 of nonlinear correspondence in mixed and single precision) and 1e9 speeds of sound. */
 PERI_API int32_t peri_add_displacement(peri_body *body, int32_t set, const double *value);
 PERI_API int32_t peri_add_velocity(peri_body *body, int32_t set, const double *value);
 

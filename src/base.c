@@ -88,16 +88,17 @@ static double peri__dot(const double *a, const double *b, int32_t dim) {
     return sum;
 }
 
-/* a/|a| for any size of a; 0 where a has no direction. */
-static int peri__unit_vector(int32_t dim, const double *a, double *unit) {
+/* The direction of a, of length 1; scaled by a power of 2 first, so that squares stay in range. 0 where it has none. */
+static int peri__direction(const double *a, int32_t dim, double *unit) {
     double largest = 0.0, length;
+    int exponent;
     for (int32_t d = 0; d < dim; ++d)
         if (fabs(a[d]) > largest) largest = fabs(a[d]);
-    if (!(largest > 0.0)) return 0;
-    for (int32_t d = 0; d < dim; ++d) unit[d] = a[d] / largest;
+    (void)frexp(largest, &exponent);
+    for (int32_t d = 0; d < dim; ++d) unit[d] = ldexp(a[d], -exponent);
     length = sqrt(peri__dot(unit, unit, dim));
-    for (int32_t d = 0; d < dim; ++d) unit[d] /= length;
-    return 1;
+    for (int32_t d = 0; largest > 0.0 && d < dim; ++d) unit[d] /= length;
+    return largest > 0.0;
 }
 
 /* splitmix64: a fixed generator, so that a seed means the same grid on every machine. Uniform in [-1, 1). */

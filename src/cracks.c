@@ -265,7 +265,7 @@ PERI_API int64_t peri_cut_disc(peri_body *b, const double *centre, const double 
     PERI_NEED_VECTOR(b, normal);
     PERI_NEED_NUMBER(b, radius >= 0.0, radius);
     memset(&crack, 0, sizeof crack);
-    if (!peri__unit_vector(3, normal, crack.axis) || !(radius > 0.0))
+    if (!peri__direction(normal, 3, crack.axis) || !(radius > 0.0))
         return peri__fail(b, PERI_ERROR_CRACK, radius > 0.0 ? "normal" : "radius", -1, 0.0);
     touch = peri__touching(b);
     peri__inner(b, centre, crack.centre);

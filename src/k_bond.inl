@@ -147,7 +147,7 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
                 const peri_b inverse = 1 / bond;
                 scale = c * weight * (inverse * inverse * inverse) * along;
             } else
-                scale = c * weight * along / (reach * bond * length + PERI_TINY);
+                scale = c * weight * along / (reach * bond * (length + PERI_TINY));
             if (flagged && along > s0 * bond * reach) {
                 double s = (double)along / ((double)reach * (double)bond);
                 dead |= (uint32_t)1 << k;

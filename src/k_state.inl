@@ -118,7 +118,7 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const 
             }
             if (mirrored) pull = weight * ((qi + q[j]) * along + (pi + p[j]) * gauge * reach);
             else pull = (weight * qi + back * q[j]) * along + (weight * pi + back * p[j]) * gauge * reach;
-            if (!linear) pull /= reach * length + PERI_TINY;
+            if (!linear) pull /= reach * (length + PERI_TINY);
             for (int d = 0; d < PERI_D; ++d) sum[d] += pull * y[d];
             if (flagged && step->breaking) {
                 if (cls) s0 = (peri_b)pairs[cls[j]].s0;

@@ -316,8 +316,8 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, cons
     PERI_NEED_VECTOR(b, place);
     PERI_NEED_VECTOR(b, normal);
     memset(&obstacle, 0, sizeof obstacle);
+    if (!peri__direction(normal, b->dim, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     obstacle.kind = 1;
-    if (!peri__unit_vector(b->dim, normal, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     obstacle.motion = motion;
     obstacle.user = user;
     return peri__add_obstacle(b, &obstacle, place, stiffness);

@@ -147,7 +147,7 @@ PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double a
     PERI_NEED(b, value || fn, "value");
     int32_t status = peri__check_set(b, set);
     if (status < 0) return status;
-    if (!peri__unit_vector(b->dim, normal, unit)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
+    if (!peri__direction(normal, b->dim, unit)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     memset(&f, 0, sizeof f);
     f.set = set;
     f.normal = unit;

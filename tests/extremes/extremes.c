@@ -200,7 +200,7 @@ static void play(const char *subject, const extreme *row) {
 
 int main(int argc, char **argv) {
     const extreme_table *const tables[] = {&extreme_units,    &extreme_elasticity, &extreme_tiny,    &extreme_motion, &extreme_stretches,
-                                           &extreme_families, &extreme_damage,     &extreme_time,   &extreme_pairs,
+                                           &extreme_families, &extreme_damage,   &extreme_cracks,   &extreme_time,   &extreme_pairs,
                                            &extreme_statics,  &extreme_solids,     &extreme_trusses, &extreme_sizes,
                                            &extreme_callbacks};
     size_t t;
