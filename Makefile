@@ -47,7 +47,7 @@ build/tests/%: tests/%.c $(wildcard tests/*.h) build/peri.o
 	$(COMPILE) $< build/peri.o -o $@ -lm
 
 EXTREMES = $(wildcard tests/extremes/*.c)
-build/tests/extremes: $(EXTREMES) tests/extremes/extremes.h tests/peri_test.h build/peri.o
+build/tests/extremes: $(EXTREMES) $(wildcard tests/extremes/*.h) tests/peri_test.h build/peri.o
 	@mkdir -p $(@D)
 	$(COMPILE) $(EXTREMES) build/peri.o -o $@ -lm
 
