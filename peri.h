@@ -54,7 +54,11 @@
               share, must then bear it). Callbacks run on the thread that made the call, one at a time (exception: the tasks
               that you are given in parallel_for).
      Same bits for any number of threads: each point sums its own bonds in a fixed order, and totals are summed over
-              fixed blocks in a fixed order. (Compile without -ffast-math.)
+              fixed blocks in a fixed order.
+     Floats   IEEE 754, in any rounding mode (rounding up or down is not the same from both ends: a bond within rounding of its limit
+              may then break at one end before the other). Nothing depends on denormals. gcc and clang leave -ffast-math out of
+              the library, whatever your flags (clang still fuses products into sums: add -ffp-contract=off for the same bits on all
+              vectors). 32-bit x86 without SSE2: compile with -std=c99 or -fexcess-precision=standard.
 
    WHAT IT DOES NOT DO
      It does not print, exit, assert on your data, keep global state, read files, or touch the locale or, but in peri_plan where it
@@ -148,13 +152,14 @@ PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_
 
 /* ---- hooks -------------------------------------------------------------------------------------------------------- */
 
-/* Memory. Both functions or neither. release gets the size that allocate was asked for. Any alignment will do. */
+/* Memory. Both functions or neither. release gets the size that allocate was asked for. Any alignment will do. Neither may call the
+   library for a body that uses it. */
 typedef void *(*peri_allocate_fn)(void *user, uint64_t bytes);
 typedef void (*peri_release_fn)(void *user, void *pointer, uint64_t bytes);
 
 /* Your job system: call task(context, k) once for every k in [0, count), in any order, on any threads, and return when
    all are done. Without it the loops run under OpenMP where the compiler has it on, else serially. Results do not depend
-   on the choice, to the last bit. */
+   on the choice, to the last bit. It may not read the body: what it would use is in use. */
 typedef void (*peri_task_fn)(void *context, int64_t k);
 typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn task, void *context);
 
@@ -163,7 +168,8 @@ typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
 
 /* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite; with partial volumes also a little beyond q = 1, for
    cells whose centre lies outside. Called by peri_build, peri_plan and
-   peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. */
+   peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. Sums of w over a family
+   beyond 1e100 or below 1e-100 are refused, in mixed and single precision beyond 1e32 or below 1e-32. */
 typedef double (*peri_influence_fn)(void *user, double q);
 
 /* Nonzero takes the point at x[dim], zero leaves it out. index numbers the candidates (lattice sites or points). */
@@ -286,7 +292,8 @@ typedef enum peri_instructions {
 typedef struct peri_body_desc {
     uint64_t          cookie;           /* set by peri_body_desc_init                                                    */
     int32_t           space;            /* peri_space. Required                                                          */
-    int32_t           precision;        /* PERI_F64 (default); PERI_F32: faster, 0.65 of the memory, but strains < 1e-6 lose digits; or
+    int32_t           precision;        /* PERI_F64 (default); PERI_F32: faster, 0.65 of the memory, but strains < 1e-6 lose digits,
+                                           and bonds shorter than 1e-6 of the extent are refused (PERI_ERROR_COINCIDENT); or
                                            PERI_MIXED: the state as F64, bonds and their weights as F32: any strain to 7 digits;
                                            clouds take little more memory than as F32                                    */
     int32_t           geometry;         /* peri_geometry. Default PERI_NONLINEAR                                         */

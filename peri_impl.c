@@ -88,4 +88,9 @@
 #include "src/sketch.c"     /* a body that is only described  -> its bonds and columns                     */
 #include "src/plan.c"       /* what a scene would cost                                                     */
 
+#if defined(PERI_AS_WRITTEN) && defined(__clang__)
+#pragma float_control(pop)
+#elif defined(PERI_AS_WRITTEN)
+#pragma GCC pop_options
+#endif
 #undef PERI_IMPL

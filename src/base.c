@@ -17,6 +17,23 @@
 #define PERI_PREFETCH(address) ((void)(address))
 #endif
 
+/* Arithmetic is what is written, whatever the user's flags: refusals compare with NaN and infinity, which -ffinite-math-only would fold
+   away, and both ends of a bond must come to the same number, which sums taken in another order or fused with products (FMA) do not.
+   clang's -ffast-math fuses in spite of the pragma. Ends with peri_impl.c. */
+#if defined(__clang__) && __clang_major__ >= 12
+#define PERI_AS_WRITTEN
+#pragma float_control(push)
+#pragma float_control(precise, on)
+#pragma clang fp contract(off)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__TINYC__) &&                                                \
+    (__FINITE_MATH_ONLY__ || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__) || \
+     defined(__FP_FAST_FMA))
+#define PERI_AS_WRITTEN
+#pragma GCC push_options
+#pragma GCC optimize("no-finite-math-only", "no-associative-math", "no-reciprocal-math", "signed-zeros", "no-unsafe-math-optimizations", \
+                     "fp-contract=off")
+#endif
+
 /* Kernels on columns and on the list work on vectors (k_vector.inl): on x86-64 with the best instruction set, chosen at run time; elsewhere
    those of gcc and clang, or plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the
    same bits. gcc gets its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which

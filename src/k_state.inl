@@ -12,16 +12,16 @@ PERI_INLINE void PERI_FN(half_bond)(const peri_body *b, int64_t i, int64_t j, pe
     const peri__model *m = b->model;
     const int32_t law = m->laws[m->material[i]].model;
     const peri_b *constant = (const peri_b *)b->constant + m->margin + i, *response = (const peri_b *)b->response + m->margin + i;
-    if (law == PERI_BOND_BASED) {
-        *central += weight * (peri_b)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
-        return;
-    }
-    *central += weight * (response[0] * (law == PERI_OTERKUS ? 1 : bond) + constant[PERI__SPRING * m->stride] * e);
+    peri_b half; /* rounded before it is added: both ends must come to the same sum, where registers are wider (x87), too */
+    if (law == PERI_BOND_BASED) half = weight * (peri_b)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
+    else half = weight * (response[0] * (law == PERI_OTERKUS ? 1 : bond) + constant[PERI__SPRING * m->stride] * e);
+    *central += half;
     if (law != PERI_CORRESPONDENCE) return;
     for (int a = 0; a < PERI_D; ++a) {
         peri_b sum = constant[PERI__VECTOR * m->stride] * eta[a];
         for (int d = 0; d < PERI_D; ++d) sum += response[(1 + a * PERI_D + d) * m->stride] * xi[d];
-        t[a] += weight * sum;
+        half = weight * sum;
+        t[a] += half;
     }
 }
 

@@ -13,21 +13,19 @@ static int64_t peri__dof(const peri_body *b, const peri__load *load, int64_t k, 
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------- */
 
-/* A dof belongs to the last support that prescribes it. */
-static void peri__assign_supports(peri_body *b) {
-    for (int64_t s = 0; s < b->load_count; ++s) {
-        peri__load *load = &b->loads[s];
-        if (load->owned) memset(load->owned, load->axes, (size_t)load->count);
-        for (int64_t e = 0; load->owned && e < s; ++e) {
-            peri__load *earlier = &b->loads[e];
-            int64_t a = 0, c = 0;
-            if (!earlier->owned) continue;
-            while (a < earlier->count && c < load->count) { /* both ascending */
-                int32_t p = peri__set_point(b, earlier->set, a), q = peri__set_point(b, load->set, c);
-                if (p == q) earlier->owned[a] = (uint8_t)(earlier->owned[a] & ~load->axes);
-                if (p <= q) a++;
-                if (q <= p) c++;
-            }
+/* A dof belongs to the last support that prescribes it: gives support s its dofs, and takes them from those before it. */
+static void peri__assign_support(peri_body *b, int64_t s) {
+    peri__load *load = &b->loads[s];
+    if (load->owned) memset(load->owned, load->axes, (size_t)load->count);
+    for (int64_t e = 0; load->owned && e < s; ++e) {
+        peri__load *earlier = &b->loads[e];
+        int64_t a = 0, c = 0;
+        if (!earlier->owned) continue;
+        while (a < earlier->count && c < load->count) { /* both ascending */
+            int32_t p = peri__set_point(b, earlier->set, a), q = peri__set_point(b, load->set, c);
+            if (p == q) earlier->owned[a] = (uint8_t)(earlier->owned[a] & ~load->axes);
+            if (p <= q) a++;
+            if (q <= p) c++;
         }
     }
 }
@@ -63,7 +61,7 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
     for (int64_t k = 0; load.all && k < load.count; ++k) load.all[k] = (int32_t)k;
     b->loads[b->load_count++] = load;
     b->force_current = 0;
-    peri__assign_supports(b);
+    peri__assign_support(b, b->load_count - 1);
     return (int32_t)(b->load_count - 1);
 }
 
@@ -108,10 +106,11 @@ PERI_API int32_t peri_remove_load(peri_body *b, int32_t load) {
     PERI_NEED_CHANGEABLE(b);
     int32_t status = peri__check_load(b, load);
     if (status < 0) return status;
+    const int support = b->loads[load].owned != NULL;
     peri__free_load(b, &b->loads[load]);
     b->loads[load].kind = PERI__FREE;
     b->force_current = 0;
-    peri__assign_supports(b);
+    for (int64_t s = 0; support && s < b->load_count; ++s) peri__assign_support(b, s);
     return PERI_OK;
 }
 

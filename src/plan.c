@@ -248,9 +248,8 @@ static int32_t peri__weigh_sketch(peri__sketch *s) {
         total += fabs(bond.weight);
         stiff += bond.weight * bond.length * bond.length;
     }
-    if (!(total > 0.0)) return peri__fail(&s->body, PERI_ERROR_FAMILY, "influence", 0, 0.0);
-    if (s->model.states && !(stiff > 0.0)) return peri__fail(&s->body, PERI_ERROR_INFLUENCE, "influence", 0, 0.0);
-    return PERI_OK;
+    const int32_t status = peri__check_weight(&s->body, total, stiff, !s->model.states);
+    return status < 0 ? peri__fail(&s->body, status, "influence", 0, 0.0) : PERI_OK;
 }
 
 /* The point that bond k of p leads to. 0 where that is outside. */

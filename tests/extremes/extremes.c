@@ -13,26 +13,36 @@ int extreme_long;
 
 /* ---- memory ------------------------------------------------------------------------------------------------------- */
 
+enum { POOL_HEAD = 32 }; /* before a block: its size, and what malloc gave */
+
 static void *pool_allocate(void *user, uint64_t bytes) {
     extreme_pool *pool = (extreme_pool *)user;
-    unsigned char *raw = bytes > SIZE_MAX / 2 ? NULL : (unsigned char *)malloc((size_t)bytes + 16);
+    const size_t room = (size_t)bytes + POOL_HEAD + pool->offset;
+    unsigned char *raw, *at;
+    if (++pool->calls == pool->fail_at || bytes > SIZE_MAX / 2) return NULL;
+    if (pool->limit && (bytes > (uint64_t)pool->limit || pool->bytes + (int64_t)bytes > pool->limit)) return NULL;
+    raw = (unsigned char *)malloc(room);
     if (!raw) return NULL;
-    memset(raw, 0xFF, (size_t)bytes + 16); /* NaN in every precision */
-    memcpy(raw, &bytes, 8);
+    memset(raw, 0xFF, room); /* NaN in every precision */
+    at = raw + POOL_HEAD + pool->offset;
+    memcpy(at - 8, &bytes, sizeof bytes);
+    memcpy(at - 16, &raw, sizeof raw);
     pool->blocks++;
-    return raw + 16;
+    pool->bytes += (int64_t)bytes;
+    return at;
 }
 
 static void pool_release(void *user, void *pointer, uint64_t bytes) {
     extreme_pool *pool = (extreme_pool *)user;
-    unsigned char *raw = (unsigned char *)pointer;
+    unsigned char *at = (unsigned char *)pointer, *raw;
     uint64_t size;
-    if (!raw) return;
-    raw -= 16;
-    memcpy(&size, raw, 8);
+    if (!at) return;
+    memcpy(&size, at - 8, sizeof size);
+    memcpy(&raw, at - 16, sizeof raw);
     pool->wrong += size != bytes;
     pool->blocks--;
-    memset(raw, 0xFF, (size_t)size + 16);
+    pool->bytes -= (int64_t)size;
+    memset(raw, 0xFF, (size_t)(at - raw) + (size_t)size);
     free(raw);
 }
 
@@ -55,6 +65,15 @@ void extreme_material(peri_material *material, int32_t model, double poisson, do
     material->density = 1;
     if (model != PERI_BOND_BASED) material->poisson = poisson;
     material->critical_stretch = stretch;
+}
+
+peri_body *extreme_box(outcome *o, const peri_body_desc *desc, const peri_material *material, const double *hi, double spacing) {
+    const double lo[3] = {0, 0, 0};
+    peri_body *b = NULL;
+    if (extreme_fails(o, NULL, peri_body_create(desc, &b, NULL))) return NULL;
+    if (!extreme_fails(o, b, peri_add_material(b, material)) && !extreme_fails(o, b, peri_add_box(b, 0, lo, hi, spacing)))
+        (void)extreme_fails(o, b, peri_build(b));
+    return b;
 }
 
 int extreme_fails(outcome *o, const peri_body *b, int64_t result) {
@@ -161,6 +180,7 @@ static const char *status_name(int32_t status) {
         PERI_STATUS_LIST(NAME)
 #undef NAME
     case NOT_FINITE: return "NOT FINITE";
+    case SPOILED: return "SPOILED";
     default: return "UNKNOWN STATUS";
     }
 }
@@ -172,6 +192,7 @@ static void play(const char *subject, const extreme *row) {
     int k, wrong = 0;
     for (k = 0; k < 3; ++k) {
         const clock_t start = clock();
+        memset(&extreme_memory, 0, sizeof extreme_memory);
         const outcome o = row->play(row, precisions[k]);
         const double seconds = (double)(clock() - start) / (double)CLOCKS_PER_SEC;
         int good = o.status == row->status;
@@ -191,7 +212,6 @@ static void play(const char *subject, const extreme *row) {
             if (extreme_memory.blocks || extreme_memory.wrong) printf("; memory: %d left", (int)extreme_memory.blocks);
             if (seconds > LONGEST) printf("; %.1f s", seconds);
             printf("\n    truth: %s\n", row->truth);
-            extreme_memory.blocks = extreme_memory.wrong = 0;
         }
     }
     if (!wrong) printf("  pass %-12s %-58s %-14s %-14s %s\n", subject, row->name, line[0], line[1], line[2]);
@@ -202,7 +222,7 @@ int main(int argc, char **argv) {
     const extreme_table *const tables[] = {&extreme_units,    &extreme_elasticity, &extreme_tiny,    &extreme_motion, &extreme_stretches,
                                            &extreme_families, &extreme_damage,   &extreme_cracks,   &extreme_time,   &extreme_pairs,
                                            &extreme_statics,  &extreme_solids,     &extreme_trusses, &extreme_sizes,
-                                           &extreme_callbacks};
+                                           &extreme_callbacks, &extreme_allocation, &extreme_hooks, &extreme_rounding};
     size_t t;
     int k;
     test_begin(argc, argv);

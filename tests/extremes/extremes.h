@@ -14,7 +14,8 @@ typedef struct outcome {
     double      error;  /* distance from the truth, as a part of it                                                       */
 } outcome;
 
-#define NOT_FINITE (-1000) /* statuses of outcomes besides those of peri: a number that the body shows is NaN or infinite */
+#define NOT_FINITE (-1000) /* statuses of outcomes besides those of peri: a number that the body shows is NaN or infinite, and */
+#define SPOILED    (-1001) /* a call that was refused has changed something, or another that must be refused was not       */
 
 typedef struct extreme {
     const char *name;
@@ -35,9 +36,15 @@ typedef struct extreme_table {
 
 #define EXTREME_TABLE(subject, rows) {subject, rows, (int)(sizeof(rows) / sizeof(rows)[0])}
 
-/* The allocator of the scenes: counts, fills what it gives and what it takes back with a pattern that reads as NaN, checks sizes. */
+/* The allocator of the scenes: counts, fills what it gives and what it takes back with a pattern that reads as NaN, checks sizes. All is
+   zero before each row. */
 typedef struct extreme_pool {
-    int64_t blocks;
+    int64_t blocks;  /* that live                                                                                         */
+    int64_t bytes;   /* in them                                                                                           */
+    int64_t calls;   /* so far                                                                                            */
+    int64_t fail_at; /* the call that returns NULL, from 1; 0: none                                                       */
+    int64_t limit;   /* most bytes at a time; 0: any                                                                      */
+    size_t  offset;  /* of the pointers that it gives from an address that suits all types                                */
     int     wrong;
 } extreme_pool;
 extern extreme_pool extreme_memory;
@@ -49,6 +56,9 @@ void extreme_desc(peri_body_desc *desc, int32_t space, int32_t precision, double
 
 /* A material of unit modulus and density; poisson is of state-based models. Bonds break where stretch > 0. */
 void extreme_material(peri_material *material, int32_t model, double poisson, double stretch);
+
+/* A built body of one material, in cells of `spacing` from the origin to hi; what fails is noted. NULL where there is none. */
+peri_body *extreme_box(outcome *o, const peri_body_desc *desc, const peri_material *material, const double *hi, double spacing);
 
 /* Notes the first failure of a body, with the field that its record names. True where the result is one. b may be NULL. */
 int extreme_fails(outcome *o, const peri_body *b, int64_t result);
@@ -76,6 +86,7 @@ double *extreme_read(outcome *o, peri_body *b, int32_t field);
 void extreme_affine(outcome *o, peri_body *b, const double *gradient, const double *origin);
 
 extern const extreme_table extreme_units, extreme_elasticity, extreme_motion, extreme_stretches, extreme_families, extreme_damage,
-    extreme_cracks, extreme_tiny, extreme_time, extreme_pairs, extreme_statics, extreme_solids, extreme_trusses, extreme_sizes, extreme_callbacks;
+    extreme_cracks, extreme_tiny, extreme_time, extreme_pairs, extreme_statics, extreme_solids, extreme_trusses, extreme_sizes, extreme_callbacks,
+    extreme_allocation, extreme_hooks, extreme_rounding;
 
 #endif
