@@ -2,8 +2,7 @@
 
    SOURCE OF TRUTH: peri.h. A call returns a status that is listed; one that is refused has changed nothing and left its record; one that
    succeeds leaves the record alone; counts agree with each other, damage lies in [0, 1]; as long as no call has reported
-   PERI_ERROR_UNSTABLE or PERI_ERROR_CALLBACK displacements and velocities are finite, and so is all that can be read where only numbers
-   of ordinary size went in; peri_read_memory is what the allocator counts; destroying gives everything back.
+   PERI_ERROR_UNSTABLE displacements and velocities are finite, and so is all that can be read where only numbers of ordinary size went in; peri_read_memory is what the allocator counts; destroying gives everything back.
 
    A program is: scene, then calls. Each call takes a byte for which, a byte for the mood (see begin_call), then what it asks for; past the
    end all bytes are 0. The bytes kept in program_corpus.h mean what they mean by this decoding: let calls be added at the end of the table
@@ -43,7 +42,7 @@ typedef struct slot {
     double     lo[3], hi[3];            /* [L] around the points                                                         */
     int        busy;                    /* calls of the body that are under way                                          */
     int        wild;                    /* a number beyond ordinary size went in                                         */
-    int        lost;                    /* a call has reported an instability, or a callback that failed, since the last reset */
+    int        lost;                    /* a call has reported an instability since the last reset                       */
     int        family;                  /* bodies of one family share their points                                       */
     int        heavy;                   /* its build costs more than others                                              */
     peri_error record;
@@ -286,11 +285,22 @@ static void on_break(void *user, int32_t i, int32_t j, double time, double stret
     if (h->kind == 1) meddle(h->p);
 }
 
+enum { INFLUENCE_ONE, INFLUENCE_FALLS, INFLUENCE_DECAYS, INFLUENCE_NEGATIVE, INFLUENCE_FAILS, INFLUENCE_NONE, INFLUENCE_HUGE, INFLUENCE_TINY,
+       INFLUENCE_KINDS };
+
 static double on_influence(void *user, double q) {
     const hook *h = (const hook *)user;
     HOLDS(h->p, q > 0.0);
-    return h->kind == 0 ? 1.0 : h->kind == 1 ? 1.0 - 0.5 * q : h->kind == 2 ? exp(-q) : h->kind == 3 ? 0.5 - q
-         : h->kind == 4 ? (q > 0.5 ? (double)NAN : 1.0) : h->kind == 5 ? 0.0 : h->kind == 6 ? 1e300 : 1e-300;
+    switch (h->kind) {
+    case INFLUENCE_FALLS: return 1.0 - 0.5 * q;
+    case INFLUENCE_DECAYS: return exp(-q);
+    case INFLUENCE_NEGATIVE: return 0.5 - q;
+    case INFLUENCE_FAILS: return q > 0.5 ? (double)NAN : 1.0;
+    case INFLUENCE_NONE: return 0.0;
+    case INFLUENCE_HUGE: return 1e300;
+    case INFLUENCE_TINY: return 1e-300;
+    default: return 1.0;
+    }
 }
 
 static int32_t on_write(void *user, const void *bytes, int64_t count) {

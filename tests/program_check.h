@@ -41,7 +41,7 @@ static void check_text(program *p, const peri_error *e) {
 static int64_t told(program *p, int s, int64_t status, int line) {
     slot *o = &p->slots[s];
     peri_error e;
-    if (p->trace) printf("    %2d%*s = %ld\n", p->calls, 2 * p->level, "", (long)status);
+    if (p->trace && status < 0) printf("    %2d%*s %s\n", p->calls, 2 * p->level, "", peri_status_text((int32_t)status));
     o->busy--;
     p->level--;
     if (!o->body) {
@@ -55,7 +55,7 @@ static int64_t told(program *p, int s, int64_t status, int line) {
         if (e.code != code || e.reserved != 0 || !e.field || e.text != peri_status_text(code)) blame(p, "the record is of this refusal", line);
         if (!names_a_point(o, &e)) blame(p, "the record names a point", line);
         if (code == PERI_ERROR_MEMORY && p->memory.refused == p->refused[p->level]) blame(p, "the allocator has refused", line);
-        if (code == PERI_ERROR_UNSTABLE || code == PERI_ERROR_CALLBACK) o->lost = 1;
+        if (code == PERI_ERROR_UNSTABLE) o->lost = 1;
         check_text(p, &e);
         o->record = e;
     } else {

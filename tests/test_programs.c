@@ -55,7 +55,20 @@ static void random_programs(void) {
     for (k = 0; k < RANDOM_PROGRAMS; ++k) check_program(bytes, random_program((uint64_t)k + 1, bytes), "random", k);
 }
 
+/* Tells the calls of random programs. */
+static int show(int first, int count) {
+    uint8_t bytes[LONGEST];
+    int k;
+    for (k = first; k < first + count; ++k) {
+        printf("program %d\n", k);
+        run_program(&life, bytes, random_program((uint64_t)k + 1, bytes), 1);
+        if (life.fault) printf("line %d, in %s: not true: %s\n", life.fault_line, life.fault_call, life.fault);
+    }
+    return 0;
+}
+
 int main(int argc, char **argv) {
+    if (argc == 4 && strcmp(argv[1], "--show") == 0) return show(atoi(argv[2]), atoi(argv[3]));
     test_begin(argc, argv);
     RUN(kept_programs);
     RUN(random_programs);
