@@ -226,7 +226,7 @@ static int64_t advance(program *p, int s) {
     const int64_t status = CALL(p, s, peri_advance(o->body, GIVEN(0, &r)));
     if (!o->body) return status;
     if (o->busy) HOLDS(p, status == PERI_ERROR_ORDER);
-    if (status == PERI_ERROR_MEMORY || peri_step_count(o->body) > before || o->lost) p->partial = 1;
+    if (status == PERI_ERROR_MEMORY || status == PERI_ERROR_CALLBACK || peri_step_count(o->body) > before || o->lost) p->partial = 1;
     if (status == PERI_OK && lasts) HOLDS(p, peri_time(o->body) == start + r.duration);
     if (status == PERI_OK && !lasts) HOLDS(p, peri_step_count(o->body) == before + r.steps);
     return status;

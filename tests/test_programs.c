@@ -10,7 +10,9 @@
 #if defined(__SANITIZE_ADDRESS__)
 #define RANDOM_PROGRAMS 1000
 #else
+#ifndef RANDOM_PROGRAMS
 #define RANDOM_PROGRAMS 10000
+#endif
 #endif
 #define LONGEST 240
 
