@@ -45,6 +45,8 @@ typedef struct slot {
     int        lost;                    /* a call has reported an instability since the last reset                       */
     int        family;                  /* bodies of one family share their points                                       */
     int        heavy;                   /* its build costs more than others                                              */
+    int        quadrature;
+    int32_t    materials, loads, obstacles; /* ids given out                                                             */
     peri_error record;
 } slot;
 

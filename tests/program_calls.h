@@ -131,7 +131,7 @@ static int64_t write_state(program *p, int s) {
     return status;
 }
 
-static int64_t add_load(program *p, int s) {
+static int64_t some_load(program *p, int s) {
     slot *o = &p->slots[s];
     const int kind = below(p, 8);
     const int32_t set = some_set(p, s), axes = p->mood == MOOD_CHOICES ? choice(p, 1, 9) : 1 + draw(p) % (o->dim == 3 ? 7 : 3);
@@ -155,9 +155,35 @@ static int64_t add_load(program *p, int s) {
     }
 }
 
-static int64_t remove_load(program *p, int s) { return CALL(p, s, peri_remove_load(p->slots[s].body, some_id(p, 4))); }
+/* Traction on a face of a box: the half of the body behind it feels it. */
+static int64_t load_face(program *p, int s) {
+    slot *o = &p->slots[s];
+    const int axis = below(p, o->dim), side = draw(p) % 2;
+    double lo[3], hi[3], n[3] = {0, 0, 0}, v[3], area = 1.0;
+    int d;
+    for (d = 0; d < 3; ++d) {
+        lo[d] = o->lo[d];
+        hi[d] = o->hi[d];
+        if (d < o->dim && d != axis) area *= hi[d] - lo[d];
+    }
+    n[axis] = side ? 1.0 : -1.0;
+    if (side) lo[axis] = 0.5 * (lo[axis] + hi[axis]);
+    else hi[axis] = 0.5 * (lo[axis] + hi[axis]);
+    vector(p, 0.02 * o->stress, v);
+    p->partial = 1;
+    const int64_t set = CALL(p, s, peri_select_box(o->body, NULL, lo, hi));
+    return set < 0 ? set : CALL(p, s, peri_apply_surface_traction(o->body, (int32_t)set, area, n, v, NULL, NULL));
+}
 
-static int64_t add_obstacle(program *p, int s) {
+static int64_t add_load(program *p, int s) {
+    const int64_t id = draw(p) % 8 ? some_load(p, s) : load_face(p, s);
+    if (id >= 0) p->slots[s].loads = (int32_t)id + 1;
+    return id;
+}
+
+static int64_t remove_load(program *p, int s) { return CALL(p, s, peri_remove_load(p->slots[s].body, some_id(p, p->slots[s].loads))); }
+
+static int64_t some_obstacle(program *p, int s) {
     slot *o = &p->slots[s];
     const int kind = draw(p), moves = draw(p) % 3 == 0;
     const double stiffness = kind / 2 % 2 ? 0.0 : o->stress / (o->length * o->length) * number(p, 0.0, 2.0);
@@ -171,14 +197,20 @@ static int64_t add_obstacle(program *p, int s) {
                                              moves ? on_motion : NULL, h));
 }
 
-static int64_t remove_obstacle(program *p, int s) { return CALL(p, s, peri_remove_obstacle(p->slots[s].body, some_id(p, 2))); }
+static int64_t add_obstacle(program *p, int s) {
+    const int64_t id = some_obstacle(p, s);
+    if (id >= 0) p->slots[s].obstacles = (int32_t)id + 1;
+    return id;
+}
+
+static int64_t remove_obstacle(program *p, int s) { return CALL(p, s, peri_remove_obstacle(p->slots[s].body, some_id(p, p->slots[s].obstacles))); }
 
 /* What was wild may be NaN; what was not is finite. */
 static int64_t look_at_forces(program *p, int s) {
     slot *o = &p->slots[s];
     double force[3] = {0, 0, 0};
-    const int64_t status = draw(p) % 2 ? CALL(p, s, peri_read_reaction(o->body, some_id(p, 4), GIVEN(0, force)))
-                                       : CALL(p, s, peri_read_obstacle_force(o->body, some_id(p, 2), GIVEN(1, force)));
+    const int64_t status = draw(p) % 2 ? CALL(p, s, peri_read_reaction(o->body, some_id(p, o->loads), GIVEN(0, force)))
+                                       : CALL(p, s, peri_read_obstacle_force(o->body, some_id(p, o->obstacles), GIVEN(1, force)));
     if (status == PERI_OK && !o->lost && !o->wild) HOLDS(p, finite_all(force, o->dim));
     return status;
 }
@@ -260,9 +292,9 @@ static int64_t solve(program *p, int s) {
     if (p->mood == MOOD_NUMBERS) t.load_from = number(p, 0.0, 1.0);
     if (p->mood == MOOD_NUMBERS) t.load_to = number(p, 0.0, 1.0);
     if (more / 64 == 1) {
-        t.curve_load = some_id(p, 3);
+        t.curve_load = o->loads > 0 || p->mood == MOOD_CHOICES ? some_id(p, o->loads) : -1;
         t.curve = GIVEN(2, p->in);
-        t.curve_rows = p->mood == MOOD_CHOICES ? below(p, 5) - 1 : 4;
+        t.curve_rows = p->mood == MOOD_CHOICES ? below(p, 5) - 1 : t.curve_load < 0 ? 0 : 4;
     }
     t.on_iteration = on_iteration;
     if (more / 64 > 1 || t.steps > 10 || t.halvings > 10) t.on_step = on_frame;
@@ -369,11 +401,11 @@ static int64_t look_at_constants(program *p, int s) {
     double c = 1.0, s0 = 1.0, w0 = 1.0;
     const int kind = draw(p);
     if (kind % 4 == 0) {
-        const int64_t status = CALL(p, s, peri_read_critical_energy(o->body, some_id(p, 2), GIVEN(0, &w0)));
+        const int64_t status = CALL(p, s, peri_read_critical_energy(o->body, some_id(p, o->materials), GIVEN(0, &w0)));
         if (status == PERI_OK && !o->wild) HOLDS(p, w0 > 0.0);
         return status;
     }
-    const int32_t i = some_id(p, 2), j = some_id(p, 2);
+    const int32_t i = some_id(p, o->materials), j = some_id(p, o->materials);
     const int64_t status = CALL(p, s, peri_read_bond_constants(o->body, i, j, kind % 8 < 4 ? &c : NULL, GIVEN(0, &s0)));
     if (status == PERI_OK && !o->wild) HOLDS(p, c <= DBL_MAX && c > -DBL_MAX && !(s0 <= 0.0));
     return status;

@@ -62,6 +62,7 @@ static void fill_desc(program *p, int s, peri_body_desc *d) {
     if (more / 64 == 1) d->parallel_for = in_reverse;
     if (more / 64 == 2) d->log = on_log;
     d->log_user = p;
+    o->quadrature = d->quadrature;
     o->heavy = o->dim == 3 && (d->quadrature == PERI_PARTIAL_VOLUME || d->correction == PERI_MOMENT_CORRECTION);
     if (p->nulls == 2) d->cookie ^= 1;
     if (p->trace)
@@ -117,13 +118,15 @@ static int32_t some_model(program *p) {
 
 static int64_t add_material(program *p, int s) {
     peri_material m;
-    fill_material(p, s, &m, some_model(p));
-    return CALL(p, s, peri_add_material(p->slots[s].body, GIVEN(0, &m)));
+    fill_material(p, s, &m, p->mood == 0 && p->slots[s].quadrature >= PERI_PARTIAL_CENTROID ? PERI_BOND_BASED : some_model(p));
+    const int64_t id = CALL(p, s, peri_add_material(p->slots[s].body, GIVEN(0, &m)));
+    if (id >= 0) p->slots[s].materials = (int32_t)id + 1;
+    return id;
 }
 
 static int64_t set_interface(program *p, int s) {
     peri_material m;
-    const int32_t i = some_id(p, 3), j = some_id(p, 3);
+    const int32_t i = some_id(p, p->slots[s].materials), j = some_id(p, p->slots[s].materials);
     fill_material(p, s, &m, PERI_BOND_BASED);
     return CALL(p, s, peri_set_interface(p->slots[s].body, i, j, GIVEN(0, &m)));
 }
@@ -151,7 +154,7 @@ static double some_box(program *p, int s, double *lo, double *hi) {
 static int64_t add_box(program *p, int s) {
     double lo[3], hi[3];
     const double spacing = some_box(p, s, lo, hi);
-    const int32_t material = p->mood == MOOD_CHOICES ? some_id(p, 3) : 0;
+    const int32_t material = some_id(p, p->slots[s].materials);
     return CALL(p, s, peri_add_box(p->slots[s].body, material, GIVEN(0, lo), GIVEN(1, hi), spacing));
 }
 
@@ -160,7 +163,7 @@ static int64_t add_ball(program *p, int s) {
     double centre[3];
     place(p, &p->slots[s], centre);
     if (radius / spacing > 20.0 && radius / spacing < 1e12) return 0; /* would take long */
-    return CALL(p, s, peri_add_ball(p->slots[s].body, some_id(p, 1), GIVEN(0, centre), radius, spacing));
+    return CALL(p, s, peri_add_ball(p->slots[s].body, some_id(p, p->slots[s].materials), GIVEN(0, centre), radius, spacing));
 }
 
 static int64_t add_shape(program *p, int s) {
@@ -170,14 +173,16 @@ static int64_t add_shape(program *p, int s) {
     int d;
     for (d = 0; d < p->slots[s].dim; ++d) sites *= fmax(1.0, (hi[d] - lo[d]) / spacing);
     if (sites > SITES_MOST && sites < 1e12) return 0;
-    return CALL(p, s, peri_add_shape(p->slots[s].body, some_id(p, 1), GIVEN(0, lo), GIVEN(1, hi), spacing, GIVEN(2, on_point), h));
+    const int32_t material = some_id(p, p->slots[s].materials);
+    return CALL(p, s, peri_add_shape(p->slots[s].body, material, GIVEN(0, lo), GIVEN(1, hi), spacing, GIVEN(2, on_point), h));
 }
 
 static int64_t add_perturbed_box(program *p, int s) {
     double lo[3], hi[3];
     const double spacing = some_box(p, s, lo, hi), amount = number(p, 0.0, 1.0);
     const uint64_t seed = (uint64_t)draw(p);
-    return CALL(p, s, peri_add_perturbed_box(p->slots[s].body, some_id(p, 1), GIVEN(0, lo), GIVEN(1, hi), spacing, amount, seed));
+    const int32_t material = some_id(p, p->slots[s].materials);
+    return CALL(p, s, peri_add_perturbed_box(p->slots[s].body, material, GIVEN(0, lo), GIVEN(1, hi), spacing, amount, seed));
 }
 
 /* A cloud: a lattice, each point moved by its own amount, or on a line, or all at random. */
@@ -223,7 +228,8 @@ static int64_t set_families(program *p, int s) {
             if (kind == 0 && (i == 0 || i == n - 1)) *id = k ? i : i ? i - 1 : 1;
             if (kind == 3) *id = some_id(p, n);
         }
-    return CALL(p, s, peri_set_families(p->slots[s].body, choice(p, width, 1), GIVEN(0, p->ids)));
+    if (p->mood == MOOD_CHOICES && draw(p) % 2) width = -below(p, 3);
+    return CALL(p, s, peri_set_families(p->slots[s].body, width, GIVEN(0, p->ids)));
 }
 
 static int64_t build(program *p, int s) {
@@ -303,34 +309,6 @@ static int64_t plan(program *p, int s) {
     }
     peri_body_destroy(b);
     return status;
-}
-
-/* ---- scenes ------------------------------------------------------------------------------------------------------- */
-
-/* Most programs begin with a body that is built and held. */
-static void make_scene(program *p) {
-    const int kind = draw(p), shape = draw(p) % 16;
-    const int s = 0;
-    p->mood = 0;
-    p->nulls = -1;
-    p->wild = 0;
-    p->memory.fail_at = -1;
-    if (kind % 16 == 0) return;
-    (void)make_body(p, s);
-    (void)add_material(p, s);
-    if (kind % 16 == 1) return;
-    if (kind % 16 == 2 || kind % 16 == 3) (void)add_material(p, s);
-    if (shape < 8) (void)add_box(p, s);
-    else if (shape < 10) (void)add_perturbed_box(p, s);
-    else if (shape < 12) (void)add_points(p, s);
-    else if (shape < 13) (void)add_shape(p, s);
-    else if (shape < 15) (void)add_ball(p, s);
-    else {
-        (void)add_box(p, s);
-        (void)add_box(p, s);
-    }
-    if (kind % 16 == 4) return;
-    (void)build(p, s);
 }
 
 #endif

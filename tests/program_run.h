@@ -43,10 +43,23 @@ static const struct {
 };
 #define TABLE ((int)(sizeof table / sizeof *table))
 
-/* The first seven make things happen, and half of all calls are they. */
+enum { MOVES = 7, MAKES = 13, MAKES_END = 22, FIRST_TABLE = 36 };
+
+/* Mostly a call that the body is ready for; half of those of a built body are of the first seven, which make things happen. The numbers of
+   calls that are added later are left over from here. */
+static int some_call(program *p, int s) {
+    const slot *o = &p->slots[s];
+    const int which = draw(p), built = points_of(o) > 0;
+    const int k = which < 128 ? which % MOVES : which - 128 < TABLE ? which - 128 : (which - 128) % FIRST_TABLE;
+    const int makes = k >= MAKES && k < MAKES_END;
+    if (which % 16 == 5) return k;
+    if (!o->body) return MAKES - 1; /* make_body */
+    if (!built && !makes) return MAKES + which % (MAKES_END - MAKES);
+    return built && makes ? which % MAKES : k;
+}
+
 static int64_t one_call(program *p, int s) {
-    const int which = draw(p), deep = p->calls % 3 == 0;
-    const int k = which < 128 ? which % 7 : which % TABLE, level = p->level;
+    const int k = some_call(p, s), deep = p->calls % 3 == 0, level = p->level;
     print before, after;
     begin_call(p);
     const int64_t fail_at = p->memory.fail_at;
@@ -66,6 +79,84 @@ static int64_t one_call(program *p, int s) {
     return status;
 }
 
+/* ---- scenes ------------------------------------------------------------------------------------------------------- */
+
+static void add_some_points(program *p, int s, int shape) {
+    if (shape < 8) (void)add_box(p, s);
+    else if (shape < 10) (void)add_perturbed_box(p, s);
+    else if (shape < 12) (void)add_points(p, s);
+    else if (shape < 13) (void)add_shape(p, s);
+    else (void)add_ball(p, s);
+    if (shape == 15 || shape == 7) (void)add_box(p, s);
+}
+
+/* Holds the left of a body, and pulls its right, or not; a crack between them, or none. */
+static void hold_scene(program *p, int s, int kind) {
+    const slot *o = &p->slots[s];
+    double lo[3], hi[3], pull[3] = {0, 0, 0};
+    int32_t set;
+    int d;
+    for (d = 0; d < 3; ++d) {
+        lo[d] = o->lo[d];
+        hi[d] = o->hi[d];
+    }
+    hi[0] = o->lo[0] + 1.25 * o->length;
+    set = (int32_t)CALL(p, s, peri_select_box(o->body, "left", lo, hi));
+    (void)CALL(p, s, peri_prescribe_displacement(o->body, set, kind % 4 ? (1 << o->dim) - 1 : PERI_X, NULL, NULL, NULL));
+    lo[0] = o->hi[0] - 1.25 * o->length;
+    hi[0] = o->hi[0];
+    set = (int32_t)CALL(p, s, peri_select_box(o->body, "right", lo, hi));
+    pull[kind / 4 % 2] = (kind / 8 % 2 ? 0.5 : 0.05) * (kind / 16 % 2 ? o->length : speed_of(o));
+    if (kind / 16 % 2) (void)CALL(p, s, peri_prescribe_displacement(o->body, set, PERI_X | PERI_Y, pull, NULL, NULL));
+    else (void)CALL(p, s, peri_prescribe_velocity(o->body, set, PERI_X | PERI_Y, pull, NULL, NULL));
+    p->slots[s].loads = 2;
+    if (kind / 32 % 2) (void)cut(p, s);
+}
+
+/* Most programs begin with a body that is built, many with one that is held, too. */
+static void make_scene(program *p) {
+    const int kind = draw(p), shape = draw(p) % 16, held = draw(p), s = 0;
+    p->mood = 0;
+    p->nulls = p->iterations_left = -1;
+    p->memory.fail_at = -1;
+    if (kind % 16 == 0) return;
+    (void)make_body(p, s);
+    (void)add_material(p, s);
+    if (kind % 16 == 1) return;
+    if (kind % 16 < 5) (void)add_material(p, s);
+    if (kind % 16 == 4) (void)set_interface(p, s);
+    add_some_points(p, s, shape);
+    if (kind % 16 == 2) return;
+    if (build(p, s) != PERI_OK || points_of(&p->slots[s]) == 0) { /* an influence function that cannot be, a point alone, ... */
+        peri_body_desc d;
+        peri_material m;
+        slot *o = &p->slots[s];
+        const double hi[3] = {6.0, 4.0, 2.0};
+        drop(p, s);
+        peri_body_desc_init(&d);
+        d.space = PERI_PLANE_STRESS + kind / 16 % 3;
+        d.precision = kind / 64 < 3 ? PERI_F64 : PERI_MIXED;
+        d.horizon = 2.5;
+        d.threads = 1;
+        d.allocate = pool_allocate;
+        d.release = pool_release;
+        d.memory_user = &p->memory;
+        o->space = d.space;
+        o->dim = d.space == PERI_SOLID ? 3 : 2;
+        o->family = ++p->families;
+        memcpy(o->hi, hi, sizeof hi);
+        HOLDS(p, peri_body_create(&d, &o->body, &o->record) == PERI_OK);
+        peri_material_init(&m, PERI_BOND_BASED);
+        m.young = m.density = 1.0;
+        m.critical_stretch = 0.02;
+        HOLDS(p, CALL(p, s, peri_add_material(o->body, &m)) == 0);
+        HOLDS(p, CALL(p, s, peri_add_box(o->body, 0, o->lo, o->hi, 1.0)) > 0);
+        HOLDS(p, CALL(p, s, peri_build(o->body)) == PERI_OK);
+        o->materials = 1;
+    }
+    if (held % 4) hold_scene(p, s, held / 4);
+}
+
 /* Runs a program; what did not hold is in p->fault. */
 static void run_program(program *p, const uint8_t *bytes, size_t size, int trace) {
     int s;
@@ -78,7 +169,7 @@ static void run_program(program *p, const uint8_t *bytes, size_t size, int trace
     check_memory(p);
     check_body(p, 0);
     for (p->calls = 1; p->calls <= CALLS_MOST && p->at < p->end && !p->fault; ++p->calls) {
-        s = draw(p) % 4 == 3;
+        s = draw(p) % 4 == 3 && (p->slots[1].body || draw(p) % 4 == 0);
         (void)one_call(p, s);
         check_body(p, s);
     }

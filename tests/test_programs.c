@@ -2,22 +2,27 @@
 
    `test_programs --seeds DIRECTORY` writes the kept programs as files for the fuzzer; `test_programs --show FIRST COUNT` tells the calls of
    random programs. */
+#include "peri_test.h"
 #include "program_corpus.h"
 #include "program_run.h"
-#include "peri_test.h"
 #include <time.h>
 
 #if defined(__SANITIZE_ADDRESS__)
-#define RANDOM_PROGRAMS 1000
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+#ifdef SANITIZED
+#define RANDOM_PROGRAMS 600
 #else
-#ifndef RANDOM_PROGRAMS
 #define RANDOM_PROGRAMS 10000
 #endif
-#endif
 #define LONGEST 240
+#define RANDOM_SEEDS 300
 
 static program life;
-static int spread[TABLE];
 
 static size_t random_program(uint64_t seed, uint8_t *bytes) {
     uint64_t dice = seed * UINT64_C(0x2545F4914F6CDD1D);
@@ -57,23 +62,48 @@ static void random_programs(void) {
     for (k = 0; k < RANDOM_PROGRAMS; ++k) check_program(bytes, random_program((uint64_t)k + 1, bytes), "random", k);
 }
 
+static void many_programs(void) {
+    uint8_t bytes[LONGEST];
+    int k;
+    for (k = RANDOM_PROGRAMS; k < 20 * RANDOM_PROGRAMS; ++k) check_program(bytes, random_program((uint64_t)k + 1, bytes), "random", k);
+}
+
 /* Tells the calls of random programs. */
 static int show(int first, int count) {
     uint8_t bytes[LONGEST];
-    int k;
+    int k, faults = 0;
     for (k = first; k < first + count; ++k) {
         printf("program %d\n", k);
         run_program(&life, bytes, random_program((uint64_t)k + 1, bytes), 1);
         if (life.fault) printf("line %d, in %s: not true: %s\n", life.fault_line, life.fault_call, life.fault);
+        faults += life.fault != NULL;
     }
-    return 0;
+    return faults;
+}
+
+/* Writes the kept programs, and some random ones, a file each. */
+static int write_seeds(const char *directory) {
+    static uint8_t bytes[4096];
+    char path[1024];
+    int k, failed = 0;
+    for (k = 0; k < CORPUS + RANDOM_SEEDS; ++k) {
+        const size_t size = k < CORPUS ? kept_program(corpus[k], bytes) : random_program((uint64_t)(k - CORPUS) + 1, bytes);
+        FILE *file;
+        if (strlen(directory) > sizeof path - 32) return 1;
+        (void)sprintf(path, "%s/seed_%d", directory, k);
+        file = fopen(path, "wb");
+        failed += !file || fwrite(bytes, 1, size, file) != size;
+        if (file) failed += fclose(file) != 0;
+    }
+    return failed;
 }
 
 int main(int argc, char **argv) {
     if (argc == 4 && strcmp(argv[1], "--show") == 0) return show(atoi(argv[2]), atoi(argv[3]));
+    if (argc == 3 && strcmp(argv[1], "--seeds") == 0) return write_seeds(argv[2]);
     test_begin(argc, argv);
     RUN(kept_programs);
     RUN(random_programs);
-    (void)spread;
+    LONG_RUN(many_programs);
     return test_end("test_programs");
 }
