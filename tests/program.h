@@ -67,7 +67,7 @@ struct program {
     int64_t        refused[LEVELS];        /* by the allocator before each of them                                       */
     const char    *names[LEVELS];
     int            calls, families, frames_left, iterations_left;
-    int            partial;            /* the call may have changed the body though it failed                            */
+    int            partial;            /* 1: the call may have changed the body though it failed; PARTLY: but not its motion */
     int            mood;
     int            nulls;              /* the pointer argument that is NULL; -1: none                                    */
     int            wild;               /* the present call has got a number beyond ordinary size                         */
@@ -138,6 +138,8 @@ static void pool_release(void *user, void *pointer, uint64_t bytes) {
 static int draw(program *p) { return p->at < p->end ? *p->at++ : 0; }
 
 static int below(program *p, int n) { return draw(p) % n; }
+
+enum { PARTLY = 2 }; /* the ledger may have been brought up to date                                                */
 
 enum { MOOD_NUMBERS = 1, MOOD_CHOICES, MOOD_NULLS, MOOD_MEMORY };
 

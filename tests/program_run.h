@@ -70,8 +70,10 @@ static int64_t one_call(program *p, int s) {
     const int64_t status = table[k].make(p, s);
     p->memory.fail_at = -1;
     p->wild = 0;
-    if (status < 0 && !p->partial) {
+    if (status < 0 && p->partial != 1) {
         after = print_of(p, s, deep);
+        if (p->partial == PARTLY || p->slots[s].lost) before.deep = after.deep = 0;
+        if (p->partial == PARTLY || p->slots[s].lost) before.step = after.step = 0.0;
         if (!same_print(before, after, (int32_t)status)) blame(p, "a call that is refused changes nothing", __LINE__);
     }
     HOLDS(p, p->level == level);
