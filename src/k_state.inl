@@ -452,7 +452,7 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
 /* Energy densities of group g, by columns; not of correspondence. */
 static void PERI_FN(group_energy)(const peri_body *b, int64_t g, double density[PERI_LANES]) {
     const peri__model *m = b->model;
-    const peri_b *constant = (const peri_b *)b->constant + m->margin + g * PERI_LANES;
+    const peri_b *constant = m->states ? (const peri_b *)b->constant + m->margin + g * PERI_LANES : NULL;
     peri_r sum[PERI_LANES] = { 0 };
     PERI_ON_LANES(m->lanes.isa, squares, (b, g, density));
     if (m->dilates) PERI_ON_LANES(m->lanes.isa, stretched, (b, g, m->ordinary != PERI_OTERKUS, sum));

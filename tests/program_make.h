@@ -126,7 +126,7 @@ static int64_t add_material(program *p, int s) {
 
 static int64_t set_interface(program *p, int s) {
     peri_material m;
-    const int32_t i = some_id(p, p->slots[s].materials), j = some_id(p, p->slots[s].materials);
+    const int32_t count = p->slots[s].materials, i = some_id(p, count), j = p->mood == 0 && count > 1 ? (i + 1) % count : some_id(p, count);
     fill_material(p, s, &m, PERI_BOND_BASED);
     return CALL(p, s, peri_set_interface(p->slots[s].body, i, j, GIVEN(0, &m)));
 }

@@ -54,6 +54,7 @@ static int some_call(program *p, int s) {
     const int makes = k >= MAKES && k < MAKES_END;
     if (which % 16 == 5) return k;
     if (!o->body) return MAKES - 1; /* make_body */
+    if (o->materials == 0) return MAKES; /* add_material */
     if (!built && !makes) return MAKES + which % (MAKES_END - MAKES);
     return built && makes ? which % MAKES : k;
 }
