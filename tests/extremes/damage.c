@@ -153,7 +153,7 @@ static int32_t loosen(void *user, int32_t i, int32_t j, const double *xi, const 
     return i == 0 && !(j == 1 || (kept == 2 && j == 2) || (kept == 3 && j == above));
 }
 
-/* The laws written out on what is left; and after that the energy of 300 small swings. */
+/* The laws written out on what is left; and after that the energy of small swings, 100 steps. */
 static double hanging_probe(scene *s) {
     double worst, stored;
     peri_energy e;
@@ -164,7 +164,7 @@ static double hanging_probe(scene *s) {
     dense_scatter(s->o, s->body, 0.001, 67);
     if (extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
     stored = e.initial;
-    (void)advance(s, 300, 0.2, 0);
+    (void)advance(s, 100, 0.2, 0);
     if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
     return fabs(e.error) <= s->row->other * stored ? worst : 1;
 }

@@ -144,25 +144,20 @@ static outcome families(const extreme *row, int32_t precision) {
 
 /* A bond for every pair of 1369 points within 18.3 spacings: families above 1024 bonds. */
 static outcome wide(const extreme *row, int32_t precision) {
-    static const int32_t models[2] = {PERI_BOND_BASED, PERI_LPS};
     outcome o = {PERI_OK, "", 0};
-    int k;
-    for (k = 0; k < 2; ++k) {
-        scene s;
-        s.row = row;
-        s.o = &o;
-        s.shape = BOX;
-        extreme_desc(&s.desc, PERI_PLANE_STRESS, precision, row->value);
-        extreme_material(&s.material, models[k], 0.3, 0);
-        s.body = lattice(&s, 37, 37, 1);
-        dense_scatter(&o, s.body, 0.1, 23);
-        if (s.body) {
-            dense_note(&o, peri_family_width(s.body) > 1024 ? 0 : 1, PERI_PLANE_STRESS, models[k]);
-            dense_note(&o, dense_error(&o, s.body, &s.desc, &s.material), PERI_PLANE_STRESS, models[k]);
-        }
-        o = extreme_end(o, s.body);
+    scene s;
+    s.row = row;
+    s.o = &o;
+    s.shape = BOX;
+    extreme_desc(&s.desc, PERI_PLANE_STRESS, precision, row->value);
+    extreme_material(&s.material, PERI_LPS, 0.3, 0);
+    s.body = lattice(&s, 37, 37, 1);
+    dense_scatter(&o, s.body, 0.1, 23);
+    if (s.body) {
+        dense_note(&o, peri_family_width(s.body) > 1024 ? 0 : 1, PERI_PLANE_STRESS, PERI_LPS);
+        dense_note(&o, dense_error(&o, s.body, &s.desc, &s.material), PERI_PLANE_STRESS, PERI_LPS);
     }
-    return o;
+    return extreme_end(o, s.body);
 }
 
 /* Sizes of families where the horizon is a hair from a shell of the lattice: choice 2D, other 3D. */
@@ -536,9 +531,11 @@ static const extreme rows[] = {
     {"points after families", "peri.h: the given families are not valid", given, 9, 2, MORE_POINTS, PERI_ERROR_IBOND, "ibond", REFUSED},
     {"bonds beyond w", "peri.h: no neighbour with a weight", given, 9, 0.5, NO_WEIGHT, PERI_ERROR_FAMILY, NULL, REFUSED},
     {"families of no width", "peri.h: a count that is not allowed", given, 9, 2, NO_WIDTH, PERI_ERROR_ARGUMENT, "width", REFUSED},
-    {"weights at 1 spacing", "Newton's third law, closed forms, W >= 0", weights, 1, LINE, BOX, PERI_OK, NULL, ROUNDINGS(500)},
-    {"weights at 1.5 spacings", "Newton's third law, closed forms, W >= 0", weights, 1.5, LINE, CLOUD, PERI_OK, NULL, ROUNDINGS(500)},
-    {"weights at 8 spacings, thin bodies", "Newton's third law, closed forms, W >= 0", weights, 8, PAIR, TILTED, PERI_OK, NULL,
+    {"weights at 1 spacing", "Newton's third law, closed forms, W >= 0", weights, 1, LINE, GRADED, PERI_OK, NULL, ROUNDINGS(500)},
+    {"weights at 1.5 spacings", "Newton's third law, closed forms, W >= 0", weights, 1.5, LINE, BOX, PERI_OK, NULL, ROUNDINGS(500)},
+    {"weights of clouds", "Newton's third law, closed forms, W >= 0", weights, 1.5, CLOUD, CLOUD, PERI_OK, NULL, ROUNDINGS(500)},
+    {"weights of a tilted plane", "Newton's third law, closed forms, W >= 0", weights, 3, TILTED, TILTED, PERI_OK, NULL, ROUNDINGS(500)},
+    {"weights at 8 spacings, thin bodies", "Newton's third law, closed forms, W >= 0", weights, 8, PAIR, OBLIQUE, PERI_OK, NULL,
      ROUNDINGS(500)},
     {"centroid rule", "nothing moves at rest; W >= 0", weights_in_2d, 2, CLOUD, PERI_PARTIAL_CENTROID, PERI_OK, NULL, ROUNDINGS(500)},
     {"moment rule", "Newton's third law, W >= 0", weights_in_2d, 2, -1, PERI_PARTIAL_MOMENT, PERI_OK, NULL, ROUNDINGS(500)},
