@@ -210,6 +210,7 @@ static int32_t peri__plan_steps(peri_body *b, const peri_run *r, double left, pe
     if (r->steps > 0) return PERI_OK;
     double duration = left / b->model->time, count = ceil(duration / plan->dt * (1.0 - 1e-12));
     if (count >= 9e18) return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
+    if (count < 1.0 && duration > 0.0) count = 1.0; /* however short */
     plan->steps = plan->full = (int64_t)count;
     plan->last = duration - (double)(plan->steps - 1) * plan->dt;
     if (!(plan->last < plan->dt)) return PERI_OK;

@@ -219,9 +219,10 @@ static outcome wrong_number(const extreme *row, int32_t precision) {
 }
 
 /* Short, but steps: u moves by v t, a force is what the bonds make of u, and the time is the duration. other: density, so the unit of
-   time. */
+   time. BOTH: a duration far below the step. */
 static outcome brief(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
+    const int timed = row->choice == DURATION || row->choice == BOTH;
     int32_t integrator;
     for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
         peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, row->other, row->other);
@@ -229,18 +230,20 @@ static outcome brief(const extreme *row, int32_t precision) {
         peri_run run;
         peri_run_init(&run);
         run.integrator = integrator;
-        if (row->choice == DURATION) run.duration = row->value;
+        if (timed) run.duration = row->value;
+        if (row->choice == BOTH) run.time_step = 100;
+        run.force_step = row->choice == BOTH;
         if (row->choice == TIME_STEP) run.time_step = row->value;
         if (row->choice == SAFETY) run.safety = row->value;
-        if (row->choice != DURATION) run.steps = 7;
+        if (!timed) run.steps = 7;
         pull(&o, b, 1e-3, 1e-6, 0.5);
         if (o.status < 0 || extreme_fails(&o, b, peri_advance(b, &run))) return extreme_end(o, b);
         elongation(&o, b, &e, &rate);
         (void)extreme_fails(&o, b, peri_read(b, PERI_FORCE_DENSITY, f, 6));
-        if (row->choice == DURATION && peri_time(b) != row->value) extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
+        if (timed && peri_time(b) != row->value) extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
         if (row->choice == TIME_STEP && !(fabs(peri_time(b) / 7 / row->value - 1) < 1e-15))
             extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
-        if (peri_step_count(b) != (row->choice == DURATION ? 1 : 7) || !(peri_time(b) > 0))
+        if (peri_step_count(b) != (timed ? 1 : 7) || !(peri_time(b) > 0))
             extreme_take(&o, HUGE_VAL, "steps", integrator, 0, 0);
         extreme_take(&o, fabs(e / 1e-3 - 1), "elongation", integrator, 0, 0);
         extreme_take(&o, fabs(rate / 1e-6 - 1), "rate", integrator, 0, 0);
@@ -341,6 +344,7 @@ static const extreme rows[] = {
     {"frames: every step, none, INT64_MAX steps stopped", "count of calls", frames, 0, 0, 0, PERI_OK, NULL, NONE},
     {"duration of 1e-300", "peri.h: duration > 0", brief, 1e-300, 1, DURATION, PERI_OK, NULL, SMALL},
     {"duration of 5e-324", "peri.h: duration > 0", brief, 4.9406564584124654e-324, 1, DURATION, PERI_OK, NULL, SMALL},
+    {"duration of 5e-324 in steps of 100", "peri.h: duration > 0", brief, 4.9406564584124654e-324, 1, BOTH, PERI_OK, NULL, SMALL},
     {"time step of 1e-300", "peri.h: time_step > 0", brief, 1e-300, 1, TIME_STEP, PERI_OK, NULL, SMALL},
     {"time step of 5e-324", "peri.h: time_step > 0", brief, 4.9406564584124654e-324, 1, TIME_STEP, PERI_OK, NULL, SMALL},
     {"a load of 1e30", "peri.h: faster than 1e9 speeds of sound", overloaded, 1e30, 0, 0, PERI_OK, NULL, NONE},

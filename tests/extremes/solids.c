@@ -225,7 +225,7 @@ static outcome factorised(const extreme *row, int32_t precision) {
                     compare(&o, &a, &s, &st, "space, law, preconditioner", pre);
                 }
                 st.method = PERI_BICGSTAB;
-                st.iterations = 1000;
+                st.iterations = 300;
                 compare(&o, &a, &s, &st, "space, law, BiCGSTAB", 0);
             }
             end_dense(&a);
@@ -266,7 +266,7 @@ static outcome uniform(const extreme *row, int32_t precision) {
             }
             peri_statics_init(&st);
             st.loose = loose;
-            st.iterations = floor > 0.01 * tolerance ? 1000 : 20000;
+            st.iterations = floor > 0.01 * tolerance ? 300 : 20000;
             if (o.status >= 0) {
                 code = peri_solve(b, &st, NULL);
                 if (code == PERI_ERROR_CONVERGENCE && floor > 0.01 * tolerance) tolerance = value_of(b); /* out of reach */

@@ -210,9 +210,9 @@ static void heavy_one(outcome *o, const extreme *row, int32_t precision, int32_t
         peri_body *b = plate(o, precision, space, model, geometry, 1);
         peri_statics s;
         peri_statics_init(&s);
-        s.iterations = 2000;
-        s.newton = 20;
-        s.halvings = 2;
+        s.iterations = 500;
+        s.newton = 10;
+        s.halvings = 1;
         if (row->choice == 0) (void)load_plate(o, b, row->value);
         else if (o->status >= 0)
             (void)extreme_fails(o, b, peri_prescribe_displacement(b, peri_select_box(b, NULL, lo, hi), PERI_X, far, NULL, NULL));
@@ -399,7 +399,7 @@ static void limit_one(outcome *o, const extreme *row, int32_t precision, int32_t
             peri_statics_init(&s);
             s.tolerance = row->value;
             s.method = method;
-            s.iterations = 300;
+            s.iterations = 200;
             s.halvings = 0; /* else what is left is a smaller load's */
             (void)load_plate(o, b, size);
             if (o->status >= 0) {

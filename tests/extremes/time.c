@@ -169,7 +169,7 @@ static void explode(outcome *o, peri_body *b, const extreme *row, kind k, peri_r
     (void)what;
     run->force_step = 1;
     if (k == DAMPED) run->damping = 1.99 / run->time_step;
-    for (n = 1; n <= 40 && o->status >= 0; n += n < 12 ? 1 : 14) {
+    for (n = 1; n <= 40 && o->status >= 0; n += n < 11 ? 2 : 19) {
         peri_error e;
         int32_t code;
         (void)extreme_fails(o, b, peri_reset(b));
