@@ -4,7 +4,9 @@
 #include "extremes.h"
 #include <time.h>
 
+#ifndef LONGEST
 #define LONGEST 10.0 /* [s] of a row in one precision, under sanitizers, too */
+#endif
 
 extreme_pool extreme_memory;
 
