@@ -26,7 +26,9 @@ fi
 for compiler in gcc clang; do
     if ! command -v $compiler > /dev/null; then skip "strict_$compiler" "no $compiler on this machine"; continue; fi
     out=build/checks/$compiler
-    queue "strict_$compiler" "$compiler $STRICT -O1 -c peri_impl.c -o $out.o"
+    fast=-ffast-math
+    [ $compiler = gcc ] || fast="$fast -ffp-contract=off -mrecip=none" # what clang's pragma leaves of it
+    queue "strict_$compiler" "$compiler $STRICT -O1 $fast -c peri_impl.c -o $out.fast.o"
     queue "strict_${compiler}_header_only" "$compiler $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c peri.h -o $out.h.o"
     queue "static_in_two_units_$compiler" "$compiler $STRICT -O0 -DPERI_PLAIN -I. tests/static_a.c tests/static_b.c -o $out.static -lm && \
         $out.static"
@@ -45,6 +47,12 @@ if command -v tcc > /dev/null; then
 else
     skip tcc "no tcc on this machine"
 fi
+if command -v i686-linux-gnu-gcc > /dev/null; then
+    queue i686 "i686-linux-gnu-gcc $STRICT -O1 -c peri_impl.c -o build/checks/i686.o && i686-linux-gnu-gcc $STRICT -O1 -static -I. \
+        tests/extremes/*.c build/checks/i686.o -o build/checks/i686 -lm && build/checks/i686 sizes"
+else
+    skip i686 "no i686-linux-gnu-gcc on this machine"
+fi
 queue dist "sh tests/check_dist.sh"
 run_queue
 
@@ -53,6 +61,14 @@ bits() { $CC $STRICT -I. tests/bits.c "$1" -o "$1.bits" $OPENMP -lm && "$1.bits"
 $CC $STRICT -I. tests/bits.c build/peri.o -o build/checks/bits $OPENMP -lm
 build/checks/bits > build/checks/bits.text
 for other in build/checks/*.other.o; do check "same_bits_$(basename "$other" .other.o)" bits "$other"; done
+
+# ---- -ffast-math: the same bits, and NaN is refused
+for fast in build/checks/*.fast.o; do
+    name=fast_math_$(basename "$fast" .fast.o)
+    check "${name}_bits" bits "$fast"
+    check "${name}_build" $CC $STRICT -I. tests/extremes/*.c "$fast" -o "$fast.extremes" $OPENMP -lm
+    program "$name" "$fast.extremes" callbacks
+done
 
 # ---- under sanitizers, what is quick enough
 if [ -n "$sanitized" ]; then
