@@ -2,6 +2,7 @@
 # make test      builds and runs every test, closing with "N passed, N failed"
 # make validate  the long tables of the source texts
 # make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
+# make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, half an hour
 # make examples  builds and runs every example
 # make lib       build/libperi.a and build/libperi.so
 # make dist      build/dist/peri.h, the single-file header
@@ -25,7 +26,7 @@ EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench examples lib dist fuzz lint clean
+.PHONY: all demo programs test validate machines bench examples lib dist fuzz lint clean
 all: lib
 
 build/peri.o: $(SOURCES)
@@ -96,6 +97,9 @@ test:
 validate:
 	@$(MAKE) --no-print-directory -j2 programs
 	@sh tests/run.sh --long
+
+machines:
+	@sh tests/machines.sh
 
 bench: build/bench/bench build/bench/statics build/bench/search
 	@mkdir -p out

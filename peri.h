@@ -57,8 +57,9 @@
               fixed blocks in a fixed order.
      Floats   IEEE 754, in any rounding mode (rounding up or down is not the same from both ends: a bond within rounding of its limit
               may then break at one end before the other). Nothing depends on denormals. gcc and clang leave -ffast-math out of
-              the library, whatever your flags (clang still fuses products into sums: add -ffp-contract=off for the same bits on all
-              vectors). 32-bit x86 without SSE2: compile with -std=c99 or -fexcess-precision=standard.
+              the library, whatever your flags (but clang's fuses products into sums and estimates square roots all the same: for the
+              same bits on all vectors add -ffp-contract=off -mrecip=none). 32-bit x86 without SSE2: compile with -std=c99 or
+              -fexcess-precision=standard.
 
    WHAT IT DOES NOT DO
      It does not print, exit, assert on your data, keep global state, read files, or touch the locale or, but in peri_plan where it

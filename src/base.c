@@ -19,7 +19,7 @@
 
 /* Arithmetic is what is written, whatever the user's flags: refusals compare with NaN and infinity, which -ffinite-math-only would fold
    away, and both ends of a bond must come to the same number, which sums taken in another order or fused with products (FMA) do not.
-   clang's -ffast-math fuses in spite of the pragma. Ends with peri_impl.c. */
+   clang's -ffast-math fuses, and estimates square roots, in spite of the pragma. Ends with peri_impl.c. */
 #if defined(__clang__) && __clang_major__ >= 12
 #define PERI_AS_WRITTEN
 #pragma float_control(push)

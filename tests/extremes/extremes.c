@@ -6,7 +6,9 @@
 #include <stdarg.h>
 #include <time.h>
 
+#ifndef LONGEST
 #define LONGEST 10.0 /* [s] of a row in one precision, under sanitizers, too */
+#endif
 
 extreme_pool extreme_memory;
 int extreme_long;
