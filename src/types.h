@@ -376,7 +376,8 @@ struct peri_body {
     double  load_factor;        /* of constant loads and supports; the time of callbacks where `still`                   */
     int32_t still;              /* 1: the last motion was a static one                                                   */
     int32_t force_current;      /* 1: f belongs to u, loads and cracks as they are                                       */
-    int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback: nothing may change   */
+    int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback: nothing may change; 3: that is
+                                   the log                                                                               */
     peri__ledger ledger;
 };
 
