@@ -214,10 +214,12 @@ PERI_API int64_t peri_cut_polyline(peri_body *b, int64_t count, const double *ve
     PERI_NEED(b, vertices, "vertices");
     for (int64_t k = 0; k < count; ++k) { /* all is checked before anything is cut */
         if (!peri__finite_vector(&vertices[2 * k], 2)) return peri__fail(b, PERI_ERROR_RANGE, "vertices", k, 0.0);
-        double here[2], last[2];
+        double here[2], last[2], edge[2];
         peri__inner(b, &vertices[2 * k], here);
         peri__inner(b, &vertices[k > 0 ? 2 * k - 2 : 0], last);
-        if (k > 0 && here[0] == last[0] && here[1] == last[1]) return peri__fail(b, PERI_ERROR_CRACK, "vertices", k, 0.0);
+        for (int d = 0; d < 2; ++d) edge[d] = here[d] - last[d];
+        double length = sqrt(peri__dot(edge, edge, 2));
+        if (k > 0 && !(length > 0.0 && peri__finite(length))) return peri__fail(b, PERI_ERROR_CRACK, "vertices", k, 0.0);
     }
     for (int64_t k = 0; k + 1 < count; ++k) {
         int64_t more = peri_cut_segment(b, &vertices[2 * k], &vertices[2 * k + 2]);
