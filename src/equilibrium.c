@@ -7,6 +7,10 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+static int32_t peri__fail_step(peri__solver *s, int32_t code, const char *field, int64_t index, double value) {
+    return peri__set_error(&s->failure, code, field, index, value);
+}
+
 static double peri__solve_tolerance(const peri__solver *s) {
     return s->settings->tolerance > 0.0 ? s->settings->tolerance : s->body->f32 ? 1e-4 : s->body->b32 ? 1e-5 : 1e-8;
 }
@@ -171,6 +175,16 @@ static int peri__gap(peri__solver *s) {
     return gap;
 }
 
+/* Does d lead further than 1e15 spacings, or is it not finite? The body would not come back from there. */
+static int peri__is_far(const peri__solver *s) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i)
+            if (!(fabs(peri__get_real(s->k.d, b->f32, d * m->stride + i)) < 1e15)) return 1;
+    return 0;
+}
+
 static void peri__move(peri__solver *s, double alpha) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
@@ -274,9 +288,9 @@ static int32_t peri__newton(peri__solver *s) {
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))
-            return s->negative ? peri__fail(b, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
+            return s->negative ? peri__fail_step(s, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
         if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))
-            return peri__fail(b, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
+            return peri__fail_step(s, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
         if (gap) peri__lift(s, at_rest);
         double reach = peri__newton_reach(s, residual, gap);
         last = residual;
@@ -287,7 +301,8 @@ static int32_t peri__newton(peri__solver *s) {
         s->negative = status == PERI_ERROR_INDEFINITE;
         if (status == PERI_ERROR_MEMORY) return status;
         if (status == PERI_ERROR_LOOSE || (linear && s->negative))
-            return peri__fail(b, status, "tangent", peri__most_moved(s), 0.0);
+            return peri__fail_step(s, status, "tangent", peri__most_moved(s), 0.0);
+        if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "displacement", -1, s->report.residual);
         if (linear || gap) {
             if (linear || status != PERI_STOPPED) peri__move(s, 1.0);
             if (status != PERI_STOPPED) loads = peri__static_forces(s);

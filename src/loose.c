@@ -319,7 +319,8 @@ static int32_t peri__invert_blocks(peri__solver *s) {
         if (memcmp(block, last, sizeof block) != 0) { /* in a lattice most are equal */
             memcpy(last, block, sizeof last);
             spanned = peri__invert(m->dim, block, cut, inverse);
-            if (peri__is_negative(m->dim, block, cut)) return peri__fail(b, PERI_ERROR_INDEFINITE, "point", i, 0.0);
+            if (peri__is_negative(m->dim, block, cut))
+                return peri__set_error(&s->failure, PERI_ERROR_INDEFINITE, "point", i, 0.0);
         }
         if (spanned < frees && peri__directions(b, i, s->held[i]) == frees) { /* soft beside stiff */
             peri__diagonal_block(b, i, block);

@@ -285,6 +285,7 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
     int32_t             begun;    /* 1: the body has been changed                                                        */
     int32_t             disturbed; /* 1: on_step has changed what acts, or the bonds                                      */
+    peri_error          failure;  /* why the last step ended: the body's record only where it is not halved               */
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
     int64_t             bytes;    /* taken now                                                                           */
     int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
