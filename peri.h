@@ -159,8 +159,8 @@ typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn tas
 /* Remarks that are no errors (level 0 information, 1 warning), such as a time step that was forced. */
 typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
 
-/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite; with partial volumes also a little beyond q = 1, for
-   cells whose centre lies outside. Called by peri_build, peri_plan and
+/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite, sizes above 1e100 being taken as infinite and below 1e-100
+   as 0; with partial volumes also a little beyond q = 1, for cells whose centre lies outside. Called by peri_build, peri_plan and
    peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. */
 typedef double (*peri_influence_fn)(void *user, double q);
 
@@ -791,9 +791,9 @@ typedef struct peri_plan_report {
 PERI_API void peri_plan_desc_init(peri_plan_desc *plan);
 
 /* What a scene will cost, before it is made. Refuses what peri_body_create, peri_add_material, peri_add_box and peri_build would refuse,
-   by the same codes and fields; PERI_ERROR_TOO_LARGE also where the bytes cannot be addressed (value: the bonds). The report is then all
-   zero. error may be NULL. Takes about a millisecond at usual horizons, however many the points. Where the weights of bonds are corrected,
-   whether a box gets columns or a list is an estimate. */
+   by the same codes and fields (negative influence functions: what a whole family refuses); PERI_ERROR_TOO_LARGE also where the bytes
+   cannot be addressed (value: the bonds). The report is then all zero. error may be NULL. Takes about a millisecond at usual horizons,
+   however many the points. Where the weights of bonds are corrected, whether a box gets columns or a list is an estimate. */
 PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error);
 
 /* ---- results ------------------------------------------------------------------------------------------------------ */
