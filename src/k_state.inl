@@ -340,7 +340,6 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
     double density = 0.0, square = 0.0;
     if (law->model == PERI_BOND_BASED) {
         for (int64_t k = 0; k < row->count; ++k) {
@@ -354,6 +353,7 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
         }
         return density;
     }
+    const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
     double sum = PERI_FN(stretched)(b, i, row, &square), dilate = (double)constant[PERI__DILATE * m->stride];
     density = 0.5 * (double)constant[PERI__SPRING * m->stride] * square;
     if (law->model != PERI_CORRESPONDENCE) return density + 0.5 * (double)constant[PERI__PRESS * m->stride] * dilate * sum * sum;
@@ -452,7 +452,7 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
 /* Energy densities of group g, by columns; not of correspondence. */
 static void PERI_FN(group_energy)(const peri_body *b, int64_t g, double density[PERI_LANES]) {
     const peri__model *m = b->model;
-    const peri_b *constant = (const peri_b *)b->constant + m->margin + g * PERI_LANES;
+    const peri_b *constant = m->states ? (const peri_b *)b->constant + m->margin + g * PERI_LANES : NULL;
     peri_r sum[PERI_LANES] = { 0 };
     PERI_ON_LANES(m->lanes.isa, squares, (b, g, density));
     if (m->dilates) PERI_ON_LANES(m->lanes.isa, stretched, (b, g, m->ordinary != PERI_OTERKUS, sum));
