@@ -1,8 +1,9 @@
 /* program.h - random programs: bytes that call the library, in any order, and what must hold after every call.
 
    SOURCE OF TRUTH: peri.h. A call returns a status that is listed; one that is refused has changed nothing and left its record; one that
-   succeeds leaves the record alone; counts agree with each other, damage lies in [0, 1]; as long as no call has reported
-   PERI_ERROR_UNSTABLE displacements and velocities are finite, and so is all that can be read where only numbers of ordinary size went in; peri_read_memory is what the allocator counts; destroying gives everything back.
+   succeeds leaves the record alone; counts agree with each other, damage lies in [0, 1]; a clone moves as its body does, to the last bit.
+   As long as no call has reported PERI_ERROR_UNSTABLE displacements and velocities are finite, and so is all that can be read where only
+   numbers of ordinary size went in. peri_read_memory is what the allocator counts, and destroying gives everything back.
 
    A program is: scene, then calls. Each call takes a byte for which, a byte for the mood (see begin_call), then what it asks for; past the
    end all bytes are 0. The bytes kept in program_corpus.h mean what they mean by this decoding: let calls be added at the end of the table
@@ -18,7 +19,7 @@
 #include <string.h>
 
 #define SLOTS 2
-#define HOOKS 96
+#define HOOKS 1024          /* more than a program can ask for: each has its own                                          */
 #define LEVELS 16
 #define POINTS_MOST 150     /* of a body that is built                                                                   */
 #define SITES_MOST 3000     /* of a shape                                                                                */
@@ -213,8 +214,7 @@ static int64_t told(program *p, int s, int64_t status, int line);
 #define CALL(p, s, call) told((p), (s), (enter((p), (s), #call), (int64_t)(call)), __LINE__)
 
 static hook *new_hook(program *p, int s, int32_t kinds) {
-    hook *h = &p->hooks[p->hook_count % HOOKS];
-    if (p->hook_count < HOOKS) p->hook_count++;
+    hook *h = &p->hooks[p->hook_count < HOOKS ? p->hook_count++ : 0];
     h->p = p;
     h->kind = below(p, kinds);
     h->dim = p->slots[s].dim;
@@ -289,8 +289,8 @@ static void on_break(void *user, int32_t i, int32_t j, double time, double stret
     if (h->kind == 1) meddle(h->p);
 }
 
-enum { INFLUENCE_ONE, INFLUENCE_FALLS, INFLUENCE_DECAYS, INFLUENCE_NEGATIVE, INFLUENCE_FAILS, INFLUENCE_NONE, INFLUENCE_HUGE, INFLUENCE_TINY,
-       INFLUENCE_KINDS };
+enum { INFLUENCE_ONE, INFLUENCE_FALLS, INFLUENCE_DECAYS, INFLUENCE_NEGATIVE, INFLUENCE_FAILS, INFLUENCE_NONE, INFLUENCE_HUGE,
+       INFLUENCE_TINY, INFLUENCE_KINDS };
 
 static double on_influence(void *user, double q) {
     const hook *h = (const hook *)user;

@@ -40,7 +40,12 @@ static int64_t select_points(program *p, int s) {
     for (k = 0; k < count; ++k) p->ids[k] = some_id(p, points_of(o));
     if (kind == 0) return CALL(p, s, peri_select_box(o->body, name, GIVEN(0, lo), GIVEN(1, hi)));
     if (kind == 1) return CALL(p, s, peri_select_ball(o->body, name, GIVEN(0, lo), number(p, o->length, 4.0 * o->length)));
-    if (kind == 2) return CALL(p, s, peri_select_points(o->body, name, p->mood == MOOD_CHOICES ? 0 : count, GIVEN(0, p->ids)));
+    if (kind == 2) {
+        const int64_t status = CALL(p, s, peri_select_points(o->body, name, p->mood == MOOD_CHOICES && lo[0] > hi[0] ? 0 : count,
+                                                             GIVEN(0, p->ids)));
+        for (k = 0; k < count && status >= 0; ++k) HOLDS(p, p->ids[k] >= 0 && p->ids[k] < points_of(o));
+        return status;
+    }
     return CALL(p, s, peri_select_if(o->body, name, GIVEN(0, on_point), new_hook(p, s, 5)));
 }
 
@@ -51,7 +56,8 @@ static int64_t look_at_sets(program *p, int s) {
     if (found >= 0) HOLDS(p, found > 0 && peri_set_size(b, found) > 0);
     const int64_t status = CALL(p, s, peri_read_set(b, set, GIVEN(0, p->ids), p->mood == MOOD_CHOICES ? number_of(p, 0, 4) : ROOM));
     int64_t k;
-    for (k = 0; status == PERI_OK && k < size; ++k) HOLDS(p, p->ids[k] >= 0 && (k == 0 || p->ids[k] > p->ids[k - 1]));
+    for (k = 0; status == PERI_OK && k < size; ++k)
+        HOLDS(p, p->ids[k] >= 0 && p->ids[k] < points_of(&p->slots[s]) && (k == 0 || p->ids[k] > p->ids[k - 1]));
     return status;
 }
 
@@ -126,7 +132,8 @@ static int64_t write_state(program *p, int s) {
     for (k = 0; k < n; ++k) p->in[k] = size * sin(step * (double)(k % 97) + (double)(k % o->dim));
     k = draw(p);
     if (p->mood == MOOD_NUMBERS && n > 0) p->in[k % n] = number(p, -size, size);
-    const int64_t status = CALL(p, s, peri_write(o->body, field, GIVEN(0, p->in), p->mood == MOOD_CHOICES && draw(p) % 2 ? below(p, 9) : n));
+    const int64_t count = p->mood == MOOD_CHOICES && draw(p) % 2 ? below(p, 9) : n;
+    const int64_t status = CALL(p, s, peri_write(o->body, field, GIVEN(0, p->in), count));
     if (o->busy && o->body) HOLDS(p, status == PERI_ERROR_ORDER);
     return status;
 }
@@ -203,7 +210,9 @@ static int64_t add_obstacle(program *p, int s) {
     return id;
 }
 
-static int64_t remove_obstacle(program *p, int s) { return CALL(p, s, peri_remove_obstacle(p->slots[s].body, some_id(p, p->slots[s].obstacles))); }
+static int64_t remove_obstacle(program *p, int s) {
+    return CALL(p, s, peri_remove_obstacle(p->slots[s].body, some_id(p, p->slots[s].obstacles)));
+}
 
 /* What was wild may be NaN; what was not is finite. */
 static int64_t look_at_forces(program *p, int s) {

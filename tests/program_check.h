@@ -52,7 +52,8 @@ static int64_t told(program *p, int s, int64_t status, int line) {
     if (status < 0) {
         const int32_t code = (int32_t)status;
         if (status < PERI_ERROR_CONVERGENCE) blame(p, "the status is listed", line);
-        if (e.code != code || e.reserved != 0 || !e.field || e.text != peri_status_text(code)) blame(p, "the record is of this refusal", line);
+        if (e.code != code || e.reserved != 0 || !e.field || e.text != peri_status_text(code))
+            blame(p, "the record is of this refusal", line);
         if (!names_a_point(o, &e)) blame(p, "the record names a point", line);
         if (code == PERI_ERROR_MEMORY && p->memory.refused == p->refused[p->level]) blame(p, "the allocator has refused", line);
         if (code == PERI_ERROR_UNSTABLE) o->lost = 1;
