@@ -466,6 +466,8 @@ PERI_API const char *peri_kernel_text(const peri_body *body);
    small or cut bodies up to 3 times.
    Broken bonds only make a bond-based body softer. State-based laws spread the modulus over the bonds that are left, so a point that
    hangs on a few short ones is stiffer than before: for them this falls as bonds break, and never exceeds that of the whole body.
+   It is that of the body as built: nonlinear correspondence that is stretched is stiffer (twice the length asks for 0.4 of the step), and
+   so are bonds across their length that are squeezed to a fraction of it; the ledger's error tells, in time PERI_ERROR_UNSTABLE.
    0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
