@@ -5,6 +5,7 @@
 # make examples  builds and runs every example
 # make lib       build/libperi.a and build/libperi.so
 # make dist      build/dist/peri.h, the single-file header
+# make fuzz      random programs by libFuzzer under sanitizers, FUZZ_TIME seconds long (300); needs clang
 # make lint      strict warnings under every compiler found, static analysis, house rules
 # make clean     removes build/ and out/
 
@@ -23,7 +24,7 @@ SOURCES = peri.h peri_impl.c $(wildcard src/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 
-.PHONY: all demo programs test validate bench examples lib dist lint clean
+.PHONY: all demo programs test validate bench examples lib dist fuzz lint clean
 all: lib
 
 build/peri.o: $(SOURCES)
@@ -96,6 +97,28 @@ dist: build/dist/peri.h
 build/dist/peri.h: $(SOURCES) tools/dist.awk
 	@mkdir -p $(@D)
 	awk -f tools/dist.awk peri.h > $@
+
+# tests/program.h says what is checked; the kept programs of tests/program_corpus.h are where it starts
+FUZZ_TIME ?= 300
+FUZZ = clang -std=c99 -g -O1 -I. -fno-sanitize-recover=all -fsanitize=address,undefined,fuzzer
+build/fuzz/peri.o: $(SOURCES)
+	@mkdir -p $(@D)
+	$(FUZZ)-no-link -c peri_impl.c -o $@
+
+build/fuzz/fuzz: tests/fuzz.c $(wildcard tests/program*.h) build/fuzz/peri.o
+	$(FUZZ) $< build/fuzz/peri.o -o $@ -lm
+
+build/fuzz/seeds: tests/test_programs.c $(wildcard tests/program*.h tests/peri_test.h) build/fuzz/peri.o
+	$(FUZZ)-no-link $< build/fuzz/peri.o -o $@ -lm
+
+fuzz:
+	@mkdir -p build/fuzz build/fuzz_corpus
+	@if echo 'int LLVMFuzzerTestOneInput(const char *d, long n) { return !d && n; }' | \
+	    clang -w -fsanitize=address,undefined,fuzzer -x c - -o build/fuzz/probe 2>/dev/null; then \
+	    $(MAKE) --no-print-directory build/fuzz/fuzz build/fuzz/seeds && build/fuzz/seeds --seeds build/fuzz_corpus && \
+	    build/fuzz/fuzz -max_total_time=$(FUZZ_TIME) -timeout=20 -max_len=400 -print_final_stats=1 -artifact_prefix=build/fuzz/ \
+	        build/fuzz_corpus; \
+	else echo "fuzz: no clang with libFuzzer on this machine, skipped"; fi
 
 lint:
 	@CC="$(CC)" sh tools/lint.sh

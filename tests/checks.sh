@@ -17,7 +17,7 @@ check example_length sh -c 'for e in examples/*.c; do
 sanitized=""
 if echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; then
     sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
-        test_loadsteps test_loose test_memory test_output test_plan test_quadrature test_random test_search \
+        test_loadsteps test_loose test_memory test_output test_plan test_programs test_quadrature test_random test_search \
         test_solvers"
     queue sanitized_library "$CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o"
 else
