@@ -704,8 +704,8 @@ PERI_API void peri_statics_init(peri_statics *statics);
    there is none in this call, and after bonds have broken in it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or
    softening: the tangent has a negative direction, and no equilibrium was found further down; directions that nothing excites are not
    looked for: a perfect strut stays straight until something pushes it aside), PERI_ERROR_CONVERGENCE (value: residual
-   reached), PERI_ERROR_RANGE (all loads over E, and ways of supports over the spacing, are below 1e-132, in mixed precision 1e-25, in
-   single 1e-26, which cannot be told from rest), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when
+   reached), PERI_ERROR_RANGE (all loads over E, and ways of supports over the spacing, are below 1e-132, in mixed precision 1e-37, in
+   single 1e-38, which cannot be told from rest), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when
    forces are read; peri_advance takes them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
 

@@ -99,7 +99,7 @@ static void peri__note_floor(peri__solver *s) {
 static int32_t peri__check_faint(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
-    const double limit = PERI_NOTHING(b) / peri__solve_tolerance(s);
+    const double limit = PERI_NOTHING(b) / fmax(peri__solve_tolerance(s), peri__rounding(b));
     double asked = s->widest, others = 0.0;
     for (int64_t l = 0; l < b->load_count; ++l) { /* as double has them: single precision may hold nothing of them */
         const peri__load *load = &b->loads[l];
