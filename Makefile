@@ -2,9 +2,11 @@
 # make test      builds and runs every test, closing with "N passed, N failed"
 # make validate  the long tables of the source texts
 # make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
+# make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, half an hour
 # make examples  builds and runs every example
 # make lib       build/libperi.a and build/libperi.so
 # make dist      build/dist/peri.h, the single-file header
+# make fuzz      random programs by libFuzzer under sanitizers, FUZZ_TIME seconds long (300); needs clang
 # make lint      strict warnings under every compiler found, static analysis, house rules
 # make clean     removes build/ and out/
 
@@ -22,8 +24,9 @@ export OMP_WAIT_POLICY ?= passive
 SOURCES = peri.h peri_impl.c $(wildcard src/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
+EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench examples lib dist lint clean
+.PHONY: all demo programs test validate machines bench examples lib dist fuzz lint clean
 all: lib
 
 build/peri.o: $(SOURCES)
@@ -47,6 +50,14 @@ build/examples/%.o: examples/%.c peri.h $(wildcard examples/*.h)
 build/tests/%.o: tests/%.c peri.h $(wildcard tests/*.h)
 	@mkdir -p $(@D)
 	$(COMPILE) -c $< -o $@
+
+build/extremes/%.o: tests/extremes/%.c peri.h tests/peri_test.h $(wildcard tests/extremes/*.h)
+	@mkdir -p $(@D)
+	$(COMPILE) -c $< -o $@
+
+build/tests/extremes: $(EXTREMES:%=build/extremes/%.o) build/peri.o
+	@mkdir -p $(@D)
+	$(CC) $(OPENMP) $^ -o $@ -lm
 
 build/%: build/%.o build/peri.o
 	$(CC) $(OPENMP) $^ -o $@ -lm
@@ -77,7 +88,7 @@ examples: $(EXAMPLES:%=build/examples/%)
 	@mkdir -p out
 	@for e in $(EXAMPLES); do echo "== $$e"; build/examples/$$e || exit 1; done
 
-programs: $(TESTS:%=build/tests/%) $(EXAMPLES:%=build/examples/%) build/libperi.so
+programs: $(TESTS:%=build/tests/%) build/tests/extremes $(EXAMPLES:%=build/examples/%) build/libperi.so
 
 test:
 	@$(MAKE) --no-print-directory -j2 programs
@@ -86,6 +97,9 @@ test:
 validate:
 	@$(MAKE) --no-print-directory -j2 programs
 	@sh tests/run.sh --long
+
+machines:
+	@sh tests/machines.sh
 
 bench: build/bench/bench build/bench/statics build/bench/search
 	@mkdir -p out
@@ -97,6 +111,28 @@ dist: build/dist/peri.h
 build/dist/peri.h: $(SOURCES) tools/dist.awk
 	@mkdir -p $(@D)
 	awk -f tools/dist.awk peri.h > $@
+
+# tests/program.h says what is checked; the kept programs of tests/program_corpus.h are where it starts
+FUZZ_TIME ?= 300
+FUZZ = clang -std=c99 -g -O1 -I. -fno-sanitize-recover=all -fsanitize=address,undefined,fuzzer
+build/fuzz/peri.o: $(SOURCES)
+	@mkdir -p $(@D)
+	$(FUZZ)-no-link -c peri_impl.c -o $@
+
+build/fuzz/fuzz: tests/fuzz.c $(wildcard tests/program*.h) build/fuzz/peri.o
+	$(FUZZ) $< build/fuzz/peri.o -o $@ -lm
+
+build/fuzz/seeds: tests/test_programs.c $(wildcard tests/program*.h tests/peri_test.h) build/fuzz/peri.o
+	$(FUZZ)-no-link $< build/fuzz/peri.o -o $@ -lm
+
+fuzz:
+	@mkdir -p build/fuzz build/fuzz_corpus
+	@if echo 'int LLVMFuzzerTestOneInput(const char *d, long n) { return !d && n; }' | \
+	    clang -w -fsanitize=address,undefined,fuzzer -x c - -o build/fuzz/probe 2>/dev/null; then \
+	    $(MAKE) --no-print-directory build/fuzz/fuzz build/fuzz/seeds && build/fuzz/seeds --seeds build/fuzz_corpus && \
+	    build/fuzz/fuzz -max_total_time=$(FUZZ_TIME) -timeout=20 -max_len=400 -print_final_stats=1 -artifact_prefix=build/fuzz/ \
+	        build/fuzz_corpus; \
+	else echo "fuzz: no clang with libFuzzer on this machine, skipped"; fi
 
 lint:
 	@CC="$(CC)" sh tools/lint.sh

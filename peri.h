@@ -34,6 +34,8 @@
    CONVENTIONS
      Units    Any consistent set. [L] length, [M] mass, [T] time; [M L^-1 T^-2] is a stress or a modulus. Inside, lengths are
               scaled by the spacing and stresses by Young's modulus, so nanometres in single precision are as good as metres.
+              Where a product of units (energy, time, momentum, ...) leaves 1e-250..1e250 peri_build refuses: PERI_ERROR_RANGE.
+              So it does where materials of one body differ in E by 1e25 in single and mixed precision, in density in single.
      Arrays   Per-point vectors are interleaved: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D ("[points*dim]").
               `const double *p` for one place or one vector has dim entries. All of the API speaks double.
      Planes   In PERI_PLANE_STRESS and PERI_PLANE_STRAIN a point's "volume" is its area [L^2], and the "area" of a loaded
@@ -52,7 +54,12 @@
               share, must then bear it). Callbacks run on the thread that made the call, one at a time (exception: the tasks
               that you are given in parallel_for).
      Same bits for any number of threads: each point sums its own bonds in a fixed order, and totals are summed over
-              fixed blocks in a fixed order. (Compile without -ffast-math.)
+              fixed blocks in a fixed order.
+     Floats   IEEE 754, in any rounding mode (rounding up or down is not the same from both ends: a bond within rounding of its limit
+              may then break at one end before the other). Nothing depends on denormals. gcc and clang leave -ffast-math out of
+              the library, whatever your flags (but clang's fuses products into sums and estimates square roots all the same: for the
+              same bits on all vectors add -ffp-contract=off -mrecip=none). 32-bit x86 without SSE2: compile with -std=c99 or
+              -fexcess-precision=standard.
 
    WHAT IT DOES NOT DO
      It does not print, exit, assert on your data, keep global state, read files, or touch the locale or, but in peri_plan where it
@@ -146,22 +153,24 @@ PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_
 
 /* ---- hooks -------------------------------------------------------------------------------------------------------- */
 
-/* Memory. Both functions or neither. release gets the size that allocate was asked for. Any alignment will do. */
+/* Memory. Both functions or neither. release gets the size that allocate was asked for. Any alignment will do. Neither may call the
+   library for a body that uses it. */
 typedef void *(*peri_allocate_fn)(void *user, uint64_t bytes);
 typedef void (*peri_release_fn)(void *user, void *pointer, uint64_t bytes);
 
 /* Your job system: call task(context, k) once for every k in [0, count), in any order, on any threads, and return when
    all are done. Without it the loops run under OpenMP where the compiler has it on, else serially. Results do not depend
-   on the choice, to the last bit. */
+   on the choice, to the last bit. It may not read the body: what it would use is in use. */
 typedef void (*peri_task_fn)(void *context, int64_t k);
 typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn task, void *context);
 
 /* Remarks that are no errors (level 0 information, 1 warning), such as a time step that was forced. */
 typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
 
-/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite; with partial volumes also a little beyond q = 1, for
-   cells whose centre lies outside. Called by peri_build, peri_plan and
-   peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. */
+/* Influence function w(q), q = |xi|/horizon > 0, dimensionless and finite, sizes above 1e100 being taken as infinite and below 1e-100
+   as 0; with partial volumes also a little beyond q = 1, for cells whose centre lies outside. Called by peri_build, peri_plan and
+   peri_read_bond_constants only. Negative values are accepted, but only a non-negative w gives a stable solid. Sums of w over a family
+   beyond 1e100 or below 1e-100 are refused, in mixed and single precision beyond 1e32 or below 1e-32. */
 typedef double (*peri_influence_fn)(void *user, double q);
 
 /* Nonzero takes the point at x[dim], zero leaves it out. index numbers the candidates (lattice sites or points). */
@@ -284,7 +293,8 @@ typedef enum peri_instructions {
 typedef struct peri_body_desc {
     uint64_t          cookie;           /* set by peri_body_desc_init                                                    */
     int32_t           space;            /* peri_space. Required                                                          */
-    int32_t           precision;        /* PERI_F64 (default); PERI_F32: faster, 0.65 of the memory, but strains < 1e-6 lose digits; or
+    int32_t           precision;        /* PERI_F64 (default); PERI_F32: faster, 0.65 of the memory, but strains < 1e-6 lose digits,
+                                           and bonds shorter than 1e-6 of the extent are refused (PERI_ERROR_COINCIDENT); or
                                            PERI_MIXED: the state as F64, bonds and their weights as F32: any strain to 7 digits;
                                            clouds take little more memory than as F32                                    */
     int32_t           geometry;         /* peri_geometry. Default PERI_NONLINEAR                                         */
@@ -340,8 +350,9 @@ PERI_API int32_t peri_last_error(const peri_body *body, peri_error *error);
 
    A = 3K - 5 mu, B = 15 mu in 3D; 2 lambda - 2 mu, 8 mu in plane strain; the same with lambda' = E nu/(1-nu^2) in plane stress.
    LPS at the Poisson ratio of a bond-based material has A = 0 and skips theta. Oterkus takes the spring of LPS where a family has less
-   than a fifth of the moment that calibrates shear, and never one that could make the energy negative (families of
-   odd shape, or steep w, at low Poisson ratios). Oterkus's factor Lambda (cosine of the bond's rotation)
+   than a fifth of the moment that calibrates shear, and never one that could make the energy negative: with constant w shear is
+   softer than asked for below a Poisson ratio of -0.64 in plane stress and -0.72 in 3D (the log says so), where w is steep or the
+   family of odd shape before that. Oterkus's factor Lambda (cosine of the bond's rotation)
    is taken as 1: with it the law would not be objective. Bonds that are broken or cut are in none of the sums. A correspondence point
    whose live bonds span too little (K nearly singular) acts by central bonds alone, t = B w e/m0 with m0 of the whole family. */
 typedef enum peri_model {
@@ -455,6 +466,8 @@ PERI_API const char *peri_kernel_text(const peri_body *body);
    small or cut bodies up to 3 times.
    Broken bonds only make a bond-based body softer. State-based laws spread the modulus over the bonds that are left, so a point that
    hangs on a few short ones is stiffer than before: for them this falls as bonds break, and never exceeds that of the whole body.
+   It is that of the body as built: nonlinear correspondence that is stretched is stiffer (twice the length asks for 0.4 of the step), and
+   so are bonds across their length that are squeezed to a fraction of it; the ledger's error tells, in time PERI_ERROR_UNSTABLE.
    0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
@@ -518,7 +531,8 @@ PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 #define PERI_Y 2
 #define PERI_Z 4
 
-/* Add the constant vector value[dim] to the displacement [L] / velocity [L T^-1] of a set, now; peri_reset clears both. */
+/* Add the constant vector value[dim] to the displacement [L] / velocity [L T^-1] of a set, now; peri_reset clears both. PERI_ERROR_RANGE,
+   as by peri_write, beyond 1e15 spacings (1e11 of nonlinear correspondence in mixed and single precision) and 1e9 speeds of sound. */
 PERI_API int32_t peri_add_displacement(peri_body *body, int32_t set, const double *value);
 PERI_API int32_t peri_add_velocity(peri_body *body, int32_t set, const double *value);
 
@@ -578,7 +592,7 @@ typedef struct peri_run {
     int32_t       integrator;   /* peri_integrator. Default PERI_VELOCITY_VERLET                                         */
     int32_t       force_step;   /* 1 = take time_step even if it is larger than peri_stable_step. Default 0: refused     */
     int64_t       steps;        /* run this many steps; or                                                               */
-    double        duration;     /* [T] run this long; the last step is shortened to end exactly there. One of the two is
+    double        duration;     /* [T] run this long; the last two steps are shortened alike to end exactly there. One of the two is
                                    required: both default to 0                                                           */
     double        time_step;    /* [T] > 0; 0 (default) = safety * peri_stable_step, made shorter where broken bonds shorten that */
     double        safety;       /* (0, 1]. Default 0.9                                                                   */
@@ -609,7 +623,8 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again
    (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 1e-3, in mixed precision
    below 1e-7 and 1e-6: a tolerance out of reach ends with PERI_ERROR_CONVERGENCE at the best that there is. Where nothing acts (a body
-   turned rigidly) rounding is good enough. */
+   turned rigidly) rounding is good enough; forces below 1e-140 (single and mixed precision: 1e-42) of Young's modulus times a face of a
+   cell are nothing. */
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
     PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */
@@ -687,9 +702,11 @@ PERI_API void peri_statics_init(peri_statics *statics);
 /* Solves; report may be NULL. Velocities become zero. The ledger counts the work of loads and supports by the trapezoidal rule from each
    equilibrium to the next, those in between bonds breaking included. A step that fails leaves the body at the equilibrium before it; where
    there is none in this call, and after bonds have broken in it, as far as it came. PERI_ERROR_LOOSE, PERI_ERROR_INDEFINITE (buckling or
-   softening: the tangent has a negative direction, and no equilibrium was found further down), PERI_ERROR_CONVERGENCE (value: residual
-   reached), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when forces are read; peri_advance takes
-   them at 1, and at its time, again. */
+   softening: the tangent has a negative direction, and no equilibrium was found further down; directions that nothing excites are not
+   looked for: a perfect strut stays straight until something pushes it aside), PERI_ERROR_CONVERGENCE (value: residual
+   reached), PERI_ERROR_RANGE (all loads over E, and ways of supports over the spacing, are below 1e-132, in mixed precision 1e-37, in
+   single 1e-38, which cannot be told from rest), PERI_ERROR_CALLBACK. Loads stay at the last factor, and callbacks are asked for it, when
+   forces are read; peri_advance takes them at 1, and at its time, again. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_statics *statics, peri_statics_report *report);
 
 /* Tractions that pass the patch test: value[dim] [M L^-1 T^-2] on a face of `area` and outward `normal`, given to all points that feel the
@@ -791,9 +808,9 @@ typedef struct peri_plan_report {
 PERI_API void peri_plan_desc_init(peri_plan_desc *plan);
 
 /* What a scene will cost, before it is made. Refuses what peri_body_create, peri_add_material, peri_add_box and peri_build would refuse,
-   by the same codes and fields; PERI_ERROR_TOO_LARGE also where the bytes cannot be addressed (value: the bonds). The report is then all
-   zero. error may be NULL. Takes about a millisecond at usual horizons, however many the points. Where the weights of bonds are corrected,
-   whether a box gets columns or a list is an estimate. */
+   by the same codes and fields (negative influence functions: what a whole family refuses); PERI_ERROR_TOO_LARGE also where the bytes
+   cannot be addressed (value: the bonds). The report is then all zero. error may be NULL. Takes about a millisecond at usual horizons,
+   however many the points. Where the weights of bonds are corrected, whether a box gets columns or a list is an estimate. */
 PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error);
 
 /* ---- which trade to take ------------------------------------------------------------------------------------------ */

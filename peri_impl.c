@@ -89,4 +89,9 @@
 #include "src/plan.c"       /* what a scene would cost                                                     */
 #include "src/choose.c"     /* the knobs for an accuracy or a budget                                       */
 
+#if defined(PERI_AS_WRITTEN) && defined(__clang__)
+#pragma float_control(pop)
+#elif defined(PERI_AS_WRITTEN)
+#pragma GCC pop_options
+#endif
 #undef PERI_IMPL

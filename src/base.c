@@ -17,6 +17,23 @@
 #define PERI_PREFETCH(address) ((void)(address))
 #endif
 
+/* Arithmetic is what is written, whatever the user's flags: refusals compare with NaN and infinity, which -ffinite-math-only would fold
+   away, and both ends of a bond must come to the same number, which sums taken in another order or fused with products (FMA) do not.
+   clang's -ffast-math fuses, and estimates square roots, in spite of the pragma. Ends with peri_impl.c. */
+#if defined(__clang__) && __clang_major__ >= 12
+#define PERI_AS_WRITTEN
+#pragma float_control(push)
+#pragma float_control(precise, on)
+#pragma clang fp contract(off)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__TINYC__) &&                                                \
+    (__FINITE_MATH_ONLY__ || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__) || \
+     defined(__FP_FAST_FMA))
+#define PERI_AS_WRITTEN
+#pragma GCC push_options
+#pragma GCC optimize("no-finite-math-only", "no-associative-math", "no-reciprocal-math", "signed-zeros", "no-unsafe-math-optimizations", \
+                     "fp-contract=off")
+#endif
+
 /* Kernels on columns and on the list work on vectors (k_vector.inl): on x86-64 with the best instruction set, chosen at run time; elsewhere
    those of gcc and clang, or plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the
    same bits. gcc gets its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which
@@ -86,6 +103,19 @@ static double peri__dot(const double *a, const double *b, int32_t dim) {
     double sum = 0.0;
     for (int32_t d = 0; d < dim; ++d) sum += a[d] * b[d];
     return sum;
+}
+
+/* The direction of a, of length 1; scaled by a power of 2 first, so that squares stay in range. 0 where it has none. */
+static int peri__direction(const double *a, int32_t dim, double *unit) {
+    double largest = 0.0, length;
+    int exponent;
+    for (int32_t d = 0; d < dim; ++d)
+        if (fabs(a[d]) > largest) largest = fabs(a[d]);
+    (void)frexp(largest, &exponent);
+    for (int32_t d = 0; d < dim; ++d) unit[d] = ldexp(a[d], -exponent);
+    length = sqrt(peri__dot(unit, unit, dim));
+    for (int32_t d = 0; largest > 0.0 && d < dim; ++d) unit[d] /= length;
+    return largest > 0.0;
 }
 
 /* splitmix64: a fixed generator, so that a seed means the same grid on every machine. Uniform in [-1, 1). */

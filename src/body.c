@@ -108,6 +108,13 @@ static void peri__note_law(peri__model *m, const peri__law *law, int32_t criteri
     m->ordinary = m->uniform == PERI_LPS || m->uniform == PERI_OTERKUS ? m->uniform : 0;
 }
 
+/* Are the modulus and density of material i, in those of the body, within what bonds and states can be reckoned with? */
+static int32_t peri__check_contrast(peri_body *b, const peri__model *m, int32_t i) {
+    const double least = b->b32 ? 1e-25 : 1e-250, light = b->f32 ? 1e-25 : 1e-250;
+    if (!(m->laws[i].young > least)) return peri__fail(b, PERI_ERROR_RANGE, "young", i, m->laws[i].young);
+    return m->rho[i] > light && m->rho[i] < 1.0 / light ? PERI_OK : peri__fail(b, PERI_ERROR_RANGE, "density", i, m->rho[i]);
+}
+
 /* Units of stress and density, and the constants of all pairs of materials in them. */
 static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
     int32_t n = b->material_count;
@@ -117,24 +124,29 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
     for (int64_t i = 0; i < m->points; ++i) used[m->material[i]] = 1;
     m->pairs = (peri__pair *)peri__new(&m->memory, (int64_t)n * n, sizeof *m->pairs);
     if (!m->pairs) return peri__fail(b, PERI_ERROR_MEMORY, "materials", -1, 0.0);
-    m->density = b->materials[0].density;
-    for (int32_t i = 0; i < n; ++i) {
-        double young = peri__young(&b->materials[i], b->desc.space);
+    m->density = HUGE_VAL;
+    for (int32_t i = 0; i < n; ++i) { /* a material that no point has may have any numbers */
+        double young = peri__young(&b->materials[i], b->desc.space), density = b->materials[i].density;
         if (used[i] && young > m->stress) m->stress = young;
+        if (used[i] && density < m->density) m->density = density;
     }
-    m->time = m->length * sqrt(m->density / m->stress);
-    m->energy = m->stress * m->length * m->length * (b->dim == 3 ? m->length : b->desc.thickness);
+    int32_t status = peri__fill_units(b, m);
+    if (status < 0) return status;
     for (int32_t i = 0; i < n; ++i) {
-        m->rho[i] = b->materials[i].density / m->density;
+        m->rho[i] = used[i] ? b->materials[i].density / m->density : 1.0;
         m->laws[i] = peri__law_of(&b->materials[i], b->desc.space, m->stress);
+        if (used[i]) status = peri__check_contrast(b, m, i);
+        if (status < 0) return status;
         if (used[i]) peri__note_law(m, &m->laws[i], b->materials[i].criterion);
-        int32_t status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
+        if (used[i] && peri__is_soft(b, &m->laws[i], 0.5 * m->spacing / m->horizon))
+            peri__log(b, 1, "Oterkus: at this Poisson ratio the spring of whole families is held back: shear is softer than asked for");
+        status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
         if (status < 0) return status;
     }
     for (int32_t i = 0; i < n; ++i)
         for (int32_t j = 0; j < n; ++j) {
             peri__pair *pair = &m->pairs[i * n + j];
-            int32_t status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, own, pair);
+            status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, own, pair);
             if (status < 0) return status;
             if (pair->s0 < PERI_NEVER || pair->bond_energy < PERI_NEVER || pair->node_energy < PERI_NEVER) m->breakable = 1;
         }

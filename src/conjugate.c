@@ -6,7 +6,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_NOTHING(b) ((b)->b32 ? 1e-30 : 1e-140) /* forces whose squares underflow; inner units                         */
+#define PERI_NOTHING(b) ((b)->b32 ? 1e-42 : 1e-140) /* forces that count as none: they, or their squares, underflow; inner units */
 
 static int peri__is_linear(const peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -80,14 +80,19 @@ static double peri__precondition(peri__solver *s) {
 static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
     double held = sqrt(sums.b);
     s->scale = loads > held ? loads : held;
-    if (s->scale > s->top && s->scale < HUGE_VAL) s->top = s->scale;
+    if (!(s->scale < HUGE_VAL)) { /* nothing is small beside that */
+        s->scale = 0.0;
+        return HUGE_VAL;
+    }
+    if (s->scale > s->top) s->top = s->scale;
     return sqrt(sums.a);
 }
 
 /* Is a residual no more than rounding, of the bonds' forces or of what acted before, in a body that nothing loads and no support strains?
    Reactions then fall with it. */
 static int peri__is_nothing(const peri__solver *s, double residual, double loads) {
-    return residual <= PERI_NOTHING(s->body) || (loads == 0.0 && residual <= s->floor && s->scale <= s->floor);
+    const double nothing = PERI_NOTHING(s->body);
+    return (residual <= nothing && s->scale <= nothing) || (loads == 0.0 && residual <= s->floor && s->scale <= s->floor);
 }
 
 /* One more iteration, told to the callback. */
@@ -112,8 +117,10 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
     for (int64_t k = 0;; ++k) {
         double before = rz, square, bent;
         if (k == 0) first = residual;
+        if (!(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
+        if (residual <= 0.01 * peri__rounding(b) * first) return PERI_OK; /* what is left of r says nothing any more: to be taken anew */
         if (residual <= reach * s->scale || peri__is_nothing(s, residual, residual <= reach * first ? loads : HUGE_VAL)) return PERI_OK;
-        if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
+        if (s->left <= 0) return PERI_ERROR_CONVERGENCE;
         rz = peri__precondition(s);
         if (!(rz > 0.0)) return PERI_ERROR_CONVERGENCE;
         if (s->energy0 == 0.0) s->energy0 = rz;

@@ -214,10 +214,12 @@ PERI_API int64_t peri_cut_polyline(peri_body *b, int64_t count, const double *ve
     PERI_NEED(b, vertices, "vertices");
     for (int64_t k = 0; k < count; ++k) { /* all is checked before anything is cut */
         if (!peri__finite_vector(&vertices[2 * k], 2)) return peri__fail(b, PERI_ERROR_RANGE, "vertices", k, 0.0);
-        double here[2], last[2];
+        double here[2], last[2], edge[2];
         peri__inner(b, &vertices[2 * k], here);
         peri__inner(b, &vertices[k > 0 ? 2 * k - 2 : 0], last);
-        if (k > 0 && here[0] == last[0] && here[1] == last[1]) return peri__fail(b, PERI_ERROR_CRACK, "vertices", k, 0.0);
+        for (int d = 0; d < 2; ++d) edge[d] = here[d] - last[d];
+        double length = sqrt(peri__dot(edge, edge, 2));
+        if (k > 0 && !(length > 0.0 && peri__finite(length))) return peri__fail(b, PERI_ERROR_CRACK, "vertices", k, 0.0);
     }
     for (int64_t k = 0; k + 1 < count; ++k) {
         int64_t more = peri_cut_segment(b, &vertices[2 * k], &vertices[2 * k + 2]);
@@ -258,20 +260,19 @@ PERI_API int64_t peri_cut_rectangle(peri_body *b, const double *corner, const do
 
 PERI_API int64_t peri_cut_disc(peri_body *b, const double *centre, const double *normal, double radius) {
     peri__crack crack;
-    double length, opposite[3], touch;
+    double opposite[3], touch;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 3);
     PERI_NEED_VECTOR(b, centre);
     PERI_NEED_VECTOR(b, normal);
     PERI_NEED_NUMBER(b, radius >= 0.0, radius);
-    length = sqrt(peri__dot(normal, normal, 3));
-    if (!(length > 0.0) || !(radius > 0.0)) return peri__fail(b, PERI_ERROR_CRACK, radius > 0.0 ? "normal" : "radius", -1, 0.0);
-    touch = peri__touching(b);
     memset(&crack, 0, sizeof crack);
+    if (!peri__direction(normal, 3, crack.axis) || !(radius > 0.0))
+        return peri__fail(b, PERI_ERROR_CRACK, radius > 0.0 ? "normal" : "radius", -1, 0.0);
+    touch = peri__touching(b);
     peri__inner(b, centre, crack.centre);
     crack.radius = radius / b->model->length + touch;
     for (int d = 0; d < 3; ++d) {
-        crack.axis[d] = normal[d] / length;
         opposite[d] = -crack.axis[d];
         crack.lo[d] = crack.centre[d] - crack.radius - touch;
         crack.hi[d] = crack.centre[d] + crack.radius + touch;

@@ -7,6 +7,10 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+static int32_t peri__fail_step(peri__solver *s, int32_t code, const char *field, int64_t index, double value) {
+    return peri__set_error(&s->failure, code, field, index, value);
+}
+
 static double peri__solve_tolerance(const peri__solver *s) {
     return s->settings->tolerance > 0.0 ? s->settings->tolerance : s->body->f32 ? 1e-4 : s->body->b32 ? 1e-5 : 1e-8;
 }
@@ -90,9 +94,30 @@ static void peri__note_floor(peri__solver *s) {
     if (rounding > s->floor) s->floor = rounding;
 }
 
+/* Are the loads, and the ways that supports have to go (widest), so small that nothing is left of them beside PERI_NOTHING, where no more
+   acts (in z) and the body is displaced by no more? Their equilibrium cannot be told from rest. */
+static int32_t peri__check_faint(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    const double limit = PERI_NOTHING(b) / fmax(peri__solve_tolerance(s), peri__rounding(b));
+    double asked = s->widest, others = 0.0;
+    for (int64_t l = 0; l < b->load_count; ++l) { /* as double has them: single precision may hold nothing of them */
+        const peri__load *load = &b->loads[l];
+        for (int64_t k = 0; load->kind == PERI__FORCE && k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d)
+                asked = fmax(asked, m->volume[peri__set_point(b, load->set, k)] * fabs(peri__load_force(b, load, k, d)));
+    }
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            const int64_t at = d * m->stride + i;
+            others = fmax(others, fmax(m->volume[i] * fabs(peri__get_real(s->k.z, b->f32, at)), fabs(peri__get_real(b->u, b->f32, at))));
+        }
+    return asked > 0.0 && asked < limit && others < limit ? peri__fail(b, PERI_ERROR_RANGE, "loads, supports", -1, asked) : PERI_OK;
+}
+
 static int peri__is_settled(peri__solver *s, double residual, double loads) {
     if (residual <= peri__solve_tolerance(s) * s->scale) return 1;
-    if (!peri__is_nothing(s, residual, loads)) return 0;
+    if (!(residual < HUGE_VAL) || !peri__is_nothing(s, residual, loads)) return 0;
     s->report.residual = 0.0; /* rounding over rounding tells nothing */
     return 1;
 }
@@ -169,6 +194,16 @@ static int peri__gap(peri__solver *s) {
             }
     }
     return gap;
+}
+
+/* Does d lead further than 1e15 spacings, or is it not finite? The body would not come back from there. */
+static int peri__is_far(const peri__solver *s) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i)
+            if (!(fabs(peri__get_real(s->k.d, b->f32, d * m->stride + i)) < 1e15)) return 1;
+    return 0;
 }
 
 static void peri__move(peri__solver *s, double alpha) {
@@ -263,20 +298,27 @@ static void peri__lift(peri__solver *s, int at_rest) {
 static int32_t peri__newton(peri__solver *s) {
     peri_body *b = s->body;
     const int linear = peri__is_linear(b);
+    (void)peri__gap(s);
     double last = HUGE_VAL, loads = peri__static_forces(s);
+    int32_t faint = loads < 0.0 ? (int32_t)loads : peri__check_faint(s);
+    if (faint < 0) return faint;
     s->negative = s->energy_done = 0;
     s->floor = peri__rounding(b) * s->top;
     for (int64_t k = 0;; ++k) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;
-        double residual = peri__static_residual(s, loads);
+        double residual = peri__static_residual(s, loads), told = s->report.residual;
         int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))
-            return s->negative ? peri__fail(b, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
+            return s->negative ? peri__fail_step(s, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
+        if (!(residual < HUGE_VAL) && k > 0) { /* the last way led out of all numbers: back */
+            memcpy(b->u, s->k.p, peri__vector_bytes(b));
+            s->report.residual = told;
+        }
         if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))
-            return peri__fail(b, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
+            return peri__fail_step(s, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
         if (gap) peri__lift(s, at_rest);
         double reach = peri__newton_reach(s, residual, gap);
         last = residual;
@@ -287,7 +329,9 @@ static int32_t peri__newton(peri__solver *s) {
         s->negative = status == PERI_ERROR_INDEFINITE;
         if (status == PERI_ERROR_MEMORY) return status;
         if (status == PERI_ERROR_LOOSE || (linear && s->negative))
-            return peri__fail(b, status, "tangent", peri__most_moved(s), 0.0);
+            return peri__fail_step(s, status, "tangent", peri__most_moved(s), 0.0);
+        if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "displacement", -1, s->report.residual);
+        memcpy(s->k.p, b->u, peri__vector_bytes(b));
         if (linear || gap) {
             if (linear || status != PERI_STOPPED) peri__move(s, 1.0);
             if (status != PERI_STOPPED) loads = peri__static_forces(s);

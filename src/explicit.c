@@ -92,13 +92,15 @@ static void peri__stagger(peri_body *b, double dt, double damping) {
     peri__kick(b, &step, NULL);
 }
 
-static void peri__unstagger(peri_body *b, double dt, double damping) {
+static int32_t peri__unstagger(peri_body *b, double dt, double damping) {
     peri__step step = peri__no_step(b);
     double h = 0.5 * damping * dt;
+    int64_t bad = -1;
     step.keep = 1.0 / (1.0 + h);
     step.kick = 0.5 * dt * step.keep;
     step.loss_new = b->desc.ledger ? h : 0.0;
-    peri__kick(b, &step, NULL);
+    peri__kick(b, &step, &bad);
+    return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->time) : PERI_OK;
 }
 
 /* One step of dt (inner units) to the time `next`. */
@@ -171,6 +173,10 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
     peri__refresh(b);
     double stable = peri__stable(b) * b->model->time, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
+    /* in the unit of time both may vanish */
+    if (!(step / b->model->time > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
+    if (r->duration > 0.0 && !(r->duration / b->model->time > 0.0))
+        return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
     if (r->damping * step > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
     if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
         return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
@@ -189,24 +195,31 @@ static int32_t peri__show_frame(peri_body *b, const peri_run *r) {
     return status;
 }
 
-/* The rest of a run: `steps` steps of dt from the time `start` on, the last of them of `last`, to `end` where that is given. */
+/* The rest of a run from the time `start` on: `full` steps of dt, the others, at most two, of `last`; to `end` where a duration is given.
+   Two, since one alone could be so short that rounding over it would be all of the velocities and reactions of supports. */
 typedef struct peri__plan {
     double  dt, last, start, end;
-    int64_t steps, done;
+    int64_t full, steps, done;
 } peri__plan;
 
 static int32_t peri__plan_steps(peri_body *b, const peri_run *r, double left, peri__plan *plan) {
     plan->start = b->time;
-    plan->last = plan->dt;
     plan->steps -= plan->done;
+    plan->full = plan->steps;
     plan->done = 0;
     if (r->steps > 0) return PERI_OK;
     double duration = left / b->model->time, count = ceil(duration / plan->dt * (1.0 - 1e-12));
     if (count >= 9e18) return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
-    plan->steps = (int64_t)count;
+    if (count < 1.0 && duration > 0.0) count = 1.0; /* however short */
+    plan->steps = plan->full = (int64_t)count;
     plan->last = duration - (double)(plan->steps - 1) * plan->dt;
+    if (!(plan->last < plan->dt)) return PERI_OK;
+    plan->full = plan->steps > 2 ? plan->steps - 2 : 0;
+    if (plan->steps > 1) plan->last = 0.5 * (plan->last + plan->dt);
     return PERI_OK;
 }
+
+static double peri__next_size(const peri__plan *plan) { return plan->done < plan->full ? plan->dt : plan->last; }
 
 /* Is a step of `size` too large by now? State-based bonds that broke, or an obstacle that on_frame added, can have made it so. */
 static int peri__outrun(const peri_body *b, const peri_run *r, double size) {
@@ -218,7 +231,7 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
     int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
     double damping = r->damping * m->time;
     int64_t left_to_frame = r->frame_steps;
-    peri__plan plan = { 0.0, 0.0, 0.0, b->time + r->duration, r->steps, 0 };
+    peri__plan plan = { 0.0, 0.0, 0.0, b->time + r->duration, 0, r->steps, 0 };
     plan.dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b);
     int32_t status = peri__plan_steps(b, r, r->duration, &plan);
     if (status == PERI_OK) status = peri__update_force(b);
@@ -226,27 +239,26 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
     if (b->desc.ledger) peri__settle(b);
     while (plan.done < plan.steps && status == PERI_OK) {
         /* a stretch of steps of one size, up to the next frame */
-        int64_t stretch = plan.steps - plan.done, run = 0;
-        double size = plan.dt;
+        int64_t stretch = (plan.done < plan.full ? plan.full : plan.steps) - plan.done, run = 0;
+        double size = peri__next_size(&plan);
         if (r->on_frame && r->frame_steps > 0 && stretch > left_to_frame) stretch = left_to_frame;
-        if (plan.last < plan.dt && plan.done + stretch == plan.steps && stretch > 1) stretch--;
-        if (plan.last < plan.dt && plan.done + 1 == plan.steps) size = plan.last;
         if (central) peri__stagger(b, size, damping);
         while (run < stretch && status == PERI_OK && (run == 0 || !peri__outrun(b, r, size))) {
-            double next = plan.start + ((double)plan.done * plan.dt + size) * m->time;
+            int64_t full = plan.done < plan.full ? plan.done + 1 : plan.full;
+            double next = plan.start + ((double)full * plan.dt + (double)(plan.done + 1 - full) * plan.last) * m->time;
             if (plan.done + 1 == plan.steps && r->steps == 0) next = plan.end;
             status = peri__one_step(b, r, size, next, damping);
             run++;
             plan.done++;
         }
-        if (central && status == PERI_OK) peri__unstagger(b, size, damping);
+        if (central && status == PERI_OK) status = peri__unstagger(b, size, damping);
         left_to_frame -= run;
         if (status != PERI_OK) break;
         if (r->on_frame && (plan.done == plan.steps || (r->frame_steps > 0 && left_to_frame == 0))) {
             left_to_frame = r->frame_steps;
             status = peri__show_frame(b, r);
         }
-        if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, plan.done + 1 == plan.steps ? plan.last : plan.dt)) {
+        if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, peri__next_size(&plan))) {
             if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
             plan.dt = r->safety * peri__stable(b);
             status = peri__plan_steps(b, r, plan.end - b->time, &plan);

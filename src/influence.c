@@ -28,6 +28,12 @@ static const peri__polynomial *peri__polynomial_of(int32_t influence) {
     return influence >= 1 && influence <= count ? &peri__polynomials[influence - 1] : NULL;
 }
 
+/* A q within the horizon's tolerance is 1, so that a root there is one whatever the rounding of q. */
+static double peri__within_one(double q) { return q < 1.0 - PERI_HORIZON_TOLERANCE ? q : 1.0; }
+
+/* Squares and products of a few values beyond 1e100, or below its inverse, leave the range of double: not finite, or nothing. */
+static double peri__in_range(double w) { return fabs(w) <= 1e100 ? fabs(w) >= 1e-100 ? w : 0.0 : (double)NAN; }
+
 /* w(q) of the descriptor. edge = spacing/(2 horizon), for PERI_INFLUENCE_POLE_EDGE only. A q within the horizon's tolerance
    counts as inside. */
 static double peri__influence(const peri_body_desc *desc, double q, double edge) {
@@ -35,7 +41,7 @@ static double peri__influence(const peri_body_desc *desc, double q, double edge)
     const peri__polynomial *p = peri__polynomial_of(desc->influence);
     if (desc->influence == PERI_INFLUENCE_CONSTANT) return 1.0;
     if (p) {
-        double t = q < 1.0 ? q : 1.0, sum = 0.0;
+        double t = peri__within_one(q), sum = 0.0;
         if (!inside) return 0.0;
         for (int n = p->rest - 1; n >= 0; --n) sum = sum * t + p->b[n];
         for (int n = 0; n < p->edge; ++n) sum *= 1.0 - t;
@@ -48,8 +54,8 @@ static double peri__influence(const peri_body_desc *desc, double q, double edge)
     case PERI_INFLUENCE_INVERSE_4: return 1.0 / (q * q * q * q);
     case PERI_INFLUENCE_POLE_EDGE: return q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0;
     case PERI_INFLUENCE_POLE_HALF: return 1.0 / (2.0 * q - 1.0);
-    case PERI_INFLUENCE_POLE_QUARTER: return exp(1.0 / (q - 0.25));
-    default: return desc->influence_fn(desc->influence_user, q);
+    case PERI_INFLUENCE_POLE_QUARTER: return peri__in_range(exp(1.0 / (q - 0.25)));
+    default: return peri__in_range(desc->influence_fn(desc->influence_user, q));
     }
 }
 
@@ -61,7 +67,7 @@ static void peri__influences(const peri_body_desc *desc, double *q, int64_t coun
         return;
     }
     for (int64_t k = 0; k < count; ++k) {
-        const double t = q[k] < 1.0 ? q[k] : 1.0;
+        const double t = peri__within_one(q[k]);
         double sum = 0.0;
         for (int n = p->rest - 1; n >= 0; --n) sum = sum * t + p->b[n];
         for (int n = 0; n < p->edge; ++n) sum *= 1.0 - t;

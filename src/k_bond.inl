@@ -107,7 +107,8 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
     const uint8_t *cls = b->cls;
     const peri__pair *pairs = cls ? &b->pairs[cls[i] * b->classes] : b->pairs;
     const int64_t stride = m->stride;
-    peri_b c = (peri_b)pairs->c, s0 = step->breaking ? (peri_b)pairs->s0 : (peri_b)PERI_NEVER;
+    /* infinite, so that no change of displacement breaks a bond where the tangent asks */
+    peri_b c = (peri_b)pairs->c, s0 = step->breaking ? (peri_b)pairs->s0 : (peri_b)HUGE_VAL;
     int32_t broke = 0, count = (int32_t)row->count;
     peri_r xi_[PERI_D], ui[PERI_D], sum[PERI_D];
     for (int d = 0; d < PERI_D; ++d) {
@@ -126,7 +127,7 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
             if (flagged && !(live >> k & 1)) continue;
             if (cls) {
                 c = (peri_b)pairs[cls[j]].c;
-                s0 = step->breaking ? (peri_b)pairs[cls[j]].s0 : (peri_b)PERI_NEVER;
+                s0 = step->breaking ? (peri_b)pairs[cls[j]].s0 : (peri_b)HUGE_VAL;
             }
             for (int d = 0; d < PERI_D; ++d) {
                 xi[d] = PERI_FN(xi_of)(row, first + k, d, x[d * stride + j] - xi_[d]);
@@ -147,7 +148,7 @@ PERI_INLINE int32_t PERI_FN(bond_row)(const peri__step *step, int64_t i, const p
                 const peri_b inverse = 1 / bond;
                 scale = c * weight * (inverse * inverse * inverse) * along;
             } else
-                scale = c * weight * along / (reach * bond * length + PERI_TINY);
+                scale = c * weight * along / (reach * bond * (length + PERI_TINY));
             if (flagged && along > s0 * bond * reach) {
                 double s = (double)along / ((double)reach * (double)bond);
                 dead |= (uint32_t)1 << k;

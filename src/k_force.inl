@@ -6,7 +6,8 @@ static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums 
     const peri_body *b = ((const peri__step *)context)->body;
     const peri__model *m = b->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)b->u;
-    const peri_b *p = (const peri_b *)b->response + m->margin, *q = (const peri_b *)b->constant + m->margin + PERI__SPRING * m->stride;
+    const peri_b *p = m->ordinary ? (const peri_b *)b->response + m->margin : NULL;
+    const peri_b *q = m->ordinary ? (const peri_b *)b->constant + m->margin + PERI__SPRING * m->stride : NULL;
     (void)sums;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);

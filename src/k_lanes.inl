@@ -102,7 +102,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(column)(const PERI_LANES_FN
         PERI_VECTOR eta[PERI_D], y[PERI_D], along;
         PERI_LANES_FN(moved)(s, bond, n, eta);
         const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
-        const PERI_VECTOR scale = PERI_IF(linear, weight * along, weight * along / (reach * length * now + tiny));
+        const PERI_VECTOR scale = PERI_IF(linear, weight * along, weight * along / (reach * length * (now + tiny)));
         if (breaking) hit |= (uint32_t)PERI_ABOVE(along, most * reach, live) << (n * PERI_WIDTH);
         for (int d = 0; d < PERI_D; ++d) {
             const PERI_VECTOR part = scale * y[d];
@@ -214,7 +214,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_column)(const PERI_LA
         PERI_LANES_FN(moved)(s, bond, n, eta);
         const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
         const PERI_VECTOR pull = weight * (both_q * along + both_p * gauge * reach);
-        const PERI_VECTOR scale = PERI_IF(linear, pull, pull / (reach * now + tiny));
+        const PERI_VECTOR scale = PERI_IF(linear, pull, pull / (reach * (now + tiny)));
         if (breaking) hit |= (uint32_t)PERI_ABOVE(along, most * reach, live) << (n * PERI_WIDTH);
         for (int d = 0; d < PERI_D; ++d) {
             const PERI_VECTOR part = scale * y[d];

@@ -110,7 +110,7 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
                 }
                 scale = c * weight * s.along * bond;
             }
-            scale = scale / (reach * product + tiny);
+            scale = scale / (reach * (product + tiny));
             hit |= (int)PERI_ABOVE(s.along, limit * reach, live);
             for (int d = 0; d < PERI_D; ++d) /* a choice: what a dead lane read may be anything */
                 PERI_LANES_FN(gather)(&sum[d][n], PERI_KEEP(live, scale * s.y[d]));

@@ -12,16 +12,16 @@ PERI_INLINE void PERI_FN(half_bond)(const peri_body *b, int64_t i, int64_t j, pe
     const peri__model *m = b->model;
     const int32_t law = m->laws[m->material[i]].model;
     const peri_b *constant = (const peri_b *)b->constant + m->margin + i, *response = (const peri_b *)b->response + m->margin + i;
-    if (law == PERI_BOND_BASED) {
-        *central += weight * (peri_b)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
-        return;
-    }
-    *central += weight * (response[0] * (law == PERI_OTERKUS ? 1 : bond) + constant[PERI__SPRING * m->stride] * e);
+    peri_b half; /* rounded before it is added: both ends must come to the same sum, where registers are wider (x87), too */
+    if (law == PERI_BOND_BASED) half = weight * (peri_b)(0.5 * PERI_FN(pair)(b, i, j)->c) * e / bond;
+    else half = weight * (response[0] * (law == PERI_OTERKUS ? 1 : bond) + constant[PERI__SPRING * m->stride] * e);
+    *central += half;
     if (law != PERI_CORRESPONDENCE) return;
     for (int a = 0; a < PERI_D; ++a) {
         peri_b sum = constant[PERI__VECTOR * m->stride] * eta[a];
         for (int d = 0; d < PERI_D; ++d) sum += response[(1 + a * PERI_D + d) * m->stride] * xi[d];
-        t[a] += weight * sum;
+        half = weight * sum;
+        t[a] += half;
     }
 }
 
@@ -118,7 +118,7 @@ PERI_INLINE int32_t PERI_FN(share_row)(const peri__step *step, int64_t i, const 
             }
             if (mirrored) pull = weight * ((qi + q[j]) * along + (pi + p[j]) * gauge * reach);
             else pull = (weight * qi + back * q[j]) * along + (weight * pi + back * p[j]) * gauge * reach;
-            if (!linear) pull /= reach * length + PERI_TINY;
+            if (!linear) pull /= reach * (length + PERI_TINY);
             for (int d = 0; d < PERI_D; ++d) sum[d] += pull * y[d];
             if (flagged && step->breaking) {
                 if (cls) s0 = (peri_b)pairs[cls[j]].s0;
@@ -340,7 +340,6 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
     double density = 0.0, square = 0.0;
     if (law->model == PERI_BOND_BASED) {
         for (int64_t k = 0; k < row->count; ++k) {
@@ -354,6 +353,7 @@ static double PERI_FN(point_energy)(const peri_body *b, int64_t i, const peri__r
         }
         return density;
     }
+    const peri_b *constant = (const peri_b *)b->constant + m->margin + i;
     double sum = PERI_FN(stretched)(b, i, row, &square), dilate = (double)constant[PERI__DILATE * m->stride];
     density = 0.5 * (double)constant[PERI__SPRING * m->stride] * square;
     if (law->model != PERI_CORRESPONDENCE) return density + 0.5 * (double)constant[PERI__PRESS * m->stride] * dilate * sum * sum;
@@ -452,7 +452,7 @@ static void PERI_FN(respond)(void *context, int64_t begin, int64_t end, peri__su
 /* Energy densities of group g, by columns; not of correspondence. */
 static void PERI_FN(group_energy)(const peri_body *b, int64_t g, double density[PERI_LANES]) {
     const peri__model *m = b->model;
-    const peri_b *constant = (const peri_b *)b->constant + m->margin + g * PERI_LANES;
+    const peri_b *constant = m->states ? (const peri_b *)b->constant + m->margin + g * PERI_LANES : NULL;
     peri_r sum[PERI_LANES] = { 0 };
     PERI_ON_LANES(m->lanes.isa, squares, (b, g, density));
     if (m->dilates) PERI_ON_LANES(m->lanes.isa, stretched, (b, g, m->ordinary != PERI_OTERKUS, sum));

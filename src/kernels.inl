@@ -18,14 +18,14 @@
 #define PERI_SQRT sqrt
 #define PERI_CHUNK 8 /* bonds of a row that are worked on at once                                                       */
 #define PERI_NEAR 1e-12 /* relative; kernels on lanes leave bonds this near their critical stretch to the rows            */
-#define PERI_TINY 1e-290 /* keeps 0/0 out of a bond whose ends meet; far below any length                                */
+#define PERI_TINY 1e-250 /* keeps 0/0 out of a bond whose ends meet: a length far below any; the largest force over it is finite   */
 #else
 #define peri_b float
 #define peri_i int32_t
 #define PERI_SQRT sqrtf
 #define PERI_CHUNK 16
 #define PERI_NEAR 1e-5
-#define PERI_TINY 1e-30f
+#define PERI_TINY 1e-20f
 #endif
 #if PERI_T_BOND == 64
 #if PERI_T_DIM == 2

@@ -193,7 +193,7 @@ static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_
     if (count > d->width) d->width = count;
     rate *= 2.0 / m->rho[m->material[i]];
     if (rate > d->rate) d->rate = rate;
-    return total > 0.0 && (m->uniform == PERI_BOND_BASED || stiff > 0.0);
+    return peri__check_weight(c->body, total, stiff, m->uniform == PERI_BOND_BASED) == PERI_OK;
 }
 
 /* Keeps the columns of the group at hand, or finds an earlier group with the same. */

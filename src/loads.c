@@ -13,21 +13,19 @@ static int64_t peri__dof(const peri_body *b, const peri__load *load, int64_t k, 
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------- */
 
-/* A dof belongs to the last support that prescribes it. */
-static void peri__assign_supports(peri_body *b) {
-    for (int64_t s = 0; s < b->load_count; ++s) {
-        peri__load *load = &b->loads[s];
-        if (load->owned) memset(load->owned, load->axes, (size_t)load->count);
-        for (int64_t e = 0; load->owned && e < s; ++e) {
-            peri__load *earlier = &b->loads[e];
-            int64_t a = 0, c = 0;
-            if (!earlier->owned) continue;
-            while (a < earlier->count && c < load->count) { /* both ascending */
-                int32_t p = peri__set_point(b, earlier->set, a), q = peri__set_point(b, load->set, c);
-                if (p == q) earlier->owned[a] = (uint8_t)(earlier->owned[a] & ~load->axes);
-                if (p <= q) a++;
-                if (q <= p) c++;
-            }
+/* A dof belongs to the last support that prescribes it: gives support s its dofs, and takes them from those before it. */
+static void peri__assign_support(peri_body *b, int64_t s) {
+    peri__load *load = &b->loads[s];
+    if (load->owned) memset(load->owned, load->axes, (size_t)load->count);
+    for (int64_t e = 0; load->owned && e < s; ++e) {
+        peri__load *earlier = &b->loads[e];
+        int64_t a = 0, c = 0;
+        if (!earlier->owned) continue;
+        while (a < earlier->count && c < load->count) { /* both ascending */
+            int32_t p = peri__set_point(b, earlier->set, a), q = peri__set_point(b, load->set, c);
+            if (p == q) earlier->owned[a] = (uint8_t)(earlier->owned[a] & ~load->axes);
+            if (p <= q) a++;
+            if (q <= p) c++;
         }
     }
 }
@@ -63,7 +61,7 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
     for (int64_t k = 0; load.all && k < load.count; ++k) load.all[k] = (int32_t)k;
     b->loads[b->load_count++] = load;
     b->force_current = 0;
-    peri__assign_supports(b);
+    peri__assign_support(b, b->load_count - 1);
     return (int32_t)(b->load_count - 1);
 }
 
@@ -108,10 +106,11 @@ PERI_API int32_t peri_remove_load(peri_body *b, int32_t load) {
     PERI_NEED_CHANGEABLE(b);
     int32_t status = peri__check_load(b, load);
     if (status < 0) return status;
+    const int support = b->loads[load].owned != NULL;
     peri__free_load(b, &b->loads[load]);
     b->loads[load].kind = PERI__FREE;
     b->force_current = 0;
-    peri__assign_supports(b);
+    for (int64_t s = 0; support && s < b->load_count; ++s) peri__assign_support(b, s);
     return PERI_OK;
 }
 
@@ -165,7 +164,10 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t at = peri__dof(b, load, k, d);
-                peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d));
+                double force = peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d);
+                if (!(fabs(force) < (b->f32 ? FLT_MAX : DBL_MAX)))
+                    return peri__fail(b, PERI_ERROR_RANGE, "load at the point", peri__set_point(b, load->set, k), force);
+                peri__put_real(b->f, b->f32, at, force);
             }
     }
     return PERI_OK;
@@ -194,6 +196,7 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
                 if (!(load->owned[k] >> d & 1)) continue;
                 if (load->kind == PERI__DISPLACEMENT) {
                     value /= m->length;
+                    if (b->f32) value = (float)value; /* what u can hold: else it would move for ever by what is left over */
                     v = (value - peri__get_real(b->u, b->f32, at)) / dt;
                 } else {
                     value /= peri__velocity_unit(m);
@@ -290,6 +293,10 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
     int64_t vector = m->stride * m->dim;
     PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
     peri__inner(b, place, obstacle->place);
+    for (int32_t d = 0; d < b->dim; ++d) /* beyond 1e15 spacings the surface of a ball is lost in rounding */
+        if (!(fabs(obstacle->place[d]) < (obstacle->kind == 2 ? 1e15 : DBL_MAX)))
+            return peri__fail(b, PERI_ERROR_RANGE, obstacle->kind == 2 ? "centre" : "place", -1, place[d]);
+    if (!(obstacle->radius < 1e15)) return peri__fail(b, PERI_ERROR_RANGE, "radius", -1, obstacle->radius * m->length);
     memcpy(obstacle->place0, obstacle->place, sizeof obstacle->place0);
     obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
     if (!peri__grow(&b->memory, &b->obstacles, &b->obstacle_capacity, b->obstacle_count + 1, sizeof *b->obstacles))
@@ -307,11 +314,9 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, cons
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, place);
     PERI_NEED_VECTOR(b, normal);
-    double length = sqrt(peri__dot(normal, normal, b->dim));
-    if (!(length > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, length);
     memset(&obstacle, 0, sizeof obstacle);
+    if (!peri__direction(normal, b->dim, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     obstacle.kind = 1;
-    for (int32_t d = 0; d < b->dim; ++d) obstacle.normal[d] = normal[d] / length;
     obstacle.motion = motion;
     obstacle.user = user;
     return peri__add_obstacle(b, &obstacle, place, stiffness);

@@ -180,15 +180,16 @@ static void peri__pin(peri__solver *s, int64_t count, peri__fragment *part) {
         double most = 0.0;
         int64_t at = s->queue[0];
         int32_t axis = 0;
-        for (int64_t n = 0; n < 2 * count && (n < count || most == 0.0); ++n) /* where all hang, any will do */
-            for (int32_t d = 0; d < b->dim; ++d) {
-                const int64_t i = s->queue[n % count];
-                double moved = fabs(peri__mode(b, part, i, k, d));
-                if (moved <= most * (1.0 + 1e-9) || (n < count && peri__directions(b, i, 0) < b->dim)) continue;
-                most = moved;
-                at = i;
-                axis = d;
-            }
+        for (int hanging = 0; hanging < 2 && most == 0.0; ++hanging) /* of points that hang where all do */
+            for (int64_t n = 0; n < count; ++n)
+                for (int32_t d = 0; d < b->dim; ++d) {
+                    const int64_t i = s->queue[n];
+                    double moved = fabs(peri__mode(b, part, i, k, d));
+                    if (moved <= most * (1.0 + 1e-9) || (!hanging && peri__directions(b, i, 0) < b->dim)) continue;
+                    most = moved;
+                    at = i;
+                    axis = d;
+                }
         s->held[at] = (uint8_t)(s->held[at] | 1 << axis);
         double pivot = peri__mode(b, part, at, k, axis);
         for (int32_t other = k + 1; other < part->modes; ++other) {
@@ -319,7 +320,8 @@ static int32_t peri__invert_blocks(peri__solver *s) {
         if (memcmp(block, last, sizeof block) != 0) { /* in a lattice most are equal */
             memcpy(last, block, sizeof last);
             spanned = peri__invert(m->dim, block, cut, inverse);
-            if (peri__is_negative(m->dim, block, cut)) return peri__fail(b, PERI_ERROR_INDEFINITE, "point", i, 0.0);
+            if (peri__is_negative(m->dim, block, cut))
+                return peri__set_error(&s->failure, PERI_ERROR_INDEFINITE, "point", i, 0.0);
         }
         if (spanned < frees && peri__directions(b, i, s->held[i]) == frees) { /* soft beside stiff */
             peri__diagonal_block(b, i, block);

@@ -33,13 +33,41 @@ static peri__law peri__law_of(const peri_material *m, int32_t space, double stre
     law.model = m->model;
     law.young = peri__young(m, space) / stress;
     law.mu = law.young / (2.0 * (1.0 + nu));
-    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / (1.0 - nu * nu) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    law.bulk = law.lambda + 2.0 * law.mu / dim;
+    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / ((1.0 - nu) * (1.0 + nu)) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    /* lambda + 2 mu/dim, by forms that cancel no digits near nu = -1 */
+    law.bulk = space == PERI_PLANE_STRESS ? law.young / (2.0 * (1.0 - nu))
+             : space == PERI_PLANE_STRAIN ? law.young / (2.0 * (1.0 + nu) * (1.0 - 2.0 * nu)) : law.young / (3.0 * (1.0 - 2.0 * nu));
     law.a = dim * (law.lambda - law.mu);
     law.b = dim * (dim + 2) * law.mu;
     if (fabs(nu - peri__bond_poisson(space)) < 1e-9) law.a = 0.0;
     law.stabilization = m->stabilization;
     return law;
+}
+
+/* Is the spring of Oterkus in a whole family less than shear asks for? See peri__respond; q m = D (D + 2) mu in the ball. */
+static int peri__is_soft(const peri_body *b, const peri__law *law, double edge) {
+    const int dim = b->dim;
+    double plain, length, m;
+    if (law->model != PERI_OTERKUS || !peri__moment(&b->desc, dim - 1, edge, &plain) || !peri__moment(&b->desc, dim, edge, &length)
+        || !peri__moment(&b->desc, dim + 1, edge, &m))
+        return 0;
+    const double room = m * plain / (length * length) - 1.0;
+    return (dim + 2) * law->mu * room > law->bulk * dim * (1.0 + room);
+}
+
+/* Fills the units of time and energy from those of length, stress and density. Results are products of units with numbers between 1e-30 and
+   1e30 or so: units that leave double no room for that are refused. */
+static int32_t peri__fill_units(peri_body *b, peri__model *m) {
+    const double volume = m->length * m->length * (b->dim == 3 ? m->length : b->desc.thickness);
+    m->time = m->length * (sqrt(m->density) / sqrt(m->stress)); /* the ratio itself may leave the range */
+    m->energy = m->stress * volume;
+    const double units[] = { volume, m->time, m->length / m->time, m->stress / m->length, m->stress / m->length / m->length, m->density,
+                             m->density * volume, m->energy, m->energy / m->length, m->energy / m->length / m->length,
+                             m->energy * m->time, m->energy * m->time / m->length };
+    for (size_t k = 0; k < sizeof units / sizeof *units; ++k)
+        if (!(units[k] > 1e-250 && units[k] < 1e250))
+            return peri__fail(b, PERI_ERROR_RANGE, "units of length, modulus, density", -1, units[k]);
+    return PERI_OK;
 }
 
 /* Energy criteria: the work w0 on a bond such that all bonds across a unit of area take G0 ([T] 1.100; in 3D the same integral over
@@ -198,7 +226,9 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
     if (status == PERI_OK) status = peri__pair_constants(b, i, j, stress, length, edge, own, &pair);
     b->running = running;
     if (status < 0) return status;
-    if (c) *c = pair.c * stress / (length * length * length * (solid ? length : b->desc.thickness));
+    const double unit = stress / length / length / length / (solid ? length : b->desc.thickness), micromodulus = pair.c * unit;
+    if (c && !(micromodulus >= DBL_MIN && peri__finite(micromodulus))) return peri__fail(b, PERI_ERROR_RANGE, "c", -1, micromodulus);
+    if (c) *c = micromodulus;
     if (s0) *s0 = pair.s0 < PERI_NEVER ? pair.s0 : HUGE_VAL;
     return PERI_OK;
 }
@@ -209,7 +239,10 @@ PERI_API int32_t peri_read_critical_energy(peri_body *b, int32_t material, doubl
     if (status < 0) return status;
     PERI_NEED(b, w0, "w0");
     const peri_material *m = &b->materials[material];
-    double thickness = b->desc.space == PERI_SOLID ? 1.0 : b->desc.thickness;
-    *w0 = m->criterion == PERI_CRITERION_STRETCH ? HUGE_VAL : peri__critical_energy(m, b->desc.space, b->desc.horizon) / thickness;
+    const double h = b->desc.horizon, last = b->desc.space == PERI_SOLID ? h : b->desc.thickness;
+    const double critical = peri__critical_energy(m, b->desc.space, 1.0) / h / h / h / last;
+    if (m->criterion != PERI_CRITERION_STRETCH && !(critical >= DBL_MIN && peri__finite(critical)))
+        return peri__fail(b, PERI_ERROR_RANGE, "w0", -1, critical);
+    *w0 = m->criterion == PERI_CRITERION_STRETCH ? HUGE_VAL : critical;
     return PERI_OK;
 }

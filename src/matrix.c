@@ -304,11 +304,11 @@ static double peri__free_dot(const double *scale, const double *x, const double 
     return sum;
 }
 
-/* BiCGSTAB with the diagonal as preconditioner (van der Vorst 1992). work: [8][n]: [0] is the right-hand side and becomes what is left of
-   it, on held dofs minus the reaction; [1] the solution. */
+/* BiCGSTAB with the diagonal as preconditioner (van der Vorst 1992). work: [9][n]: [0] is the right-hand side and becomes what is left of
+   it, on held dofs minus the reaction; [1] the solution, [8] the best one so far: the residual may grow without end. */
 static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *work, int64_t n, double reach, double loads) {
     double *r = work, *x = work + n, *shadow = work + 2 * n, *p = work + 3 * n, *v = work + 4 * n, *t = work + 5 * n, *y = work + 6 * n;
-    double *scale = work + 7 * n, rho = 1.0, alpha = 1.0, omega = 1.0;
+    double *scale = work + 7 * n, *best = work + 8 * n, least = HUGE_VAL, rho = 1.0, alpha = 1.0, omega = 1.0;
     for (int64_t i = 0; i < a->points; ++i)
         for (int64_t k = a->start[i]; k < a->start[i + 1]; ++k)
             for (int32_t d = 0; a->column[k] == i && d < a->dim; ++d) {
@@ -321,7 +321,11 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
         for (int64_t k = 0; k < n; ++k) sums.b += scale[k] == 0.0 ? r[k] * r[k] : 0.0;
         double residual = peri__measure(s, sums, loads), next = peri__free_dot(scale, shadow, r, n);
         if (residual <= reach * s->scale || peri__is_nothing(s, residual, loads)) return PERI_OK;
-        if (s->left <= 0 || !(residual < HUGE_VAL)) return PERI_ERROR_CONVERGENCE;
+        if (residual < least) {
+            least = residual;
+            memcpy(best, x, (size_t)n * sizeof *x);
+        }
+        if (s->left <= 0 || !(residual < HUGE_VAL)) break;
         double beta = omega != 0.0 ? next / rho * alpha / omega : 0.0;
         if (next == 0.0 || beta == 0.0) { /* broken down: again from here */
             memcpy(shadow, r, (size_t)n * sizeof *r);
@@ -335,7 +339,7 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
         }
         peri__multiply_matrix(a, y, v);
         alpha = rho / peri__free_dot(scale, shadow, v, n);
-        if (!peri__finite(alpha)) return PERI_ERROR_CONVERGENCE; /* broken down: x and r are whole                       */
+        if (!peri__finite(alpha)) break; /* broken down */
         for (int64_t k = 0; k < n; ++k) {
             x[k] += alpha * y[k];
             r[k] -= alpha * v[k];
@@ -351,6 +355,8 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
         int32_t status = peri__count_iteration(s, residual / (s->scale > 0.0 ? s->scale : residual));
         if (status != PERI_OK) return status;
     }
+    memcpy(x, best, (size_t)n * sizeof *x);
+    return PERI_ERROR_CONVERGENCE;
 }
 
 /* Adds the stiffness of the obstacles that points are in, V k n n. */
@@ -377,8 +383,8 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
     int32_t status = peri_assemble(b, &a);
     if (status < 0) return status;
     peri__add_contact(a, b);
-    double *work = (double *)peri__new(&b->memory, 8 * n, sizeof *work);
-    int64_t bytes = s->bytes + 8 * n * (int64_t)sizeof *work + a->pairs * (m->dim * m->dim * 8 + 4);
+    double *work = (double *)peri__new(&b->memory, 9 * n, sizeof *work);
+    int64_t bytes = s->bytes + 9 * n * (int64_t)sizeof *work + a->pairs * (m->dim * m->dim * 8 + 4);
     if (bytes > s->report.bytes) s->report.bytes = bytes;
     if (work) {
         for (int64_t k = 0; k < n; ++k)
@@ -393,7 +399,7 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
     } else
         status = peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
     peri__balance(s, s->k.d, 0);
-    peri__delete(&b->memory, work, 8 * n, sizeof *work);
+    peri__delete(&b->memory, work, 9 * n, sizeof *work);
     peri_matrix_destroy(a);
     return status;
 }

@@ -50,7 +50,6 @@ static int32_t peri__lay_sketch(peri__sketch *s) {
     m->horizon = b->desc.horizon / m->length;
     m->density = material->density;
     m->stress = peri__young(material, b->desc.space);
-    m->time = m->length * sqrt(m->density / m->stress);
     m->materials = 1;
     m->rho[0] = 1.0;
     m->laws[0] = peri__law_of(material, b->desc.space, m->stress);
@@ -71,7 +70,8 @@ static int32_t peri__lay_sketch(peri__sketch *s) {
     peri__gauss(s->cloud.gauss_x, s->cloud.gauss_w);
     peri__set_reach(&s->cloud);
     peri__clear_parts(&s->parts);
-    int32_t status = peri__constants(b, material, m->stress, m->length, s->cloud.edge, &s->pair);
+    int32_t status = peri__fill_units(b, m);
+    if (status == PERI_OK) status = peri__constants(b, material, m->stress, m->length, s->cloud.edge, &s->pair);
     m->breakable = s->pair.s0 < PERI_NEVER || s->pair.bond_energy < PERI_NEVER || s->pair.node_energy < PERI_NEVER;
     return status;
 }
@@ -90,7 +90,7 @@ static int32_t peri__open_sketch(peri__sketch *s, const peri_plan_desc *plan) {
     if (status < 0) return status;
     double volume = 1.0;
     for (int32_t d = 0; d < b->dim; ++d) volume *= s->piece.cell[d];
-    PERI_NEED_NUMBER(b, volume > 0.0, plan->spacing);
+    if (!(volume > 0.0 && peri__finite(volume))) return peri__fail(b, PERI_ERROR_RANGE, "spacing", -1, volume);
     if (plan->source == PERI_SOURCE_POINTS) s->loose = 0.5;
     /* vertices move evenly by up to a quarter, centroids by the mean of 2^dim of them, and neighbours apart by two of these */
     if (plan->source == PERI_SOURCE_PERTURBED) s->loose = 0.25 * plan->amount * (b->dim == 3 ? 0.5 : sqrt(0.5));
@@ -248,9 +248,8 @@ static int32_t peri__weigh_sketch(peri__sketch *s) {
         total += fabs(bond.weight);
         stiff += bond.weight * bond.length * bond.length;
     }
-    if (!(total > 0.0)) return peri__fail(&s->body, PERI_ERROR_FAMILY, "influence", 0, 0.0);
-    if (s->model.states && !(stiff > 0.0)) return peri__fail(&s->body, PERI_ERROR_INFLUENCE, "influence", 0, 0.0);
-    return PERI_OK;
+    const int32_t status = peri__check_weight(&s->body, total, stiff, !s->model.states);
+    return status < 0 ? peri__fail(&s->body, status, "influence", 0, 0.0) : PERI_OK;
 }
 
 /* The point that bond k of p leads to. 0 where that is outside. */

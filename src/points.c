@@ -331,7 +331,8 @@ static void peri__scale_points(const peri_body *b, peri__model *m, double *x) {
         for (int64_t i = 0; !first->lattice && i < first->count; ++i)
             if (s->local[i * dim + d] < m->origin[d]) m->origin[d] = s->local[i * dim + d];
     }
-    m->spacing = pow(total, 1.0 / dim) / m->length;
+    const double unit = m->length * m->length * (dim == 3 ? m->length : 1.0);
+    m->spacing = pow(total / unit, 1.0 / dim); /* a pure number before the root: the same in all units that are powers of two */
     m->horizon = b->desc.horizon / m->length;
     for (int64_t p = 0; p < s->piece_count; ++p) {
         const peri__piece *piece = &s->pieces[p];
@@ -344,6 +345,5 @@ static void peri__scale_points(const peri_body *b, peri__model *m, double *x) {
                 if (fabs(x[i * dim + d]) > m->extent) m->extent = fabs(x[i * dim + d]);
             }
     }
-    double unit = m->length * m->length * (dim == 3 ? m->length : 1.0);
     for (int64_t i = 0; i < s->point_count; ++i) m->volume[i] = s->volume[i] / unit;
 }

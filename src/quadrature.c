@@ -90,6 +90,24 @@ static int peri__is_blurred(const peri__cloud *c, int64_t i, int64_t j, double l
     return length < PERI_BLUR || fabs(sqrt(square) - length) > PERI_BLUR * length;
 }
 
+/* Is the bond itself lost in that rounding, a tenth of it or more? */
+static int peri__is_lost(const peri__cloud *c, int64_t i, int64_t j, const peri__bond *bond) {
+    const peri__model *m = c->model;
+    double square = 0.0;
+    if (!c->body->f32 || m->centroid) return 0;
+    for (int32_t d = 0; d < m->dim; ++d)
+        square += peri__square(peri__get_real(m->x, 1, d * m->stride + j) - peri__get_real(m->x, 1, d * m->stride + i) - bond->xi[d]);
+    return square > peri__square(0.1 * bond->length);
+}
+
+/* PERI_OK, or why nothing can be reckoned with a family of this sum of |w V| and of w |xi|^2 V: cubes of the sum, as in the determinant of
+   K, and what it divides must be in the range of bonds. */
+static int32_t peri__check_weight(const peri_body *b, double total, double stiff, int springs) {
+    const double most = b->b32 ? 1e32 : 1e100;
+    if (!(total > 0.0)) return PERI_ERROR_FAMILY;
+    return total < most && total > 1.0 / most && (springs || stiff > 0.0) ? PERI_OK : PERI_ERROR_INFLUENCE;
+}
+
 /* Weights of a block of rows, in the order of places. sums->bad: the least id of a row that is refused, sums->n: its status; sums->a:
    blurred bonds. */
 static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
@@ -112,11 +130,11 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             if (m->part) m->part[at] = (float)bond.share;
             for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->b32, at * m->dim + d, bond.centre[d]);
             sums->a += peri__is_blurred(c, i, j, bond.length);
+            if (status == PERI_OK && peri__is_lost(c, i, j, &bond)) status = PERI_ERROR_COINCIDENT;
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
         }
-        if (status == PERI_OK && !(total > 0.0)) status = PERI_ERROR_FAMILY;
-        if (status == PERI_OK && m->laws[m->material[i]].model != PERI_BOND_BASED && !(stiff > 0.0)) status = PERI_ERROR_INFLUENCE;
+        if (status == PERI_OK) status = peri__check_weight(b, total, stiff, m->laws[m->material[i]].model == PERI_BOND_BASED);
         if (status == PERI_OK || (sums->bad >= 0 && sums->bad < i)) continue;
         sums->bad = i;
         sums->n = status;
@@ -210,8 +228,7 @@ static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *
     const peri__model *m = c->model;
     const double own = 2.0 * t->rate / m->rho[m->material[i]];
     if (!(own <= *rate)) *rate = own;
-    return t->blurred == 0 && t->total > 0.0 && peri__finite(t->total)
-        && (m->laws[m->material[i]].model == PERI_BOND_BASED || t->stiff > 0.0);
+    return t->blurred == 0 && peri__check_weight(c->body, t->total, t->stiff, m->laws[m->material[i]].model == PERI_BOND_BASED) == PERI_OK;
 }
 
 /* ---- weights of any rule, of the list ----------------------------------------------------------------------------- */
@@ -266,7 +283,7 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     const peri__sums *first = NULL;
     for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].bad >= 0 && (!first || sums[k].bad < first->bad)) first = &sums[k];
-    if (first) return peri__fail(b, (int32_t)first->n, "influence", first->bad, 0.0);
+    if (first) return peri__fail(b, (int32_t)first->n, first->n == PERI_ERROR_COINCIDENT ? "precision" : "influence", first->bad, 0.0);
     const int kept = m->bond != NULL, needed = m->width > PERI_VECTOR_LIMIT || peri__total(sums, m->points).a > 0.0;
     return needed && !kept ? peri__keep_lengths(b, c) : PERI_OK;
 }

@@ -5,8 +5,8 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* One step of what is free: p is the velocity, q the force before. */
-static void peri__relax_step(peri__solver *s, double unit, int64_t k) {
+/* One step of what is free: p is the velocity, q the force before. 0 where it would lead further than 1e15 spacings. */
+static int peri__relax_step(peri__solver *s, double unit, int64_t k) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     double bent = 0.0, square = 0.0, damping = 0.0;
@@ -28,9 +28,11 @@ static void peri__relax_step(peri__solver *s, double unit, int64_t k) {
             double v = peri__get_real(s->k.p, b->f32, at);
             if (s->held[i] >> d & 1) continue;
             v = k == 0 ? 0.5 * push : ((2.0 - damping) * v + 2.0 * push) / (2.0 + damping);
+            if (!(fabs(v) < 1e15)) return 0;
             peri__put_real(s->k.p, b->f32, at, v);
             peri__put_real(b->u, b->f32, at, peri__get_real(b->u, b->f32, at) + v);
         }
+    return 1;
 }
 
 static int32_t peri__relax(peri__solver *s) {
@@ -38,21 +40,27 @@ static int32_t peri__relax(peri__solver *s) {
     double unit = 1.1 / peri__square(peri__stable(b));
     double loads, residual;
     s->floor = peri__rounding(b) * s->top;
-    if (peri__gap(s)) peri__move(s, 1.0);
+    if (peri__gap(s)) {
+        if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "displacement", -1, 0.0);
+        peri__move(s, 1.0);
+    }
+    memcpy(s->k.d, b->u, peri__vector_bytes(b));
     memset(s->k.p, 0, peri__vector_bytes(b));
     for (int64_t k = 0;; ++k) {
         void *r = s->k.r;
         s->k.r = s->k.q;
         s->k.q = r;
         loads = peri__static_forces(s);
-        if (loads < 0.0) return (int32_t)loads;
+        int32_t status = loads < 0.0 ? (int32_t)loads : k == 0 ? peri__check_faint(s) : PERI_OK;
+        if (status < 0) return status;
         residual = peri__static_residual(s, loads);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (peri__is_settled(s, residual, loads)) return PERI_OK;
-        if (s->left <= 0 || !(residual < HUGE_VAL)) return peri__fail(b, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
-        peri__relax_step(s, unit, k);
-        int32_t status = peri__count_iteration(s, s->report.residual);
+        if (!(residual < HUGE_VAL)) memcpy(b->u, s->k.d, peri__vector_bytes(b)); /* it led out of all numbers: back */
+        if (s->left <= 0 || !(residual < HUGE_VAL) || !peri__relax_step(s, unit, k))
+            return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "iterations", -1, s->report.residual);
+        status = peri__count_iteration(s, s->report.residual);
         if (status != PERI_OK) return status;
     }
 }

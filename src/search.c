@@ -70,19 +70,22 @@ static int64_t peri__cell_of(const peri__cloud *c, const double *x) {
 
 /* ---- the grid ----------------------------------------------------------------------------------------------------- */
 
-/* Cells per axis over the extent of a cloud: wide enough for the reach, and not many more than points, however thin the cloud. Returns
-   their number. */
+/* Cells per axis over the extent of a cloud: wide enough for the reach, and not many more than points, however thin the cloud, nor than
+   32 bits number. Returns their number. */
 static int64_t peri__divide(const double *extent, double reach2, int64_t points, int64_t *cells) {
+    const double most = 2.0 * (double)points + 64.0 < INT32_MAX ? 2.0 * (double)points + 64.0 : INT32_MAX;
     double edge = sqrt(reach2) * 1.000001 / PERI_CELL_REACH, count;
+    for (int32_t d = 0; d < 3; ++d) /* no reach at all, too */
+        if (edge < extent[d] / (most + 1.0)) edge = extent[d] / (most + 1.0);
     do {
         count = 1.0;
         for (int32_t d = 0; d < 3; ++d) {
             const double along = floor(extent[d] / edge);
-            cells[d] = along >= 9e15 ? (int64_t)9e15 : along >= 1.0 ? (int64_t)along : 1;
+            cells[d] = along >= 1.0 ? (int64_t)along : 1;
             count *= (double)cells[d];
         }
         edge *= 1.25;
-    } while (count > 2.0 * (double)points + 64.0);
+    } while (count > most);
     return (int64_t)count;
 }
 

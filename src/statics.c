@@ -200,7 +200,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
         if (!peri__may_break(s) || peri__break_static(s) == 0) break;
         broken = peri__static_energy(b);
         b->ledger.fracture += energy - broken;
-        if (round >= s->settings->breaks) status = peri__fail(b, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
+        if (round >= s->settings->breaks) status = peri__fail_step(s, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
     }
     return status;
 }
@@ -320,6 +320,7 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_r
     b->running = 2;
     status = peri__load_steps(&s);
     b->running = 0;
+    if (status < 0 && status == s.failure.code) b->error = s.failure;
     if (status < 0) {
         b->load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? st->load_from : factor;
         b->still = s.begun ? 1 : still;

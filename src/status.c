@@ -57,10 +57,12 @@ PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_
     return length;
 }
 
+/* What the log itself brings about is not told to it. */
 static void peri__log(peri_body *b, int32_t level, const char *text) {
     int32_t running = b->running;
-    b->running = 2;
-    if (b->desc.log) b->desc.log(b->desc.log_user, level, text);
+    if (!b->desc.log || running > 2) return;
+    b->running = 3;
+    b->desc.log(b->desc.log_user, level, text);
     b->running = running;
 }
 

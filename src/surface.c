@@ -140,16 +140,14 @@ static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double 
 PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double area, const double *normal, const double *value,
                                              peri_load_fn fn, void *user) {
     peri__surface f;
-    double unit[3], length;
+    double unit[3];
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_NUMBER(b, area > 0.0, area);
     PERI_NEED_VECTOR(b, normal);
     PERI_NEED(b, value || fn, "value");
     int32_t status = peri__check_set(b, set);
     if (status < 0) return status;
-    length = sqrt(peri__dot(normal, normal, b->dim));
-    if (!(length > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, length);
-    for (int32_t d = 0; d < b->dim; ++d) unit[d] = normal[d] / length;
+    if (!peri__direction(normal, b->dim, unit)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     memset(&f, 0, sizeof f);
     f.set = set;
     f.normal = unit;

@@ -158,13 +158,18 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     PERI_NEED_CHANGEABLE(b);
     const peri__model *m = b->model;
     peri__tangent t;
-    double unit = m->energy / peri__square(m->length);
+    double unit = m->energy / m->length / m->length, largest = 0.0, scale = 1.0;
+    int exponent = 0;
     PERI_NEED(b, in, "in");
     PERI_NEED(b, out, "out");
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
     if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
-    for (int64_t k = 0; k < count; ++k)
+    for (int64_t k = 0; k < count; ++k) {
         if (!peri__finite(in[k])) return peri__fail(b, PERI_ERROR_RANGE, "in", k, in[k]);
+        if (fabs(in[k]) > largest) largest = fabs(in[k]);
+    }
+    if (largest > 0.0) (void)frexp(largest, &exponent);
+    scale = ldexp(1.0, exponent - 1); /* of order one inside, whatever the size in the caller's units */
     int32_t status = peri__update_force(b);
     if (status < 0) return status;
     t.body = b;
@@ -174,11 +179,11 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
     if (p && t.q && (t.change || !m->states)) {
         for (int64_t i = 0; i < m->points; ++i)
-            for (int32_t d = 0; d < m->dim; ++d) peri__put_real(p, b->f32, d * m->stride + i, in[i * m->dim + d]);
+            for (int32_t d = 0; d < m->dim; ++d) peri__put_real(p, b->f32, d * m->stride + i, in[i * m->dim + d] / scale);
         peri__apply_tangent(&t, 0);
         for (int64_t i = 0; i < m->points; ++i)
             for (int32_t d = 0; d < m->dim; ++d)
-                out[i * m->dim + d] = -unit * m->volume[i] * peri__get_real(t.q, b->f32, d * m->stride + i);
+                out[i * m->dim + d] = -unit * (scale * (m->volume[i] * peri__get_real(t.q, b->f32, d * m->stride + i)));
     } else
         status = peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
     peri__delete_vector(b, p);

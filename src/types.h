@@ -285,6 +285,7 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
     int32_t             begun;    /* 1: the body has been changed                                                        */
     int32_t             disturbed; /* 1: on_step has changed what acts, or the bonds                                      */
+    peri_error          failure;  /* why the last step ended: the body's record only where it is not halved               */
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
     int64_t             bytes;    /* taken now                                                                           */
     int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
@@ -376,7 +377,7 @@ struct peri_body {
     double  load_factor;        /* of constant loads and supports; the time of callbacks where `still`                   */
     int32_t still;              /* 1: the last motion was a static one                                                   */
     int32_t force_current;      /* 1: f belongs to u, loads and cracks as they are                                       */
-    int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback: nothing may change   */
+    int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback, 3 in the log: nothing may change */
     peri__ledger ledger;
 };
 

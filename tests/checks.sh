@@ -19,7 +19,7 @@ check dist sh tests/check_dist.sh
 sanitized=""
 if echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; then
     sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
-        test_loadsteps test_loose test_memory test_output test_plan test_quadrature test_random test_search \
+        test_loadsteps test_loose test_memory test_output test_plan test_programs test_quadrature test_random test_search \
         test_solvers"
     queue sanitized_library "$CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o"
 else
@@ -33,6 +33,7 @@ for compiler in gcc clang; do
     queue "${compiler}_${vectors}_no_stdio" "$compiler $STRICT -O1 -DPERI_NO_STDIO -D$vectors -c peri_impl.c -o $out.other.o"
     quick=$compiler
 done
+queue fast_math "$CC $STRICT -O1 -ffast-math -c peri_impl.c -o build/checks/gcc.fast.o"
 # the tokens of peri_impl.c, of peri.h with PERI_IMPLEMENTATION and of the single file are the same (dist): one build stands for all; $CC
 # made build/peri.o with $STRICT, too. Without optimisation clang takes a fifth of gcc's time
 queue "strict_single_file" "$quick $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o"
@@ -56,6 +57,14 @@ bits() { $CC $STRICT -I. tests/bits.c "$1" -o "$1.bits" $OPENMP -lm && "$1.bits"
 $CC $STRICT -I. tests/bits.c build/peri.o -o build/checks/bits $OPENMP -lm
 build/checks/bits > build/checks/bits.text
 for other in build/checks/*.other.o; do check "same_bits_$(basename "$other" .other.o)" bits "$other"; done
+
+# ---- -ffast-math: the same bits, and NaN is refused
+for fast in build/checks/*.fast.o; do
+    name=fast_math_$(basename "$fast" .fast.o)
+    check "${name}_bits" bits "$fast"
+    check "${name}_build" $CC build/extremes/*.o "$fast" -o "$fast.extremes" $OPENMP -lm
+    program "$name" "$fast.extremes" callbacks
+done
 
 # ---- under sanitizers, what is quick enough
 if [ -n "$sanitized" ]; then

@@ -72,7 +72,7 @@ run_queue() { # two at a time
 skip() { echo "skip $1: $2"; }
 
 mkdir -p build/queue out
-programs build/tests "" $(basename -s .c tests/test_*.c)
+programs build/tests "" $(basename -s .c tests/test_*.c) extremes
 
 if [ -z "$long" ]; then
     . tests/checks.sh

@@ -7,7 +7,7 @@ strict="-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror -
 
 for compiler in gcc clang; do
     command -v $compiler > /dev/null || { echo "lint: no $compiler, skipped"; continue; }
-    for file in peri_impl.c examples/*.c tests/*.c bench/*.c; do
+    for file in peri_impl.c examples/*.c tests/*.c tests/extremes/*.c bench/*.c; do
         $compiler $strict "$file" || fail "$compiler: $file"
     done
 done
@@ -17,13 +17,13 @@ if command -v cppcheck > /dev/null; then
 else
     echo "lint: no cppcheck, skipped"
 fi
-for file in src/* peri_impl.c examples/* tests/*.c tests/*.h bench/*; do
+for file in src/* peri_impl.c examples/* tests/*.c tests/*.h tests/extremes/* bench/*; do
     lines=$(wc -l < "$file")
     [ "$lines" -le 600 ] || fail "$file: $lines lines, more than 600"
 done
 awk 'length > 140 { printf "lint: %s:%d: longer than 140\n", FILENAME, FNR; bad = 1 } END { exit bad }' \
-    peri.h peri_impl.c src/* examples/* tests/*.c tests/*.h bench/* || status=1
-grep -nE '[[:space:]]+$' peri.h peri_impl.c src/* examples/* tests/* bench/* tools/* Makefile README.md && fail "trailing blanks"
+    peri.h peri_impl.c src/* examples/* tests/*.c tests/*.h tests/extremes/* bench/* || status=1
+grep -nE '[[:space:]]+$' peri.h peri_impl.c src/* examples/* tests/*.* tests/extremes/* bench/* tools/* Makefile README.md && fail "trailing blanks"
 grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/* && fail "the library prints or exits"
 # no state: every variable of the library is const or local
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/* | grep -v const && fail "global state"
