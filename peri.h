@@ -820,7 +820,7 @@ typedef enum peri_quantity {
     PERI_FOR_DEFORMATION = 1, /* displacements, stiffness, elastic energy. feature: the least thickness of a part that carries     */
     PERI_FOR_STRESS      = 2, /* stress around holes and notches, from 0.3 radii of the rim on. feature: the radius       */
     PERI_FOR_WAVES       = 3, /* the way of waves. feature: the shortest wavelength that matters                         */
-    PERI_FOR_FRACTURE    = 4  /* when cracks grow: energy release rate. feature: the length of the crack                 */
+    PERI_FOR_FRACTURE    = 4  /* when cracks grow: energy release rate. feature: the length of the crack, 8 spacings or more */
 } peri_quantity;
 
 /* Named errors, each for a use. */
@@ -848,7 +848,7 @@ typedef struct peri_goal {
 typedef struct peri_choice {
     double           spacing; /* [L] for peri_add_box                                                                    */
     double           across;  /* spacings across the feature                                                             */
-    double           error;   /* not above this for the quantity: twice the largest in the table at this or finer resolutions */
+    double           error;   /* not above this for the quantity: 2.5 times the table's at this and finer resolutions    */
     const char      *text;    /* constant text: the choice in words                                                      */
     peri_plan_report cost;    /* as peri_plan says; seconds where the goal has them                                      */
 } peri_choice;

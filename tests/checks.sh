@@ -33,7 +33,7 @@ for compiler in gcc clang; do
     queue "${compiler}_${vectors}_no_stdio" "$compiler $STRICT -O1 -DPERI_NO_STDIO -D$vectors -c peri_impl.c -o $out.other.o"
     quick=$compiler
 done
-queue fast_math "$CC $STRICT -O1 -ffast-math -c peri_impl.c -o build/checks/gcc.fast.o"
+queue fast_math "$CC $STRICT -O1 -ffast-math -c peri_impl.c -o build/checks/fast.o"
 # the tokens of peri_impl.c, of peri.h with PERI_IMPLEMENTATION and of the single file are the same (dist): one build stands for all; $CC
 # made build/peri.o with $STRICT, too. Without optimisation clang takes a fifth of gcc's time
 queue "strict_single_file" "$quick $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o"
@@ -59,12 +59,10 @@ build/checks/bits > build/checks/bits.text
 for other in build/checks/*.other.o; do check "same_bits_$(basename "$other" .other.o)" bits "$other"; done
 
 # ---- -ffast-math: the same bits, and NaN is refused
-for fast in build/checks/*.fast.o; do
-    name=fast_math_$(basename "$fast" .fast.o)
-    check "${name}_bits" bits "$fast"
-    check "${name}_build" $CC build/extremes/*.o "$fast" -o "$fast.extremes" $OPENMP -lm
-    program "$name" "$fast.extremes" callbacks
-done
+fast=build/checks/fast.o
+check fast_math_bits bits $fast
+$CC build/extremes/*.o $fast -o build/checks/fast_math_callbacks $OPENMP -lm
+program fast_math_callbacks build/checks/fast_math_callbacks callbacks
 
 # ---- under sanitizers, what is quick enough
 if [ -n "$sanitized" ]; then

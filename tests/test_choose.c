@@ -506,7 +506,7 @@ static void goals_are_kept(void) {
             question q = pose(space, quantity), least, roomy;
             const double hi[3] = {0.1, 0.1, 0.1}, lo[3] = {0, 0, 0};
             peri_body *b = NULL;
-            q.goal.bytes = 4000000;
+            q.goal.bytes = space == PERI_SOLID ? 60000000 : 4000000;
             CHECK(peri_choose(&q.goal, &q.body, &q.material, &q.choice, &q.error) == PERI_OK);
             CHECK(q.choice.cost.peak <= q.goal.bytes && q.choice.error > 0 && q.choice.text && q.choice.cost.seconds == 0);
             CHECK_NEAR(q.choice.spacing * q.choice.across, q.goal.feature, 1e-12, 0);
@@ -520,7 +520,7 @@ static void goals_are_kept(void) {
             peri_body_destroy(b);
 
             roomy = pose(space, quantity);
-            roomy.goal.bytes = 16000000;
+            roomy.goal.bytes = 4 * q.goal.bytes;
             CHECK(peri_choose(&roomy.goal, &roomy.body, &roomy.material, &roomy.choice, NULL) == PERI_OK);
             CHECK(roomy.choice.error <= q.choice.error);
 
