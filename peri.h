@@ -828,7 +828,7 @@ typedef enum peri_preset {
     PERI_PRESET_GAME        = 1, /* 20 %: looks right                                                                    */
     PERI_PRESET_TEACHING    = 2, /* 10 %: what is taught is there                                                        */
     PERI_PRESET_ENGINEERING = 3, /* 5 %: as good as the data of most materials                                           */
-    PERI_PRESET_REFERENCE   = 4  /* to compare others with: deformation 1 %, stress 2 %, waves 3 %, fracture 2 %         */
+    PERI_PRESET_REFERENCE   = 4  /* to compare others with: deformation 1 %, stress 2 %, waves and fracture 3 %         */
 } peri_preset;
 
 /* A preset or an error to reach at least cost; or a budget, or both of its kinds, to be as right as can be in. With both an error and a

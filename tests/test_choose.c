@@ -358,7 +358,7 @@ typedef double (*problem_fn)(scene *s);
 
 /* SOURCE OF TRUTH: see the top. */
 static void keeps(const char *name, problem_fn problem, int32_t space, int32_t quantity, double nu, int32_t preset) {
-    static const double promise[4][4] = {{0.2, 0.2, 0.2, 0.2}, {0.1, 0.1, 0.1, 0.1}, {0.05, 0.05, 0.05, 0.05}, {0.01, 0.02, 0.03, 0.02}};
+    static const double promise[4][4] = {{0.2, 0.2, 0.2, 0.2}, {0.1, 0.1, 0.1, 0.1}, {0.05, 0.05, 0.05, 0.05}, {0.01, 0.02, 0.03, 0.03}};
     static const char *const presets[] = {"", "game", "teaching", "engineering", "reference"};
     scene s;
     double error;
@@ -377,6 +377,7 @@ static void deformation(void) {
         keeps("beam", beam, PERI_PLANE_STRESS, PERI_FOR_DEFORMATION, 0, preset);
         keeps("beam", beam, PERI_PLANE_STRESS, PERI_FOR_DEFORMATION, 0.2, preset);
         keeps("beam", beam, PERI_PLANE_STRAIN, PERI_FOR_DEFORMATION, 0.4, preset);
+        if (preset == PERI_PRESET_REFERENCE && !test_long) continue;
         keeps("bar", bar, PERI_SOLID, PERI_FOR_DEFORMATION, 0, preset);
         keeps("bar", bar, PERI_SOLID, PERI_FOR_DEFORMATION, 0.4, preset);
     }
@@ -394,8 +395,9 @@ static void waves(void) {
     for (preset = PERI_PRESET_GAME; preset <= PERI_PRESET_REFERENCE; ++preset) {
         keeps("S wave", wave, PERI_PLANE_STRAIN, PERI_FOR_WAVES, 0, preset);
         keeps("S wave", wave, PERI_PLANE_STRESS, PERI_FOR_WAVES, 0.2, preset);
-        if (preset < PERI_PRESET_REFERENCE || test_long) keeps("S wave", wave, PERI_SOLID, PERI_FOR_WAVES, 0, preset);
-        if (preset < PERI_PRESET_REFERENCE || test_long) keeps("S wave", wave, PERI_SOLID, PERI_FOR_WAVES, 0.2, preset);
+        if (preset >= PERI_PRESET_ENGINEERING && !test_long) continue;
+        keeps("S wave", wave, PERI_SOLID, PERI_FOR_WAVES, 0, preset);
+        keeps("S wave", wave, PERI_SOLID, PERI_FOR_WAVES, 0.2, preset);
     }
 }
 static void fracture(void) {
