@@ -2,6 +2,7 @@
 # make test      builds and runs every test, closing with "N passed, N failed"
 # make validate  the long tables of the source texts
 # make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
+# make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
 # make examples  builds and runs every example
 # make lib       build/libperi.a and build/libperi.so
 # make dist      build/dist/peri.h, the single-file header
@@ -23,7 +24,7 @@ SOURCES = peri.h peri_impl.c $(wildcard src/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 
-.PHONY: all demo programs test validate bench examples lib dist lint clean
+.PHONY: all demo programs test validate bench tradeoff examples lib dist lint clean
 all: lib
 
 build/peri.o: $(SOURCES)
@@ -66,6 +67,11 @@ build/bench/%.o: bench/%.c $(wildcard bench/*.h bench/*.inl tests/test_glass.h)
 
 BENCH = bench bars cases_native cases_plain glass limits runs table textbook work
 build/bench/bench: $(BENCH:%=build/bench/%.o) build/peri.o
+	$(CC) $(OPENMP) $^ -o $@ -lm
+
+TRADEOFF = tradeoff tradeoff_motion tradeoff_recipes tradeoff_statics tradeoff_table tradeoff_trial
+$(TRADEOFF:%=build/bench/%.o): bench/tradeoff.h peri.h
+build/bench/tradeoff: $(TRADEOFF:%=build/bench/%.o) build/peri.o
 	$(CC) $(OPENMP) $^ -o $@ -lm
 
 demo: build/examples/branching
