@@ -38,7 +38,7 @@ typedef struct problem {
     double  ratio[6];   /* horizon over spacing in the main grid, ends with 0; none where it is `across`                  */
     double  limit;      /* runs expected to take more seconds than this are left out of the main grid, 4 times of all    */
     outcome (*run)(const knobs *k);
-    double (*work)(const knobs *k); /* evaluations of a bond expected; HUGE_VAL: cannot be measured at this resolution    */
+    double (*work)(const knobs *k); /* evaluations of a bond expected                                                     */
 } problem;
 
 extern const problem problems[];
@@ -96,6 +96,9 @@ typedef struct table {
     int     count, room;
     double  spent; /* [s] of the processor                                                                               */
 } table;
+
+double  seconds_expected(const problem *p, const knobs *k);
+outcome run_best(const problem *p, const knobs *k); /* the least time of three where it is below 50 ms                   */
 
 row *table_find(const table *t, const knobs *k);
 row *table_ask(table *t, const knobs *k, int stage, double limit); /* runs it unless it was; NULL: left out               */

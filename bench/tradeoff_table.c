@@ -1,7 +1,7 @@
 /* tradeoff_table.c - the rows of one problem: which are run, what their neighbours say of them, which are on the fronts. */
 #include "tradeoff.h"
 
-enum { REPEATS = 3, CORRECTIONS = 10, CHOICES = 32 };
+enum { REPEATS = 3, CORRECTIONS = 10, ROUNDS = 6 };
 static const double SHORT = 0.05;   /* [s] shorter runs are repeated, and the least time counts                          */
 static const double COARSE = 0.2;   /* rows with larger errors are on no front                                           */
 static const double PER_BOND[5] = { 0, 1.5e-9, 2.5e-9, 3.5e-9, 4e-9 }; /* [s] about, by law                              */
@@ -29,11 +29,19 @@ row *table_find(const table *t, const knobs *k) {
     return NULL;
 }
 
+double seconds_expected(const problem *p, const knobs *k) { return p->work(k) * PER_BOND[k->law]; }
+
+outcome run_best(const problem *p, const knobs *k) {
+    outcome best = p->run(k);
+    for (int n = 1; n < REPEATS && best.status == PERI_OK && best.seconds < SHORT; ++n) best.seconds = fmin(best.seconds, p->run(k).seconds);
+    return best;
+}
+
 row *table_ask(table *t, const knobs *k, int stage, double limit) {
     row *r = table_find(t, k);
     double start = (double)clock() / CLOCKS_PER_SEC;
     if (r) return r;
-    if (!(t->p->work(k) * PER_BOND[k->law] <= limit)) return NULL;
+    if (seconds_expected(t->p, k) > limit) return NULL;
     if (t->count == t->room) {
         t->room = 2 * t->room + 64;
         t->rows = (row *)realloc(t->rows, (size_t)t->room * sizeof *t->rows);
@@ -43,11 +51,7 @@ row *table_ask(table *t, const knobs *k, int stage, double limit) {
     memset(r, 0, sizeof *r);
     r->k = *k;
     r->stage = stage;
-    r->out = t->p->run(k);
-    for (int n = 1; n < REPEATS && r->out.status == PERI_OK && r->out.seconds < SHORT; ++n) {
-        const outcome again = t->p->run(k);
-        r->out.seconds = fmin(r->out.seconds, again.seconds);
-    }
+    r->out = run_best(t->p, k);
     t->spent += (double)clock() / CLOCKS_PER_SEC - start;
     return r;
 }
@@ -75,21 +79,21 @@ static row *ask_guarded(table *t, const knobs *k, int stage, double limit) {
 
 /* ---- judging ------------------------------------------------------------------------------------------------------ */
 
-/* Errors that pass through zero on their way from one resolution to the next are luck. So a row is taken for as wrong as the next finer row
-   of its series, and no better than second order makes of the next coarser one. */
+/* Errors that pass through zero on their way from one resolution to the next are luck. So a row is taken for as wrong as the worst of its
+   series at this resolution and finer ones, and no better than second order makes of the next coarser one. */
 static void guard(const table *t, row *r) {
-    double next[2];
-    next[0] = neighbour(t->p, &r->k, -1);
-    next[1] = neighbour(t->p, &r->k, 1);
-    r->guarded = HUGE_VAL;
-    for (int side = 0; side < 2; ++side) {
-        const knobs k = at_across(r->k, next[side]);
-        const row *other = next[side] > 0 ? table_find(t, &k) : NULL;
-        double claim = r->out.error;
-        if (!other || other->out.status != PERI_OK) continue;
-        claim = fmax(claim, other->out.error * (side ? 1 : pow(k.across / r->k.across, 2)));
-        r->guarded = r->guarded < HUGE_VAL ? fmax(r->guarded, claim) : claim;
+    const double coarser = neighbour(t->p, &r->k, -1);
+    int others = 0;
+    r->guarded = r->out.error;
+    for (int i = 0; i < t->count; ++i) {
+        const row *o = &t->rows[i];
+        const double ratio = o->k.across / r->k.across;
+        const int finer = ratio > 1.001, next = same(o->k.across, coarser);
+        if (!(finer || next) || o->out.status != PERI_OK || !same_series(&o->k, &r->k)) continue;
+        r->guarded = fmax(r->guarded, o->out.error * (finer ? 1 : ratio * ratio));
+        others++;
     }
+    if (others == 0) r->guarded = HUGE_VAL;
 }
 
 /* Rows that no other row beats in both, error and seconds or bytes. */
@@ -163,7 +167,7 @@ static int on_fronts(const table *t, knobs **k) {
 }
 
 /* What a row is worth where errors fall as their cost rises: error times seconds, and times bytes. */
-static double worth(const row *r) { return r->guarded * fmin(r->out.seconds, HUGE_VAL) * sqrt((double)r->out.bytes); }
+static double worth(const row *r) { return r->guarded * r->out.seconds * sqrt((double)r->out.bytes); }
 
 /* Every row on a front with each other knob varied; then the best value of each knob that helped, all together and in all subsets. */
 static void one_at_a_time(table *t, const knobs *base, int count) {
@@ -205,6 +209,23 @@ static void those_that_helped(table *t, const knobs *base, int count) {
     }
 }
 
+/* Series on the fronts at all resolutions, until no new ones come there. */
+static void whole_series(table *t) {
+    for (int round = 0; round < ROUNDS; ++round) {
+        const int before = t->count;
+        knobs *base;
+        const int count = on_fronts(t, &base);
+        for (int b = 0; b < count; ++b)
+            for (int a = 0; t->p->across[a] > 0; ++a) {
+                const knobs k = at_across(base[b], t->p->across[a]);
+                (void)table_ask(t, &k, 4, 4 * t->p->limit);
+            }
+        free(base);
+        table_judge(t);
+        if (t->count == before) return;
+    }
+}
+
 void table_fill(table *t) {
     knobs *base;
     int count;
@@ -216,14 +237,7 @@ void table_fill(table *t) {
     those_that_helped(t, base, count);
     free(base);
     table_judge(t);
-    count = on_fronts(t, &base);
-    for (int b = 0; b < count; ++b)
-        for (int a = 0; t->p->across[a] > 0; ++a) {
-            const knobs k = at_across(base[b], t->p->across[a]);
-            (void)table_ask(t, &k, 4, 4 * t->p->limit);
-        }
-    free(base);
-    table_judge(t);
+    whole_series(t);
 }
 
 /* ---- output ------------------------------------------------------------------------------------------------------- */
