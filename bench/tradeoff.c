@@ -1,18 +1,18 @@
 /* tradeoff.c - how accurate, how fast, how large: `tradeoff [PROBLEM ...]`, `tradeoff --recipes [PROBLEM ...]`, `tradeoff --header`.
 
-   Problems with known answers (tradeoff_statics.c, tradeoff_motion.c say of each which, and how the error is measured), run over the knobs of
-   the library. The full product is millions of runs, so each problem goes by stages:
+   Problems with known answers (tradeoff_statics.c, tradeoff_motion.c say of each which, and how the error is measured), run over the knobs
+   of the library. The full product is millions of runs, so each problem goes by stages:
      1  law x correction x horizon over spacing x resolution, all else by default (uniform strain: and influence x quadrature)
      2  every row on the front of error against time, or of error against memory, with each other knob varied alone: precision, influence,
         quadrature, geometry, stabilization, tolerance, time step, integrator
      3  of each of these rows the values that helped (by error x seconds x root of bytes), in all combinations
-     4  every set of knobs that is now on a front, at all resolutions
+     4  every set of knobs that is on a front by then, at all resolutions, until no new set comes there
    A combination that the library refuses is a row with its status. Runs expected to take longer than the problem allows are left out.
 
    seconds  processor time of one thread, build and solve (or run); the least of three where it is below 50 ms
    bytes    the most that the library's allocator held at a time
    error    relative, as the problem says;  guarded: see guard() of tradeoff_table.c; fronts and choices go by it
-   Writes build/tradeoff/PROBLEM.csv and .md; `make tradeoff` joins them into out/tradeoff.csv and out/tradeoff.md and draws the pictures. */
+   Writes build/tradeoff/PROBLEM.csv and .md; `make tradeoff` joins them into out/tradeoff.csv and out/tradeoff.md, and draws. */
 #include "tradeoff.h"
 
 const problem problems[] = {
@@ -20,7 +20,8 @@ const problem problems[] = {
       PERI_PLANE_STRESS, 0, 1, { 8, 16, 32, 64, 128 }, 3, { 2, 3, 4 }, 0.3, run_uniform, work_uniform },
     { "uniform_3d", "Uniform strain, 3D", "spacings across the side", "elastic energy of a cube, surfaces included",
       PERI_SOLID, 0, 0, { 6, 8, 12, 16, 24, 32, 48 }, 5, { 2, 3, 4 }, 0.4, run_uniform, work_uniform },
-    { "cantilever", "Cantilever under a force, plane stress", "spacings across the depth", "deflection of the tip against Timoshenko and Goodier",
+    { "cantilever", "Cantilever under a force, plane stress", "spacings across the depth",
+      "deflection of the tip against Timoshenko and Goodier",
       PERI_PLANE_STRESS, 0, 0, { 4, 6, 8, 12, 16, 24, 32, 48, 64 }, 7, { 2, 3, 4, 6 }, 1, run_cantilever, work_cantilever },
     { "cantilever_3d", "Bar under end moments, 3D", "spacings across the depth", "deflection of the tip against the exact solution",
       PERI_SOLID, 0, 0, { 4, 6, 8, 12, 16, 20, 24 }, 4, { 2, 3, 4 }, 2, run_cantilever, work_cantilever },

@@ -93,7 +93,8 @@ def draw(problem, rows, across):
     figure.suptitle(title, x=0.08, y=0.975, ha="left", fontsize=14)
     figure.text(0.08, 0.925, "error: " + truth, fontsize=10)
     figure.text(0.672, 0.925, "law+correction, horizon in spacings,\nwhat is not default | " + across, fontsize=8.5)
-    panel(above, rows, "seconds", 1, "front_time", "processor time of one thread: build and " + ("run" if rows[0]["safety"] else "solve") + " [s]")
+    what = "run" if rows[0]["safety"] else "evaluate" if problem.startswith("uniform") else "solve"
+    panel(above, rows, "seconds", 1, "front_time", "processor time of one thread: build and " + what + " [s]")
     panel(below, rows, "bytes", 1e-6, "front_bytes", "memory at the most [MB]")
     above.legend(fontsize=8.5, loc="lower left", framealpha=0.9)
     path = "out/tradeoff_" + problem + ".png"
