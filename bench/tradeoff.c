@@ -3,7 +3,7 @@
    Problems with known answers (tradeoff_statics.c, tradeoff_motion.c say of each which, and how the error is measured), run over the knobs
    of the library. The full product is millions of runs, so each problem goes by stages:
      1  law x correction x horizon over spacing x resolution, all else by default (uniform strain: and influence x quadrature)
-     2  every row on the front of error against time, or of error against memory, with each other knob varied alone: precision, influence,
+     2  rows on the front of error against time, or of error against memory, with each other knob varied alone: precision, influence,
         quadrature, geometry, stabilization, tolerance, time step, integrator
      3  of each of these rows the values that helped (by error x seconds x root of bytes), in all combinations
      4  every set of knobs that is on a front by then, at all resolutions, until no new set comes there
@@ -15,26 +15,35 @@
    Writes build/tradeoff/PROBLEM.csv and .md; `make tradeoff` joins them into out/tradeoff.csv and out/tradeoff.md, and draws. */
 #include "tradeoff.h"
 
+#define MEASURE(of) .run = run_##of, .work = work_##of
 const problem problems[] = {
-    { "uniform", "Uniform strain, plane stress", "spacings across the side", "elastic energy of a square, surfaces included",
-      PERI_PLANE_STRESS, 0, 1, { 8, 16, 32, 64, 128 }, 3, { 2, 3, 4 }, 0.3, run_uniform, work_uniform },
-    { "uniform_3d", "Uniform strain, 3D", "spacings across the side", "elastic energy of a cube, surfaces included",
-      PERI_SOLID, 0, 0, { 6, 8, 12, 16, 24, 32, 48 }, 5, { 2, 3, 4 }, 0.4, run_uniform, work_uniform },
-    { "cantilever", "Cantilever under a force, plane stress", "spacings across the depth",
-      "deflection of the tip against Timoshenko and Goodier",
-      PERI_PLANE_STRESS, 0, 0, { 4, 6, 8, 12, 16, 24, 32, 48, 64 }, 7, { 2, 3, 4, 6 }, 1, run_cantilever, work_cantilever },
-    { "cantilever_3d", "Bar under end moments, 3D", "spacings across the depth", "deflection of the tip against the exact solution",
-      PERI_SOLID, 0, 0, { 4, 6, 8, 12, 16, 20, 24 }, 4, { 2, 3, 4 }, 2, run_cantilever, work_cantilever },
-    { "hole", "Plate with a hole, plane stress", "spacings to the radius", "stress concentration factor against Kirsch",
-      PERI_PLANE_STRESS, 0, 0, { 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64, 96 }, 8, { 2, 3, 4, 6 }, 1, run_hole, work_hole },
-    { "p_wave", "P wave, plane strain", "spacings to the wavelength", "speed of a packet over two waves",
-      PERI_PLANE_STRAIN, 1, 0, { 8, 12, 16, 24, 32, 48, 64, 96 }, 6, { 2, 3, 4, 6 }, 1, run_wave, work_wave },
-    { "p_wave_3d", "P wave, 3D", "spacings to the wavelength", "speed of a packet over one wave",
-      PERI_SOLID, 1, 0, { 6, 8, 10, 12, 16, 20, 24 }, 4, { 2, 3, 4 }, 2, run_wave, work_wave },
-    { "crack", "Crack under tension, plane stress", "spacings along the crack", "energy release rate against Tada, Paris, Irwin",
-      PERI_PLANE_STRESS, 0, 0, { 8, 12, 16, 24, 32, 48, 64, 96 }, 6, { 2, 3, 4, 6 }, 2, run_crack, work_crack },
-    { "branching", "Crack branching in glass, horizon 1 mm", "spacings to the horizon", "path of the upper tip against the finest run",
-      PERI_PLANE_STRESS, 1, 0, { 2, 3, 4, 5 }, 4, { 0 }, 9, run_branching, work_branching }
+    { .name = "uniform", .title = "Uniform strain of 64 x 64 spacings, plane stress", .space = PERI_PLANE_STRESS,
+      .feature = "spacings across the side", .truth = "elastic energy of a square, surfaces included",
+      .across = { 32, 64 }, .usual = 2, .only = 64, .ratio = { 2, 3, 4 }, .product = 1, .limit = 0.3, MEASURE(uniform) },
+    { .name = "uniform_3d", .title = "Uniform strain of 24 x 24 x 24 spacings, 3D", .space = PERI_SOLID,
+      .feature = "spacings across the side", .truth = "elastic energy of a cube, surfaces included",
+      .across = { 16, 24 }, .usual = 2, .only = 24, .ratio = { 2, 3, 4 }, .limit = 0.4, MEASURE(uniform) },
+    { .name = "cantilever", .title = "Cantilever under a force, plane stress", .space = PERI_PLANE_STRESS,
+      .feature = "spacings across the depth", .truth = "deflection of the tip against Timoshenko and Goodier",
+      .across = { 4, 6, 8, 12, 16, 24, 32, 48, 64 }, .usual = 6, .ratio = { 2, 3, 4, 6 }, .limit = 0.5, MEASURE(cantilever) },
+    { .name = "cantilever_3d", .title = "Bar under end moments, 3D", .space = PERI_SOLID,
+      .feature = "spacings across the depth", .truth = "deflection of the tip against the exact solution",
+      .across = { 4, 6, 8, 12, 16, 20, 24 }, .usual = 4, .ratio = { 2, 3, 4 }, .limit = 1, MEASURE(cantilever) },
+    { .name = "hole", .title = "Plate with a hole, plane stress", .space = PERI_PLANE_STRESS,
+      .feature = "spacings to the radius", .truth = "stress concentration factor against Kirsch",
+      .across = { 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64, 96 }, .usual = 7, .ratio = { 2, 3, 4, 6 }, .limit = 0.5, MEASURE(hole) },
+    { .name = "crack", .title = "Crack under tension, plane stress", .space = PERI_PLANE_STRESS,
+      .feature = "spacings along the crack", .truth = "energy release rate against Tada, Paris, Irwin",
+      .across = { 8, 12, 16, 24, 32, 48, 64, 96 }, .usual = 5, .ratio = { 2, 3, 4, 6 }, .limit = 0.7, MEASURE(crack) },
+    { .name = "p_wave", .title = "P wave, plane strain", .space = PERI_PLANE_STRAIN, .moves = 1,
+      .feature = "spacings to the wavelength", .truth = "speed of a packet over two waves",
+      .across = { 8, 12, 16, 24, 32, 48, 64, 96 }, .usual = 5, .ratio = { 2, 3, 4, 6 }, .limit = 0.5, MEASURE(wave) },
+    { .name = "p_wave_3d", .title = "P wave, 3D", .space = PERI_SOLID, .moves = 1,
+      .feature = "spacings to the wavelength", .truth = "speed of a packet over one wave",
+      .across = { 6, 8, 10, 12, 16, 20, 24 }, .usual = 4, .ratio = { 2, 3, 4 }, .limit = 1, MEASURE(wave) },
+    { .name = "branching", .title = "Crack branching in glass, horizon 1 mm", .space = PERI_PLANE_STRESS, .moves = 1,
+      .feature = "spacings to the horizon", .truth = "path of the upper tip against the finest run",
+      .across = { 2, 3, 4, 5 }, .usual = 4, .limit = 3, MEASURE(branching) }
 };
 const int problem_count = (int)(sizeof problems / sizeof *problems);
 
@@ -63,6 +72,7 @@ static void study(const problem *p) {
     table_csv(&t, csv);
     table_choices(&t, md);
     printf("%-14s %5d runs, %6.1f s\n", p->name, t.count, t.spent);
+    (void)fflush(stdout);
     free(t.rows);
     (void)fclose(csv);
     (void)fclose(md);

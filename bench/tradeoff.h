@@ -33,10 +33,11 @@ typedef struct problem {
     int32_t space;
     int     moves;      /* dynamics                                                                                      */
     int     product;    /* stage 1 takes every influence function and quadrature, too: cheap                             */
+    double  only;       /* the resolution at which rows are compared, where it is no choice of the user's; 0: all         */
     double  across[14]; /* ascending, ends with 0; the first `usual` of them make the main grid                           */
     int     usual;
     double  ratio[6];   /* horizon over spacing in the main grid, ends with 0; none where it is `across`                  */
-    double  limit;      /* runs expected to take more seconds than this are left out of the main grid, 4 times of all    */
+    double  limit;      /* runs expected to take more seconds than this are left out, in stage 4 four times that           */
     outcome (*run)(const knobs *k);
     double (*work)(const knobs *k); /* evaluations of a bond expected                                                     */
 } problem;

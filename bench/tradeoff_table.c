@@ -4,6 +4,7 @@
 enum { REPEATS = 3, CORRECTIONS = 10, ROUNDS = 6 };
 static const double SHORT = 0.05;   /* [s] shorter runs are repeated, and the least time counts                          */
 static const double COARSE = 0.2;   /* rows with larger errors are on no front                                           */
+static const double STEP = 1.3;     /* from row to row of a front, where each is varied                                  */
 static const double PER_BOND[5] = { 0, 1.5e-9, 2.5e-9, 3.5e-9, 4e-9 }; /* [s] about, by law                              */
 
 static const int32_t laws[CORRECTIONS][2] = {
@@ -99,15 +100,19 @@ static void guard(const table *t, row *r) {
     if (others == 0) r->guarded = HUGE_VAL;
 }
 
+static int compared(const table *t, const row *r) {
+    return r->out.status == PERI_OK && (!(t->p->only > 0) || same(r->k.across, t->p->only));
+}
+
 /* Rows that no other row beats in both, error and seconds or bytes. */
 static void front(table *t, int by_bytes) {
     for (int i = 0; i < t->count; ++i) {
         row *r = &t->rows[i];
-        int on = r->out.status == PERI_OK && r->guarded <= COARSE;
+        int on = compared(t, r) && r->guarded <= COARSE;
         for (int j = 0; on && j < t->count; ++j) {
             const row *o = &t->rows[j];
             const double cost = by_bytes ? (double)o->out.bytes : o->out.seconds, own = by_bytes ? (double)r->out.bytes : r->out.seconds;
-            if (o->out.status != PERI_OK || j == i || !(o->guarded <= r->guarded && cost <= own)) continue;
+            if (!compared(t, o) || j == i || !(o->guarded <= r->guarded && cost <= own)) continue;
             on = o->guarded >= r->guarded && cost >= own && j > i;
         }
         *(by_bytes ? &r->small : &r->fast) = on;
@@ -159,13 +164,26 @@ static int vary(const problem *p, int knob, int choice, knobs *k) {
 }
 enum { KNOBS = 8 };
 
-/* Rows on either front; their knobs are copied because rows move. */
-static int on_fronts(const table *t, knobs **k) {
+/* Rows on either front, each with errors a factor of `apart` below those of the one before; their knobs are copied because rows move. */
+static int on_fronts(const table *t, double apart, knobs **k) {
+    char *taken = (char *)calloc((size_t)t->count + 1, 1);
     int n = 0;
     *k = (knobs *)calloc((size_t)t->count + 1, sizeof **k);
-    if (!*k) exit(1);
-    for (int i = 0; i < t->count; ++i)
-        if (t->rows[i].fast || t->rows[i].small) (*k)[n++] = t->rows[i].k;
+    if (!*k || !taken) exit(1);
+    for (int by_bytes = 0; by_bytes < 2; ++by_bytes)
+        for (double below = HUGE_VAL;;) {
+            int best = -1;
+            for (int i = 0; i < t->count; ++i) {
+                const row *r = &t->rows[i];
+                if (!(by_bytes ? r->small : r->fast) || !(r->guarded < below)) continue;
+                if (best < 0 || r->guarded > t->rows[best].guarded) best = i;
+            }
+            if (best < 0) break;
+            below = t->rows[best].guarded / apart;
+            if (!taken[best]) (*k)[n++] = t->rows[best].k;
+            taken[best] = 1;
+        }
+    free(taken);
     return n;
 }
 
@@ -179,7 +197,7 @@ static void one_at_a_time(table *t, const knobs *base, int count) {
             for (int choice = 0;; ++choice) {
                 knobs k = base[b];
                 if (!vary(t->p, knob, choice, &k)) break;
-                (void)ask_guarded(t, &k, 2, 2 * t->p->limit);
+                (void)ask_guarded(t, &k, 2, t->p->limit);
             }
 }
 
@@ -207,7 +225,7 @@ static void those_that_helped(table *t, const knobs *base, int count) {
             knobs k = base[b];
             for (int n = 0; n < helped; ++n)
                 if (set >> n & 1) (void)vary(t->p, list[n], best[list[n]], &k);
-            (void)ask_guarded(t, &k, 3, 2 * t->p->limit);
+            (void)ask_guarded(t, &k, 3, t->p->limit);
         }
     }
 }
@@ -217,7 +235,7 @@ static void whole_series(table *t) {
     for (int round = 0; round < ROUNDS; ++round) {
         const int before = t->count;
         knobs *base;
-        const int count = on_fronts(t, &base);
+        const int count = on_fronts(t, 1, &base);
         for (int b = 0; b < count; ++b)
             for (int a = 0; t->p->across[a] > 0; ++a) {
                 const knobs k = at_across(base[b], t->p->across[a]);
@@ -234,7 +252,7 @@ void table_fill(table *t) {
     int count;
     main_grid(t);
     table_judge(t);
-    count = on_fronts(t, &base);
+    count = on_fronts(t, STEP, &base);
     one_at_a_time(t, base, count);
     table_judge(t);
     those_that_helped(t, base, count);
@@ -307,7 +325,7 @@ void table_choices(const table *t, FILE *file) {
             char name[200];
             for (int i = 0; i < t->count; ++i) {
                 const row *r = &t->rows[i];
-                if (r->out.status != PERI_OK) continue;
+                if (!compared(t, r)) continue;
                 if (!closest || r->guarded < closest->guarded) closest = r;
                 if (r->guarded > levels[level]) continue;
                 if (!best || (by_bytes ? r->out.bytes < best->out.bytes : r->out.seconds < best->out.seconds)) best = r;
