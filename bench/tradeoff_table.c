@@ -17,16 +17,19 @@ static const int32_t laws[CORRECTIONS][2] = {
 
 static int same(double a, double b) { return fabs(a - b) < 1e-9 * (1 + fabs(a)); }
 
-static int same_series(const knobs *a, const knobs *b) {
+/* The horizon is given: its spacings are the resolution. */
+static int tied(const problem *p) { return !(p->ratio[0] > 0); }
+
+static int same_series(const problem *p, const knobs *a, const knobs *b) {
     return a->law == b->law && a->correction == b->correction && a->influence == b->influence && a->quadrature == b->quadrature &&
            a->precision == b->precision && a->geometry == b->geometry && a->integrator == b->integrator &&
-           (same(a->m, b->m) || (same(a->m, a->across) && same(b->m, b->across))) && same(a->poisson, b->poisson) &&
+           (tied(p) || same(a->m, b->m)) && same(a->poisson, b->poisson) &&
            same(a->stabilization, b->stabilization) && same(a->tolerance, b->tolerance) && same(a->safety, b->safety);
 }
 
 row *table_find(const table *t, const knobs *k) {
     for (int i = 0; i < t->count; ++i)
-        if (same_series(&t->rows[i].k, k) && same(t->rows[i].k.across, k->across)) return &t->rows[i];
+        if (same_series(t->p, &t->rows[i].k, k) && same(t->rows[i].k.across, k->across)) return &t->rows[i];
     return NULL;
 }
 
@@ -67,8 +70,8 @@ static double neighbour(const problem *p, const knobs *k, int by) {
     return 0;
 }
 
-static knobs at_across(knobs k, double across) {
-    if (same(k.m, k.across)) k.m = across;
+static knobs at_across(const problem *p, knobs k, double across) {
+    if (tied(p)) k.m = across;
     k.across = across;
     return k;
 }
@@ -76,7 +79,7 @@ static knobs at_across(knobs k, double across) {
 /* A row and the next coarser one (of the coarsest: the next finer one), which guards it. */
 static row *ask_guarded(table *t, const knobs *k, int stage, double limit) {
     const double coarser = neighbour(t->p, k, -1);
-    const knobs other = at_across(*k, coarser > 0 ? coarser : neighbour(t->p, k, 1));
+    const knobs other = at_across(t->p, *k, coarser > 0 ? coarser : neighbour(t->p, k, 1));
     (void)table_ask(t, &other, stage, limit);
     return table_ask(t, k, stage, limit);
 }
@@ -93,7 +96,7 @@ static void guard(const table *t, row *r) {
         const row *o = &t->rows[i];
         const double ratio = o->k.across / r->k.across;
         const int finer = ratio > 1.001, next = same(o->k.across, coarser);
-        if (!(finer || next) || o->out.status != PERI_OK || !same_series(&o->k, &r->k)) continue;
+        if (!(finer || next) || o->out.status != PERI_OK || !same_series(t->p, &o->k, &r->k)) continue;
         r->guarded = fmax(r->guarded, o->out.error * (finer ? 1 : ratio * ratio));
         others++;
     }
@@ -132,12 +135,14 @@ static void main_grid(table *t) {
     const problem *p = t->p;
     static const int32_t shapes[] = { PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_LINEAR,   PERI_INFLUENCE_CUBIC,  PERI_INFLUENCE_POWER_2,
                                       PERI_INFLUENCE_POWER_3,  PERI_INFLUENCE_GAUSSIAN, PERI_INFLUENCE_INVERSE };
+    int ratios = 0;
+    while (p->ratio[ratios] > 0) ++ratios;
     for (int law = 0; law < CORRECTIONS; ++law)
-        for (int m = 0; m == 0 || p->ratio[m] > 0; ++m)
+        for (int m = 0; m < (tied(p) ? 1 : ratios); ++m)
             for (int a = 0; a < p->usual && p->across[a] > 0; ++a)
                 for (int w = 0; w < (p->product ? 7 : 1); ++w)
                     for (int32_t q = PERI_FULL_VOLUME; q <= (p->product ? PERI_PARTIAL_MOMENT : PERI_FULL_VOLUME); ++q) {
-                        knobs k = knobs_of(p, laws[law][0], p->ratio[0] > 0 ? p->ratio[m] : p->across[a], p->across[a]);
+                        knobs k = knobs_of(p, laws[law][0], tied(p) ? p->across[a] : p->ratio[m], p->across[a]);
                         k.correction = laws[law][1];
                         k.influence = shapes[w];
                         k.quadrature = q;
@@ -238,7 +243,7 @@ static void whole_series(table *t) {
         const int count = on_fronts(t, 1, &base);
         for (int b = 0; b < count; ++b)
             for (int a = 0; t->p->across[a] > 0; ++a) {
-                const knobs k = at_across(base[b], t->p->across[a]);
+                const knobs k = at_across(t->p, base[b], t->p->across[a]);
                 (void)table_ask(t, &k, 4, 4 * t->p->limit);
             }
         free(base);
