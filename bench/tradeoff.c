@@ -30,7 +30,7 @@ const problem problems[] = {
       .feature = "spacings across the depth", .truth = "deflection of the tip against the exact solution",
       .across = { 4, 6, 8, 12, 16, 20, 24 }, .usual = 4, .ratio = { 2, 3, 4 }, .limit = 1, MEASURE(cantilever) },
     { .name = "hole", .title = "Plate with a hole, plane stress", .space = PERI_PLANE_STRESS,
-      .feature = "spacings to the radius", .truth = "stress concentration factor against Kirsch",
+      .feature = "spacings to the radius", .truth = "stress around the hole against Kirsch",
       .across = { 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64, 96 }, .usual = 7, .ratio = { 2, 3, 4, 6 }, .limit = 0.5, MEASURE(hole) },
     { .name = "crack", .title = "Crack under tension, plane stress", .space = PERI_PLANE_STRESS,
       .feature = "spacings along the crack", .truth = "energy release rate against Tada, Paris, Irwin",

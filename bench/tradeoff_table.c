@@ -173,7 +173,7 @@ enum { KNOBS = 8 };
 static int on_fronts(const table *t, double apart, knobs **k) {
     char *taken = (char *)calloc((size_t)t->count + 1, 1);
     int n = 0;
-    *k = (knobs *)calloc((size_t)t->count + 1, sizeof **k);
+    *k = (knobs *)calloc((size_t)t->count + CORRECTIONS, sizeof **k);
     if (!*k || !taken) exit(1);
     for (int by_bytes = 0; by_bytes < 2; ++by_bytes)
         for (double below = HUGE_VAL;;) {
@@ -235,12 +235,28 @@ static void those_that_helped(table *t, const knobs *base, int count) {
     }
 }
 
-/* Series on the fronts at all resolutions, until no new ones come there. */
+/* The most accurate row of each law and correction: rows that are far from the fronts where they are coarse may be on them where fine. */
+static int leaders(const table *t, knobs *k) {
+    int n = 0;
+    for (int law = 0; law < CORRECTIONS; ++law) {
+        const row *best = NULL;
+        for (int i = 0; i < t->count; ++i) {
+            const row *r = &t->rows[i];
+            if (r->k.law != laws[law][0] || r->k.correction != laws[law][1] || !compared(t, r)) continue;
+            if (!best || r->guarded < best->guarded) best = r;
+        }
+        if (best && best->guarded < HUGE_VAL) k[n++] = best->k;
+    }
+    return n;
+}
+
+/* These and those on the fronts at all resolutions, until no new ones come there. */
 static void whole_series(table *t) {
     for (int round = 0; round < ROUNDS; ++round) {
         const int before = t->count;
         knobs *base;
-        const int count = on_fronts(t, 1, &base);
+        int count = on_fronts(t, 1, &base);
+        count += leaders(t, &base[count]);
         for (int b = 0; b < count; ++b)
             for (int a = 0; t->p->across[a] > 0; ++a) {
                 const knobs k = at_across(t->p, base[b], t->p->across[a]);
