@@ -90,6 +90,14 @@ int main(int argc, char **argv) {
             if (print_recipes(argv[a])) return 1;
         return 0;
     }
+    for (int a = 1; a < argc; ++a) {
+        int known = 0;
+        for (int i = 0; i < problem_count; ++i) known |= strcmp(argv[a], problems[i].name) == 0;
+        if (!known) {
+            fprintf(stderr, "tradeoff: no problem %s\n", argv[a]);
+            return 1;
+        }
+    }
     for (int i = 0; i < problem_count; ++i) {
         int wanted = argc < 2;
         for (int a = 1; a < argc; ++a) wanted |= strcmp(argv[a], problems[i].name) == 0;

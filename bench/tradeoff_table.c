@@ -1,7 +1,7 @@
 /* tradeoff_table.c - the rows of one problem: which are run, what their neighbours say of them, which are on the fronts. */
 #include "tradeoff.h"
 
-enum { REPEATS = 3, CORRECTIONS = 10, ROUNDS = 6 };
+enum { REPEATS = 3, CORRECTIONS = 10 };
 static const double SHORT = 0.05;   /* [s] shorter runs are repeated, and the least time counts                          */
 static const double COARSE = 0.2;   /* rows with larger errors are on no front                                           */
 static const double STEP = 1.3;     /* from row to row of a front, where each is varied                                  */
@@ -192,7 +192,7 @@ static int on_fronts(const table *t, double apart, knobs **k) {
     return n;
 }
 
-/* What a row is worth where errors fall as their cost rises: error times seconds, and times bytes. */
+/* Less is better, where errors fall as their cost rises. */
 static double worth(const row *r) { return r->guarded * r->out.seconds * sqrt((double)r->out.bytes); }
 
 /* Every row on a front with each other knob varied; then the best value of each knob that helped, all together and in all subsets. */
@@ -252,10 +252,10 @@ static int leaders(const table *t, knobs *k) {
 
 /* These and those on the fronts at all resolutions, until no new ones come there. */
 static void whole_series(table *t) {
-    for (int round = 0; round < ROUNDS; ++round) {
-        const int before = t->count;
+    for (int before = -1; before != t->count;) {
         knobs *base;
         int count = on_fronts(t, 1, &base);
+        before = t->count;
         count += leaders(t, &base[count]);
         for (int b = 0; b < count; ++b)
             for (int a = 0; t->p->across[a] > 0; ++a) {
@@ -264,7 +264,6 @@ static void whole_series(table *t) {
             }
         free(base);
         table_judge(t);
-        if (t->count == before) return;
     }
 }
 
