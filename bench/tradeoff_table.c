@@ -326,7 +326,7 @@ void name_series(const knobs *k, int32_t moves, char *text, size_t capacity) {
     if (k->influence != usual.influence) ADD(", %s", influence_name[k->influence]);
     if (k->quadrature != usual.quadrature) ADD(", %s volumes", quadrature_name[k->quadrature]);
     if (k->precision != usual.precision) ADD(", %s", precision_name[k->precision]);
-    if (k->geometry != usual.geometry) ADD(", %s", k->geometry == PERI_LINEAR ? "linear" : "nonlinear");
+    if (k->geometry != usual.geometry) ADD(", %s geometry", k->geometry == PERI_LINEAR ? "linear" : "nonlinear");
     if (k->stabilization >= 0) ADD(", stabilization %g", k->stabilization);
     if (k->tolerance > 0) ADD(", tolerance %g", k->tolerance);
     if (!same(k->safety, usual.safety)) ADD(", safety %g", k->safety);

@@ -64,12 +64,13 @@ void trial_note(trial *t, int64_t result) {
     peri_error error;
     if (result >= 0 || !trial_fine(t)) return;
     t->out.status = (int32_t)result;
-    if (t->body && peri_last_error(t->body, &error) == PERI_OK) (void)peri_error_format(&error, t->out.text, (int64_t)sizeof t->out.text);
-    else (void)snprintf(t->out.text, sizeof t->out.text, "%s", peri_status_text((int32_t)result));
+    (void)peri_last_error(t->body, &error);
+    (void)peri_error_format(&error, t->out.text, (int64_t)sizeof t->out.text);
 }
 
 void trial_create(trial *t, const knobs *k, double spacing, const peri_material *material) {
     peri_body_desc d;
+    peri_error error;
     memset(t, 0, sizeof *t);
     t->k = k;
     bytes_now = bytes_most = 0;
@@ -86,8 +87,9 @@ void trial_create(trial *t, const knobs *k, double spacing, const peri_material 
     d.ledger = 0;
     d.allocate = take;
     d.release = give;
-    trial_note(t, peri_body_create(&d, &t->body, NULL));
+    t->out.status = peri_body_create(&d, &t->body, &error);
     if (trial_fine(t)) trial_note(t, peri_add_material(t->body, material));
+    else (void)peri_error_format(&error, t->out.text, (int64_t)sizeof t->out.text);
 }
 
 void trial_build(trial *t, const double *lo, const double *hi, double spacing, peri_point_fn inside) {

@@ -39,7 +39,7 @@ def label(row):
         words.append("m " + row["m"])
     moves = row["safety"] != ""
     usual = {"influence": "constant", "quadrature": "whole", "precision": "double", "geometry": "nonlinear" if moves else "linear"}
-    words += [row[k] for k, value in usual.items() if row[k] != value]
+    words += [row[k] + (" geometry" if k == "geometry" else "") for k, value in usual.items() if row[k] != value]
     if row["stabilization"] not in ("", "0.2"):
         words.append("stab. " + row["stabilization"])
     if row["tolerance"] not in ("", "default"):
@@ -97,6 +97,8 @@ def draw(problem, rows, across):
     figure, (above, below) = plt.subplots(2, 1, figsize=(11, 9.5))
     figure.subplots_adjust(left=0.08, right=0.66, top=0.885, bottom=0.065, hspace=0.24)
     figure.suptitle(title, x=0.08, y=0.975, ha="left", fontsize=14)
+    if any(row["y"] < FLOOR for row in rows):
+        truth += f"; below {100 * FLOOR:g} % drawn there"
     figure.text(0.08, 0.93, "error: " + truth, fontsize=10)
     figure.text(0.672, 0.895, "law+correction, horizon in spacings,\nwhat is not default | " + across, fontsize=8.5)
     what = "run" if rows[0]["safety"] else "evaluate" if problem.startswith("uniform") else "solve"
