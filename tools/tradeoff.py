@@ -22,7 +22,7 @@ TITLES = {
     "crack": ("Crack under tension, plane stress", "energy release rate against K²/E (Tada, Paris, Irwin)"),
     "branching": ("Crack branching in glass, horizon 1 mm", "path of the upper tip against the finest run"),
 }
-LAWS = [("bond-based", "bond-based", "o", "#0072b2"), ("LPS", "LPS", "s", "#d55e00"),
+LAWS = [("bond-based", "bond", "o", "#0072b2"), ("LPS", "LPS", "s", "#d55e00"),
         ("Oterkus", "Oterkus", "^", "#009e73"), ("correspondence", "corr.", "D", "#cc79a7")]
 SHORT = {law: short for law, short, _, _ in LAWS}
 ONLY = {"uniform": "64", "uniform_3d": "24"}  # the resolution that is compared
@@ -31,7 +31,7 @@ KNEES = 10
 
 
 def label(row):
-    """Knobs that differ from the defaults, and the resolution."""
+    """The resolution, and the knobs that differ from the defaults."""
     words = [SHORT[row["law"]]]
     if row["correction"] != "none":
         words[0] += "+" + row["correction"]
@@ -39,7 +39,7 @@ def label(row):
         words.append("m " + row["m"])
     moves = row["safety"] != ""
     usual = {"influence": "constant", "quadrature": "whole", "precision": "double", "geometry": "nonlinear" if moves else "linear"}
-    words += [row[k] + (" geometry" if k == "geometry" else "") for k, value in usual.items() if row[k] != value]
+    words += [row[k].replace("linear", "lin. geometry") if k == "geometry" else row[k] for k, value in usual.items() if row[k] != value]
     if row["stabilization"] not in ("", "0.2"):
         words.append("stab. " + row["stabilization"])
     if row["tolerance"] not in ("", "default"):
@@ -48,7 +48,7 @@ def label(row):
         words.append("dt " + row["safety"])
     if row["integrator"] == "central difference":
         words.append("c.d.")
-    return ", ".join(words) + " | " + row["across"]
+    return row["across"] + " | " + ", ".join(words)
 
 
 def knees(front):
@@ -94,13 +94,13 @@ def panel(axes, rows, cost, scale, flag, unit):
 
 def draw(problem, rows, across):
     title, truth = TITLES[problem]
-    figure, (above, below) = plt.subplots(2, 1, figsize=(11, 9.5))
-    figure.subplots_adjust(left=0.08, right=0.66, top=0.885, bottom=0.065, hspace=0.24)
+    figure, (above, below) = plt.subplots(2, 1, figsize=(11.5, 9.5))
+    figure.subplots_adjust(left=0.08, right=0.63, top=0.885, bottom=0.065, hspace=0.24)
     figure.suptitle(title, x=0.08, y=0.975, ha="left", fontsize=14)
     if any(row["y"] < FLOOR for row in rows):
         truth += f"; below {100 * FLOOR:g} % drawn there"
     figure.text(0.08, 0.93, "error: " + truth, fontsize=10)
-    figure.text(0.672, 0.895, "law+correction, horizon in spacings,\nwhat is not default | " + across, fontsize=8.5)
+    figure.text(0.645, 0.895, across + " | law+correction,\nm: spacings to the horizon, what is not default", fontsize=8.5)
     what = "run" if rows[0]["safety"] else "evaluate" if problem.startswith("uniform") else "solve"
     panel(above, rows, "seconds", 1, "front_time", "processor time of one thread: build and " + what + " [s]")
     panel(below, rows, "bytes", 1e-6, "front_bytes", "memory at the most [MB]")
