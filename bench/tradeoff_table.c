@@ -4,6 +4,7 @@
 enum { REPEATS = 3, CORRECTIONS = 10 };
 static const double SHORT = 0.05;   /* [s] shorter runs are repeated, and the least time counts                          */
 static const double COARSE = 0.2;   /* rows with larger errors are on no front                                           */
+static const double LEAST = 1e-6;   /* smaller errors are as good as this                                                */
 static const double STEP = 1.3;     /* from row to row of a front, where each is varied                                  */
 static const double PER_BOND[5] = { 0, 1.5e-9, 2.5e-9, 3.5e-9, 4e-9 }; /* [s] about, by law                              */
 
@@ -91,7 +92,7 @@ static row *ask_guarded(table *t, const knobs *k, int stage, double limit) {
 static void guard(const table *t, row *r) {
     const double coarser = neighbour(t->p, &r->k, -1);
     int others = 0;
-    r->guarded = r->out.error;
+    r->guarded = fmax(r->out.error, LEAST);
     for (int i = 0; i < t->count; ++i) {
         const row *o = &t->rows[i];
         const double ratio = o->k.across / r->k.across;

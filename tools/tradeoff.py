@@ -26,7 +26,7 @@ LAWS = [("bond-based", "bond", "o", "#0072b2"), ("LPS", "LPS", "s", "#d55e00"),
         ("Oterkus", "Oterkus", "^", "#009e73"), ("correspondence", "corr.", "D", "#cc79a7")]
 SHORT = {law: short for law, short, _, _ in LAWS}
 ONLY = {"uniform": "64", "uniform_3d": "24"}  # the resolution that is compared
-FLOOR = 1e-6  # relative errors below this are drawn here
+FLOOR = 1e-6  # smaller errors are drawn here, as bench/tradeoff_table.c takes them
 KNEES = 10
 
 
@@ -69,7 +69,7 @@ def panel(axes, rows, cost, scale, flag, unit):
         own = [r for r in rows if r["law"] == law]
         axes.plot([scale * float(r[cost]) for r in own], [100 * max(r["y"], FLOOR) for r in own], marker, color=colour, markersize=3,
                   alpha=0.35, markeredgewidth=0, linestyle="none", label=law)
-    front = sorted((scale * float(r[cost]), 100 * max(r["y"], FLOOR), r) for r in rows if r[flag] == "1" and r["y"] < math.inf)
+    front = sorted(((scale * float(r[cost]), 100 * max(r["y"], FLOOR), r) for r in rows if r[flag] == "1"), key=lambda p: (p[0], -p[1]))
     axes.plot([p[0] for p in front], [p[1] for p in front], "k-", linewidth=1.2, label="best", zorder=4)
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -97,8 +97,8 @@ def draw(problem, rows, across):
     figure, (above, below) = plt.subplots(2, 1, figsize=(11.5, 9.5))
     figure.subplots_adjust(left=0.08, right=0.63, top=0.885, bottom=0.065, hspace=0.24)
     figure.suptitle(title, x=0.08, y=0.975, ha="left", fontsize=14)
-    if any(row["y"] < FLOOR for row in rows):
-        truth += f"; below {100 * FLOOR:g} % drawn there"
+    if any(row["y"] <= FLOOR for row in rows):
+        truth += f"; {100 * FLOOR:g} %: or less"
     figure.text(0.08, 0.93, "error: " + truth, fontsize=10)
     figure.text(0.645, 0.895, across + " | law+correction,\nm: spacings to the horizon, what is not default", fontsize=8.5)
     what = "run" if rows[0]["safety"] else "evaluate" if problem.startswith("uniform") else "solve"
