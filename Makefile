@@ -103,7 +103,7 @@ LONGEST = branching
 TRADES = uniform uniform_3d cantilever cantilever_3d hole crack p_wave p_wave_3d branching
 tradeoff: build/bench/tradeoff
 	@mkdir -p out build/tradeoff
-	@$(MAKE) --no-print-directory -j2 $(LONGEST:%=trade-%) $(TRADES:%=trade-%)
+	@$(MAKE) --no-print-directory -j2 $(LONGEST:%=trade-%) $(patsubst %,trade-%,$(filter-out $(LONGEST),$(TRADES)))
 	@{ build/bench/tradeoff --header && cat $(TRADES:%=build/tradeoff/%.csv); } > out/tradeoff.csv
 	@cat $(TRADES:%=build/tradeoff/%.md) > out/tradeoff.md
 	@for p in python3 /usr/bin/python3; do $$p -c 'import matplotlib' 2> /dev/null && exec $$p tools/tradeoff.py; done; \
