@@ -2,6 +2,7 @@
 # make test      builds and runs every test, closing with "N passed, N failed"
 # make validate  the long tables of the source texts
 # make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
+# make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
 # make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, half an hour
 # make examples  builds and runs every example
 # make lib       build/libperi.a and build/libperi.so
@@ -26,7 +27,7 @@ EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate machines bench examples lib dist fuzz lint clean
+.PHONY: all demo programs test validate bench tradeoff machines examples lib dist fuzz lint clean
 all: lib
 
 build/peri.o: $(SOURCES)
@@ -80,6 +81,11 @@ BENCH = bench bars cases_native cases_plain glass limits runs table textbook wor
 build/bench/bench: $(BENCH:%=build/bench/%.o) build/peri.o
 	$(CC) $(OPENMP) $^ -o $@ -lm
 
+TRADEOFF = tradeoff tradeoff_motion tradeoff_recipes tradeoff_statics tradeoff_table tradeoff_trial
+$(TRADEOFF:%=build/bench/%.o): bench/tradeoff.h peri.h
+build/bench/tradeoff: $(TRADEOFF:%=build/bench/%.o) build/peri.o
+	$(CC) $(OPENMP) $^ -o $@ -lm
+
 demo: build/examples/branching
 	@mkdir -p out
 	build/examples/branching
@@ -106,6 +112,20 @@ bench: build/bench/bench build/bench/statics build/bench/search
 	build/bench/bench
 	build/bench/statics
 	build/bench/search
+
+# two processes, the longest problem first
+LONGEST = branching
+TRADES = uniform uniform_3d cantilever cantilever_3d hole crack p_wave p_wave_3d branching
+tradeoff: build/bench/tradeoff
+	@mkdir -p out build/tradeoff
+	@$(MAKE) --no-print-directory -j2 $(LONGEST:%=trade-%) $(patsubst %,trade-%,$(filter-out $(LONGEST),$(TRADES)))
+	@{ build/bench/tradeoff --header && cat $(TRADES:%=build/tradeoff/%.csv); } > out/tradeoff.csv
+	@cat $(TRADES:%=build/tradeoff/%.md) > out/tradeoff.md
+	@for p in python3 /usr/bin/python3; do $$p -c 'import matplotlib' 2> /dev/null && exec $$p tools/tradeoff.py; done; \
+	echo "tradeoff: no python3 has matplotlib: out/tradeoff.csv and out/tradeoff.md are made, the pictures are not"
+
+trade-%: build/bench/tradeoff
+	@build/bench/tradeoff $*
 
 dist: build/dist/peri.h
 build/dist/peri.h: $(SOURCES) tools/dist.awk

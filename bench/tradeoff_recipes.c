@@ -1,0 +1,78 @@
+/* tradeoff_recipes.c - `tradeoff --recipes`: a few sets of knobs, and what each gives in every problem at every resolution.
+
+   State-based laws: the largest error over the Poisson ratios 0.1, 0.3 and 0.45 (branching, whose truth is bond-based: 1/3 alone), and the
+   seconds and bytes of the slowest and the largest. Errors as measured, not guarded. */
+#include "tradeoff.h"
+
+typedef struct recipe {
+    const char *name;
+    int32_t     law, correction, influence, precision;
+    double      m, stabilization; /* branching has its horizon given: m is the resolution                                */
+} recipe;
+
+static const recipe recipes[] = {
+    { "bond", PERI_BOND_BASED, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F64, 3, -1 },
+    { "bond_single", PERI_BOND_BASED, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F32, 3, -1 },
+    { "bond_energy", PERI_BOND_BASED, PERI_ENERGY_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F64, 3, -1 },
+    { "bond_moment", PERI_BOND_BASED, PERI_MOMENT_CORRECTION, PERI_INFLUENCE_LINEAR, PERI_F64, 2, -1 },
+    { "lps", PERI_LPS, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F64, 3, -1 },
+    { "lps_moment_2", PERI_LPS, PERI_MOMENT_CORRECTION, PERI_INFLUENCE_LINEAR, PERI_F64, 2, -1 },
+    { "lps_moment_3", PERI_LPS, PERI_MOMENT_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F64, 3, -1 },
+    { "corr", PERI_CORRESPONDENCE, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F64, 2, 0.2 },
+    { "corr_single", PERI_CORRESPONDENCE, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F32, 2, 0.2 },
+    { "corr_steep", PERI_CORRESPONDENCE, PERI_NO_CORRECTION, PERI_INFLUENCE_POWER_3, PERI_F64, 2, 0.2 },
+    { "corr_stiff", PERI_CORRESPONDENCE, PERI_NO_CORRECTION, PERI_INFLUENCE_POWER_3, PERI_F64, 2, 0.4 }
+};
+
+static const double resolutions[] = { 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 0 };
+static const double ratios[] = { 0.1, 0.3, 0.45 };
+static const double LIMIT = 0.8; /* [s] expected of one run; of branching ten times that */
+
+static void print_recipe(const recipe *r, const problem *p) {
+    const double *across = p->run == run_branching ? p->across : resolutions;
+    for (int a = 0; across[a] > 0; ++a) {
+        outcome worst;
+        char    series[200] = "";
+        double  poisson = 0;
+        const int known = r->law == PERI_BOND_BASED || p->run == run_branching;
+        memset(&worst, 0, sizeof worst);
+        worst.error = -1;
+        for (int n = 0; n < (known ? 1 : 3) && worst.status == PERI_OK; ++n) {
+            knobs k = knobs_of(p, r->law, p->ratio[0] > 0 ? r->m : across[a], across[a]);
+            outcome o;
+            k.correction = r->correction;
+            k.influence = r->influence;
+            k.precision = r->precision;
+            k.stabilization = r->stabilization;
+            if (k.precision == PERI_F32 && !p->moves) k.tolerance = 1e-2; /* slender bodies do not get below 5e-3 */
+            if (!known) k.poisson = ratios[n];
+            if (seconds_expected(p, &k) > LIMIT * (p->run == run_branching ? 10 : 1)) return;
+            name_series(&k, p->moves, series, sizeof series);
+            o = run_best(p, &k);
+            if (o.error > worst.error) {
+                worst.error = o.error;
+                poisson = k.poisson;
+            }
+            worst.seconds = fmax(worst.seconds, o.seconds);
+            if (o.bytes > worst.bytes) worst.bytes = o.bytes;
+            worst.points = o.points;
+            worst.bonds = o.bonds;
+            worst.status = o.status;
+            memcpy(worst.text, o.text, sizeof worst.text);
+        }
+        printf("%s,%s,%g,%.4g,%.4g,%lld,%lld,%lld,%.4g,\"%s\",\"%s\"\n", r->name, p->name, across[a], worst.error, worst.seconds,
+               (long long)worst.bytes, (long long)worst.points, (long long)worst.bonds, poisson, series,
+               worst.status == PERI_OK ? "ok" : worst.text);
+        (void)fflush(stdout);
+    }
+}
+
+int print_recipes(const char *only) {
+    int found = 0;
+    for (int i = 0; i < problem_count; ++i) {
+        if (only && strcmp(only, problems[i].name) != 0) continue;
+        found = 1;
+        for (int r = 0; r < (int)(sizeof recipes / sizeof *recipes); ++r) print_recipe(&recipes[r], &problems[i]);
+    }
+    return found ? 0 : 1;
+}
