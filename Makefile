@@ -115,7 +115,7 @@ bench: build/bench/bench build/bench/statics build/bench/search
 
 # two processes, the longest problem first
 LONGEST = branching
-TRADES = uniform uniform_3d cantilever cantilever_3d hole crack p_wave p_wave_3d branching
+TRADES = uniform uniform_3d cantilever cantilever_3d hole crack edge_cracks p_wave p_wave_3d branching
 tradeoff: build/bench/tradeoff
 	@mkdir -p out build/tradeoff
 	@$(MAKE) --no-print-directory -j2 $(LONGEST:%=trade-%) $(patsubst %,trade-%,$(filter-out $(LONGEST),$(TRADES)))

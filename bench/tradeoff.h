@@ -77,9 +77,11 @@ void   lame_of(const knobs *k, double *lambda, double *mu);            /* in-pla
 
 /* ---- problems ----------------------------------------------------------------------------------------------------- */
 
-outcome run_uniform(const knobs *k), run_cantilever(const knobs *k), run_hole(const knobs *k), run_crack(const knobs *k);
+outcome run_uniform(const knobs *k), run_cantilever(const knobs *k), run_hole(const knobs *k), run_crack(const knobs *k),
+        run_edges(const knobs *k);
 outcome run_wave(const knobs *k), run_branching(const knobs *k);
-double  work_uniform(const knobs *k), work_cantilever(const knobs *k), work_hole(const knobs *k), work_crack(const knobs *k);
+double  work_uniform(const knobs *k), work_cantilever(const knobs *k), work_hole(const knobs *k), work_crack(const knobs *k),
+       work_edges(const knobs *k);
 double  work_wave(const knobs *k), work_branching(const knobs *k);
 
 /* ---- rows --------------------------------------------------------------------------------------------------------- */

@@ -154,6 +154,30 @@ static double peri__fill_diagonal(peri_body *b, void *blocks) {
 
 /* ---- the product in the user's units ------------------------------------------------------------------------------ */
 
+/* Interleaved vectors of the user to planes of the body, times a factor that is a power of two; and K u of planes back. */
+static void peri__to_planes(const peri_body *b, const double *in, double factor, void *planes) {
+    const int64_t points = b->model->points, stride = b->model->stride;
+    const int dim = b->dim;
+    double *wide = (double *)planes;
+    float *narrow = (float *)planes;
+    for (int64_t i = 0; i < points; ++i)
+        for (int d = 0; d < dim; ++d)
+            if (b->f32) narrow[d * stride + i] = (float)(in[i * dim + d] * factor);
+            else wide[d * stride + i] = in[i * dim + d] * factor;
+}
+
+static void peri__from_planes(const peri_body *b, const void *planes, double unit, double scale, double *out) {
+    const int64_t points = b->model->points, stride = b->model->stride;
+    const int dim = b->dim;
+    const double *wide = (const double *)planes, *volume = b->model->volume;
+    const float *narrow = (const float *)planes;
+    for (int64_t i = 0; i < points; ++i)
+        for (int d = 0; d < dim; ++d) {
+            const double value = b->f32 ? (double)narrow[d * stride + i] : wide[d * stride + i];
+            out[i * dim + d] = -unit * (scale * (volume[i] * value));
+        }
+}
+
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
     PERI_NEED_CHANGEABLE(b);
     const peri__model *m = b->model;
@@ -169,7 +193,8 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
         if (fabs(in[k]) > largest) largest = fabs(in[k]);
     }
     if (largest > 0.0) (void)frexp(largest, &exponent);
-    scale = ldexp(1.0, exponent - 1); /* of order one inside, whatever the size in the caller's units */
+    if (exponent < -1000) exponent = -1000; /* so that its inverse is a number, too */
+    scale = ldexp(1.0, exponent - 1);       /* of order one inside, whatever the size in the caller's units */
     int32_t status = peri__update_force(b);
     if (status < 0) return status;
     t.body = b;
@@ -178,12 +203,9 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     t.q = peri__new_vector(b);
     t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
     if (p && t.q && (t.change || !m->states)) {
-        for (int64_t i = 0; i < m->points; ++i)
-            for (int32_t d = 0; d < m->dim; ++d) peri__put_real(p, b->f32, d * m->stride + i, in[i * m->dim + d] / scale);
+        peri__to_planes(b, in, 1.0 / scale, p);
         peri__apply_tangent(&t, 0);
-        for (int64_t i = 0; i < m->points; ++i)
-            for (int32_t d = 0; d < m->dim; ++d)
-                out[i * m->dim + d] = -unit * (scale * (m->volume[i] * peri__get_real(t.q, b->f32, d * m->stride + i)));
+        peri__from_planes(b, t.q, unit, scale, out);
     } else
         status = peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
     peri__delete_vector(b, p);

@@ -1,10 +1,5 @@
 # Checks of the build and of the examples, read by run.sh. They use check, program and skip.
 
-STRICT="-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror"
-SANITIZE="-g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
-CC=${CC:-cc}
-mkdir -p build/checks build/san
-
 # ---- the examples run as they are
 for source in examples/*.c; do
     name=$(basename "$source" .c)
@@ -17,7 +12,7 @@ check example_length sh -c 'for e in examples/*.c; do
 quick=$CC
 check dist sh tests/check_dist.sh
 sanitized=""
-if echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; then
+if can_sanitize; then
     sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
         test_loadsteps test_loose test_memory test_output test_plan test_programs test_quadrature test_random test_search \
         test_solvers"

@@ -71,11 +71,20 @@ run_queue() { # two at a time
 
 skip() { echo "skip $1: $2"; }
 
-mkdir -p build/queue out
+STRICT="-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror"
+SANITIZE="-g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
+CC=${CC:-cc}
+can_sanitize() { echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; }
+
+mkdir -p build/queue build/checks build/san out
 programs build/tests "" $(basename -s .c tests/test_*.c) extremes
 
 if [ -z "$long" ]; then
     . tests/checks.sh
+elif can_sanitize; then
+    check sanitized_library $CC $STRICT $SANITIZE -c peri_impl.c -o build/san/serial.o
+    check sanitized_extremes_build $CC $STRICT $SANITIZE -DLONGEST=200.0 -I. tests/extremes/*.c build/san/serial.o -o build/san/extremes -lm
+    program sanitized_extremes build/san/extremes
 fi
 
 echo "$passed passed, $failed failed"

@@ -20,6 +20,7 @@ TITLES = {
     "p_wave": ("P wave, plane strain", "speed of a packet over two wavelengths against elastodynamics"),
     "p_wave_3d": ("P wave, 3D", "speed of a packet over one wavelength against elastodynamics"),
     "crack": ("Crack under tension, plane stress", "energy release rate against K²/E (Tada, Paris, Irwin)"),
+    "edge_cracks": ("Cracks in both edges, plane stress", "energy release rate against K²/E (Tada, Paris, Irwin: to 1 %)"),
     "branching": ("Crack branching in glass, horizon 1 mm", "path of the upper tip against the finest run"),
 }
 LAWS = [("bond-based", "bond", "o", "#0072b2"), ("LPS", "LPS", "s", "#d55e00"),
@@ -114,7 +115,8 @@ def draw(problem, rows, across):
 
 ACROSS = {"uniform": "spacings to the side", "uniform_3d": "spacings to the side", "cantilever": "spacings to the depth",
           "cantilever_3d": "spacings to the depth", "hole": "spacings to the radius", "p_wave": "spacings to the wavelength",
-          "p_wave_3d": "spacings to the wavelength", "crack": "spacings along the crack", "branching": "spacings to the horizon"}
+          "p_wave_3d": "spacings to the wavelength", "crack": "spacings along the crack",
+          "edge_cracks": "spacings along a crack", "branching": "spacings to the horizon"}
 
 
 def main():
