@@ -3,8 +3,8 @@
    Each choice is carried out: the body is made with the spacing and the knobs that were chosen, the problem is solved, and the error must
    not be above the one that was promised (choice.error; of a preset, the error that it stands for).
    SOURCES OF TRUTH, all elasticity: Timoshenko, Goodier, Theory of Elasticity, section 22 (beam under uniform load) and 109 (torsion of a
-   square bar), Kirsch (around a hole in pure shear), speed of S waves, energy release rate of an edge crack (Tada, Paris, Irwin, The Stress Analysis
-   of Cracks Handbook, 2.10-2.12: formula for any a/b to 0.5 %). */
+   square bar), Kirsch (around a hole in pure shear), speed of S waves, energy release rate of an edge crack (Tada, Paris, Irwin, The
+   Stress Analysis of Cracks Handbook, 2.10-2.12: formula for any a/b to 0.5 %). */
 #include "peri_test.h"
 
 #define PI 3.14159265358979323846

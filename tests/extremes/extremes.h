@@ -86,7 +86,7 @@ double *extreme_read(outcome *o, peri_body *b, int32_t field);
 void extreme_affine(outcome *o, peri_body *b, const double *gradient, const double *origin);
 
 extern const extreme_table extreme_units, extreme_elasticity, extreme_motion, extreme_stretches, extreme_families, extreme_damage,
-    extreme_cracks, extreme_tiny, extreme_time, extreme_pairs, extreme_statics, extreme_solids, extreme_trusses, extreme_sizes, extreme_callbacks,
-    extreme_allocation, extreme_hooks, extreme_rounding;
+    extreme_cracks, extreme_tiny, extreme_time, extreme_pairs, extreme_statics, extreme_solids, extreme_trusses, extreme_sizes,
+    extreme_callbacks, extreme_allocation, extreme_hooks, extreme_rounding;
 
 #endif
