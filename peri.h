@@ -859,8 +859,9 @@ PERI_API void peri_goal_init(peri_goal *goal);
 /* Fills body (precision, influence, quadrature, correction, horizon) and material (model, and with it poisson and stabilization) with the
    best choice for a goal, from a table that `make tradeoff` measured on lattices, Poisson's ratio 0.1, 0.3 and 0.45; all else in them, and
    both where the call fails, stays as it is. body needs its space, material its constants and its ratio: PERI_BOND_BASED stands for the
-   ratio that it has. Bond-based is chosen only where the ratio and the criterion allow it. The error is one of discretization, for parts
-   not much smaller than the feature under smooth loads; horizons reach 1.5 to 3 spacings into what is at a surface.
+   ratio that it has. Bond-based is chosen only where the ratio and the criterion allow it. The error is one of discretization, of linear
+   elasticity: of materials, loads and supports it knows nothing, and the paths of fast cracks ask for horizons small beside what they run
+   through. In 3D stress and fracture stand on measurements in the plane. A budget of time takes about a second to look into.
    PERI_ERROR_RANGE: "error": out of reach of the table (value: what is in reach), "poisson": outside [0, 0.45], "seconds", "bytes": out
    of the budget (value: what it takes, 0 where not even the coarsest fits). error may be NULL. */
 PERI_API int32_t peri_choose(const peri_goal *goal, peri_body_desc *body, peri_material *material, peri_choice *choice,

@@ -77,7 +77,8 @@ CC=${CC:-cc}
 can_sanitize() { echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; }
 
 mkdir -p build/queue build/checks build/san out
-programs build/tests "" $(basename -s .c tests/test_*.c) extremes
+# the longest first
+programs build/tests "" extremes test_kernels test_choose $(basename -s .c tests/test_*.c | grep -v -e test_kernels -e test_choose)
 
 if [ -z "$long" ]; then
     . tests/checks.sh
