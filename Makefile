@@ -113,8 +113,8 @@ bench: build/bench/bench build/bench/statics build/bench/search
 	build/bench/statics
 	build/bench/search
 
-# two processes, the longest problem first
-LONGEST = branching
+# two processes, the longest problems first
+LONGEST = branching crack
 TRADES = uniform uniform_3d cantilever cantilever_3d hole crack edge_cracks p_wave p_wave_3d branching
 tradeoff: build/bench/tradeoff
 	@mkdir -p out build/tradeoff
