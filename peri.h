@@ -621,7 +621,7 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
    |reactions|, as vectors of point forces. Then bonds over their limit break, and equilibrium is sought again, until none does. Slow cracks
    are trapped between the rows of a lattice: a bond-based one took 1.56, 1.29, 1.12 times the energy G0 at 3, 4, 6 spacings to the horizon.
    Starts from the present displacements, so a solve whose first step ran out of iterations goes on where it stopped when called again
-   (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 1e-3, in mixed precision
+   (nonlinear: with halvings = 0). In single precision the residual cannot fall much below 1e-5, of slender bodies 5e-3, in mixed precision
    below 1e-7 and 1e-6: a tolerance out of reach ends with PERI_ERROR_CONVERGENCE at the best that there is. Where nothing acts (a body
    turned rigidly) rounding is good enough; forces below 1e-140 (single and mixed precision: 1e-42) of Young's modulus times a face of a
    cell are nothing. */
