@@ -154,28 +154,32 @@ static double peri__fill_diagonal(peri_body *b, void *blocks) {
 
 /* ---- the product in the user's units ------------------------------------------------------------------------------ */
 
-/* Interleaved vectors of the user to planes of the body, times a factor that is a power of two; and K u of planes back. */
+/* Interleaved vectors of the user to planes of the body, times a power of two; and K u of planes back. */
 static void peri__to_planes(const peri_body *b, const double *in, double factor, void *planes) {
     const int64_t points = b->model->points, stride = b->model->stride;
     const int dim = b->dim;
-    double *wide = (double *)planes;
-    float *narrow = (float *)planes;
-    for (int64_t i = 0; i < points; ++i)
-        for (int d = 0; d < dim; ++d)
-            if (b->f32) narrow[d * stride + i] = (float)(in[i * dim + d] * factor);
-            else wide[d * stride + i] = in[i * dim + d] * factor;
+    for (int d = 0; d < dim; ++d) {
+        double *wide = (double *)planes + d * stride;
+        float *narrow = (float *)planes + d * stride;
+        if (b->f32)
+            for (int64_t i = 0; i < points; ++i) narrow[i] = (float)(in[i * dim + d] * factor);
+        else
+            for (int64_t i = 0; i < points; ++i) wide[i] = in[i * dim + d] * factor;
+    }
 }
 
 static void peri__from_planes(const peri_body *b, const void *planes, double unit, double scale, double *out) {
     const int64_t points = b->model->points, stride = b->model->stride;
     const int dim = b->dim;
-    const double *wide = (const double *)planes, *volume = b->model->volume;
-    const float *narrow = (const float *)planes;
-    for (int64_t i = 0; i < points; ++i)
-        for (int d = 0; d < dim; ++d) {
-            const double value = b->f32 ? (double)narrow[d * stride + i] : wide[d * stride + i];
-            out[i * dim + d] = -unit * (scale * (volume[i] * value));
-        }
+    const double *volume = b->model->volume;
+    for (int d = 0; d < dim; ++d) {
+        const double *wide = (const double *)planes + d * stride;
+        const float *narrow = (const float *)planes + d * stride;
+        if (b->f32)
+            for (int64_t i = 0; i < points; ++i) out[i * dim + d] = -unit * (scale * (volume[i] * (double)narrow[i]));
+        else
+            for (int64_t i = 0; i < points; ++i) out[i * dim + d] = -unit * (scale * (volume[i] * wide[i]));
+    }
 }
 
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
