@@ -142,6 +142,16 @@ void extreme_affine(outcome *o, peri_body *b, const double *gradient, const doub
     free(x);
 }
 
+int32_t extreme_slab(outcome *o, peri_body *b, int axis, double from, double to) {
+    double lo[3] = {-1e6, -1e6, -1e6}, hi[3] = {1e6, 1e6, 1e6};
+    int32_t set;
+    lo[axis] = from;
+    hi[axis] = to;
+    set = peri_select_box(b, NULL, lo, hi);
+    (void)extreme_fails(o, b, set);
+    return set;
+}
+
 /* A field that cannot be had is named by its status, which is no wrong number. */
 static int is_finite_field(peri_body *b, int32_t field) {
     const int64_t n = peri_field_size(b, field);

@@ -82,6 +82,9 @@ void extreme_note(outcome *o, const extreme *row, int32_t precision, double erro
 /* A new array of a field of points; NULL where the call fails, which is noted. */
 double *extreme_read(outcome *o, peri_body *b, int32_t field);
 
+/* The set of points with coordinate `axis` between from and to; what fails is noted. */
+int32_t extreme_slab(outcome *o, peri_body *b, int axis, double from, double to);
+
 /* Writes u = G x, G[dim*dim] by rows, x from `origin`[dim] (NULL: the origin). */
 void extreme_affine(outcome *o, peri_body *b, const double *gradient, const double *origin);
 

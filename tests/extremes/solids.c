@@ -61,16 +61,6 @@ static solid plain(int32_t precision, int32_t space, int32_t model) {
     return s;
 }
 
-static int32_t slab(outcome *o, peri_body *b, int axis, double from, double to) {
-    double lo[3] = {-1e6, -1e6, -1e6}, hi[3] = {1e6, 1e6, 1e6};
-    int32_t set;
-    lo[axis] = from;
-    hi[axis] = to;
-    set = peri_select_box(b, NULL, lo, hi);
-    (void)extreme_fails(o, b, set);
-    return set;
-}
-
 /* ---- factorised --------------------------------------------------------------------------------------------------- */
 
 typedef struct dense {
@@ -186,8 +176,9 @@ static void compare(outcome *o, const dense *a, const solid *s, const peri_stati
     int64_t k;
     int32_t code;
     if (o->status >= 0) {
-        (void)extreme_fails(o, b, peri_prescribe_displacement(b, slab(o, b, 0, 0, 2), s->space == PERI_SOLID ? 7 : 3, NULL, NULL, NULL));
-        (void)extreme_fails(o, b, peri_apply_body_force(b, slab(o, b, 0, s->nx - 1, s->nx), force, NULL, NULL));
+        (void)extreme_fails(o, b, peri_prescribe_displacement(b, extreme_slab(o, b, 0, 0, 2), s->space == PERI_SOLID ? 7 : 3,
+            NULL, NULL, NULL));
+        (void)extreme_fails(o, b, peri_apply_body_force(b, extreme_slab(o, b, 0, s->nx - 1, s->nx), force, NULL, NULL));
     }
     if (o->status >= 0) {
         code = peri_solve(b, st, NULL);
@@ -261,8 +252,9 @@ static outcome uniform(const extreme *row, int32_t precision) {
             b = body_of(&o, &s);
             if (o.status >= 0) {
                 const double area = s.ny * s.nz;
-                (void)extreme_fails(&o, b, peri_apply_surface_traction(b, slab(&o, b, 0, s.nx - 4, s.nx), area, out, value, NULL, NULL));
-                (void)extreme_fails(&o, b, peri_apply_surface_traction(b, slab(&o, b, 0, 0, 4), area, in, against, NULL, NULL));
+                (void)extreme_fails(&o, b, peri_apply_surface_traction(b, extreme_slab(&o, b, 0, s.nx - 4, s.nx), area, out,
+                    value, NULL, NULL));
+                (void)extreme_fails(&o, b, peri_apply_surface_traction(b, extreme_slab(&o, b, 0, 0, 4), area, in, against, NULL, NULL));
             }
             peri_statics_init(&st);
             st.loose = loose;
@@ -313,8 +305,8 @@ static outcome floating(const extreme *row, int32_t precision) {
                 peri_statics_init(&st);
                 st.loose = loose;
                 if (o.status >= 0) {
-                    (void)extreme_fails(&o, b, peri_apply_body_force(b, slab(&o, b, 0, s.nx - 1, s.nx), pull, NULL, NULL));
-                    load = peri_apply_body_force(b, slab(&o, b, 0, 0, 1), against, NULL, NULL);
+                    (void)extreme_fails(&o, b, peri_apply_body_force(b, extreme_slab(&o, b, 0, s.nx - 1, s.nx), pull, NULL, NULL));
+                    load = peri_apply_body_force(b, extreme_slab(&o, b, 0, 0, 1), against, NULL, NULL);
                     (void)extreme_fails(&o, b, load);
                 }
                 if (o.status < 0) {
@@ -346,8 +338,8 @@ static outcome floating(const extreme *row, int32_t precision) {
                 free(u);
                 if (loose == PERI_LOOSE_BALANCED && o.status >= 0) { /* only one of the two is left */
                     (void)extreme_fails(&o, b, peri_remove_load(b, load));
-                    (void)extreme_fails(&o, b, peri_apply_body_force(b, slab(&o, b, 0, 0, s.nx), against, NULL, NULL));
-                    (void)extreme_fails(&o, b, peri_apply_body_force(b, slab(&o, b, 0, s.nx - 1, s.nx), against, NULL, NULL));
+                    (void)extreme_fails(&o, b, peri_apply_body_force(b, extreme_slab(&o, b, 0, 0, s.nx), against, NULL, NULL));
+                    (void)extreme_fails(&o, b, peri_apply_body_force(b, extreme_slab(&o, b, 0, s.nx - 1, s.nx), against, NULL, NULL));
                     (void)extreme_fails(&o, b, peri_reset(b));
                     (void)extreme_fails(&o, b, peri_solve(b, &st, &r));
                     u = extreme_read(&o, b, PERI_DISPLACEMENT);
@@ -408,7 +400,8 @@ static outcome burst(const extreme *row, int32_t precision) {
                 if (o.status >= 0) (void)extreme_fails(&o, b, peri_read(b, PERI_POSITION, x + 1, n));
                 for (k = 0; k < (row->choice ? 2 * dim : 1) && o.status >= 0; ++k) {
                     const int wide = k / 2 == 0 ? s.nx : k / 2 == 1 ? s.ny : s.nz;
-                    const int32_t set = row->choice == 0 ? PERI_ALL : slab(&o, b, (int)k / 2, k % 2 ? wide - 1 : 0, k % 2 ? wide : 1);
+                    const int32_t set = row->choice == 0 ? PERI_ALL : extreme_slab(&o, b, (int)k / 2, k % 2 ? wide - 1 : 0,
+                        k % 2 ? wide : 1);
                     (void)extreme_fails(&o, b, peri_prescribe_displacement(b, set, axes, NULL, swell, x));
                 }
                 peri_statics_init(&st);

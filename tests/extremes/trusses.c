@@ -3,16 +3,6 @@
 
 #define PI 3.14159265358979323846
 
-static int32_t slab(outcome *o, peri_body *b, int axis, double from, double to) {
-    double lo[3] = {-1e6, -1e6, -1e6}, hi[3] = {1e6, 1e6, 1e6};
-    int32_t set;
-    lo[axis] = from;
-    hi[axis] = to;
-    set = peri_select_box(b, NULL, lo, hi);
-    (void)extreme_fails(o, b, set);
-    return set;
-}
-
 /* ---- hinged, hanging ---------------------------------------------------------------------------------------------- */
 
 /* A square of 3 x 3 points, held, and more points on one bond to its corner: choice 0, one, pulled along it: k e = F, and what pulls across
@@ -43,8 +33,8 @@ static outcome joined(const extreme *row, int32_t precision) {
                 || extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, 1)) || extreme_fails(&o, b, peri_add_points(b, count, x, v, NULL))
                 || extreme_fails(&o, b, peri_build(b)))
                 return extreme_end(o, b);
-            (void)extreme_fails(&o, b, peri_prescribe_displacement(b, slab(&o, b, 0, -1, 2.5), PERI_X | PERI_Y, NULL, NULL, NULL));
-            (void)extreme_fails(&o, b, peri_apply_body_force(b, slab(&o, b, 0, 2.5, 9), force, NULL, NULL));
+            (void)extreme_fails(&o, b, peri_prescribe_displacement(b, extreme_slab(&o, b, 0, -1, 2.5), PERI_X | PERI_Y, NULL, NULL, NULL));
+            (void)extreme_fails(&o, b, peri_apply_body_force(b, extreme_slab(&o, b, 0, 2.5, 9), force, NULL, NULL));
             peri_statics_init(&st);
             st.loose = loose;
             st.preconditioner = pre;
@@ -133,8 +123,8 @@ static outcome slender(const extreme *row, int32_t precision) {
     if (extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))) return extreme_end(o, b);
     (void)extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, 1));
     if (o.status >= 0 && !extreme_fails(&o, b, peri_build(b))) {
-        (void)extreme_fails(&o, b, peri_prescribe_displacement(b, slab(&o, b, 0, 0, 2), PERI_X | PERI_Y, NULL, NULL, NULL));
-        (void)extreme_fails(&o, b, peri_apply_body_force(b, slab(&o, b, 0, 999, 1000), row->choice ? bend : pull, NULL, NULL));
+        (void)extreme_fails(&o, b, peri_prescribe_displacement(b, extreme_slab(&o, b, 0, 0, 2), PERI_X | PERI_Y, NULL, NULL, NULL));
+        (void)extreme_fails(&o, b, peri_apply_body_force(b, extreme_slab(&o, b, 0, 999, 1000), row->choice ? bend : pull, NULL, NULL));
     }
     peri_statics_init(&st);
     if (row->choice) st.tolerance = 1e-4;
