@@ -311,15 +311,17 @@ static int64_t solve(program *p, int s) {
     if (p->level == 0) p->frames_left = 6;
     p->iterations_left = 400;
     if (p->nulls == 1) t.cookie = 0;
-    const int told_all = draw(p) % 4 > 0;
+    const int told_all = draw(p) % 4 > 0, wild = p->wild;
     const int64_t status = CALL(p, s, peri_solve(o->body, GIVEN(0, &t), told_all ? &report : NULL));
     if (o->busy && o->body) HOLDS(p, status == PERI_ERROR_ORDER);
     if (told_all && o->body && !o->wild) HOLDS(p, status != PERI_OK || finite_all(&report.residual, 1));
     /* how far it came is left to the solver; what is refused at once is not */
-    if (status == PERI_ERROR_LOOSE && told_all && report.newton == 0 && report.steps == 0 && !p->partial)
+    if (status == PERI_ERROR_LOOSE && told_all && report.newton == 0 && report.iterations == 0 && report.broken == 0
+        && report.steps == 0 && !p->partial)
         p->partial = PARTLY;
     else if (status != PERI_ERROR_ARGUMENT && status != PERI_ERROR_DESCRIPTOR && status != PERI_ERROR_ORDER && status != PERI_ERROR_MODEL)
         p->partial = 1;
+    if (wild && p->partial) o->wild = 1; /* the body may stand at load_from now */
     return status;
 }
 
