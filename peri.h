@@ -731,7 +731,8 @@ PERI_API int32_t peri_apply_pressure(peri_body *body, int32_t set, double pressu
 PERI_API int32_t peri_apply_bond_pressure(peri_body *body, int32_t set, double pressure, peri_load_fn fn, void *user);
 
 /* out = K in, the tangent stiffness at the present displacement times in[count], count = points*dim: forces [M L T^-2] of displacements
-   [L]. Supports and obstacles are not in it. out may be in. */
+   [L]. Supports and obstacles are not in it. out may be in. The first call takes memory for what products work on (peri_memory.state),
+   which stays with the body. */
 PERI_API int32_t peri_multiply_stiffness(peri_body *body, const double *in, double *out, int64_t count);
 
 /* The same stiffness as a matrix ([T] 3.2, 3.3), compressed by rows, rows and columns points*dim, every entry of a coupled pair of points

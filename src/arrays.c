@@ -6,6 +6,9 @@
 /* A state vector, [dim][stride] with a margin before and after. */
 static int64_t peri__vector_reals(const peri__model *m) { return m->stride * m->dim + 2 * m->margin; }
 
+/* What the force of laws needs of every point: p, and Q where there are tensors. */
+static int64_t peri__response_reals(const peri__model *m) { return (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin; }
+
 /* Numbers per point of a field, 0 where there is no such field. */
 static int32_t peri__components(int32_t field, int32_t dim) {
     switch (field) {
@@ -36,7 +39,7 @@ typedef struct peri__array {
     int           wanted;
     peri__purpose purpose;
 } peri__array;
-#define PERI_ARRAYS 22       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 25       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
 #define PERI_MODEL_ARRAYS 17 /* with all others                                                                           */
 
@@ -115,7 +118,10 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(sums, m->blocks, sizeof(peri__sums), 1, PERI__STATE),
         PERI_ARRAY_(push, vector, sizeof(double), 0, PERI__LOADS),
         PERI_ARRAY_(constant, constants * m->stride + 2 * m->margin, bond, states, PERI__LAWS),
-        PERI_ARRAY_(response, (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin, bond, states, PERI__LAWS),
+        PERI_ARRAY_(response, peri__response_reals(m), bond, states, PERI__LAWS),
+        PERI_ARRAY_(change_u, peri__vector_reals(m), real, 0, PERI__STATE),
+        PERI_ARRAY_(change_f, peri__vector_reals(m), real, 0, PERI__STATE),
+        PERI_ARRAY_(change_response, peri__response_reals(m), bond, 0, PERI__STATE),
         PERI_ARRAY_(rate, n, sizeof(double), states, PERI__LAWS),
         PERI_ARRAY_(wide, n, sizeof(double), states, PERI__LAWS),
         PERI_ARRAY_(central, n / PERI_LANES + 1, 1, m->tensors, PERI__LAWS),

@@ -57,6 +57,12 @@
 #include <immintrin.h>
 #define PERI_TARGET_AVX2 __attribute__((target("avx2")))
 #define PERI_TARGET_AVX512 __attribute__((target(PERI_WIDE)))
+/* Sums over lanes, by halves. */
+PERI_INLINE double peri__across_2(__m128d a) { return _mm_cvtsd_f64(_mm_add_sd(a, _mm_unpackhi_pd(a, a))); }
+PERI_INLINE float peri__across_4(__m128 a) {
+    const __m128 half = _mm_add_ps(a, _mm_movehl_ps(a, a));
+    return _mm_cvtss_f32(_mm_add_ss(half, _mm_shuffle_ps(half, half, 1)));
+}
 #elif !defined(__i386__) || defined(__SSE2__)
 #define PERI_GENERIC /* the vectors of gcc and clang, 16 bytes: NEON, VSX, ... */
 typedef double  peri__double2 __attribute__((vector_size(16)));

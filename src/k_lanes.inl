@@ -74,11 +74,11 @@ PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(extend)(const PERI_LANES
                                                                 PERI_VECTOR y[PERI_D], PERI_VECTOR *along, const int linear) {
     PERI_NO_CONTRACTION
     PERI_VECTOR square = PERI_V(set1)(0);
-    *along = square;
     for (int d = 0; d < PERI_D; ++d) {
+        const PERI_VECTOR part = PERI_IF(linear, bond->xi[d], bond->twice[d] + eta[d]) * eta[d];
         y[d] = PERI_IF(linear, bond->xi[d], bond->xi[d] + eta[d]);
-        *along += PERI_IF(linear, bond->xi[d], bond->twice[d] + eta[d]) * eta[d];
-        if (!linear) square += y[d] * y[d];
+        *along = PERI_IF(d == 0, part, *along + part);
+        if (!linear) square = PERI_IF(d == 0, y[d] * y[d], square + y[d] * y[d]);
     }
     return PERI_IF(linear, PERI_V(set1)(bond->length), PERI_V(sqrt)(square));
 }
@@ -105,8 +105,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(column)(const PERI_LANES_FN
         const PERI_VECTOR scale = PERI_IF(linear, weight * along, weight * along / (reach * length * (now + tiny)));
         if (breaking) hit |= (uint32_t)PERI_ABOVE(along, most * reach, live) << (n * PERI_WIDTH);
         for (int d = 0; d < PERI_D; ++d) {
-            const PERI_VECTOR part = scale * y[d];
-            PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, part, PERI_KEEP(live, part)));
+            PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, scale * y[d], PERI_KEEP_PRODUCT(live, scale, y[d])));
         }
     }
     return hit;
@@ -126,7 +125,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(lanes_of)(const peri__step 
     while (PERI_LANES_FN(next)(&s, &bond)) {
         peri_b c = (peri_b)bond.row[7] * bond.weight;
         if (linear) c *= bond.inverse * bond.inverse * bond.inverse;
-        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 1, linear, breaking);
+        if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 1, linear, breaking);
         else hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 0, linear, breaking);
     }
     PERI_LANES_FN(leave)(sum, f);
@@ -147,8 +146,9 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_column)(const PERI_LA
         PERI_VECTOR eta[PERI_D], y[PERI_D], along;
         PERI_LANES_FN(moved)(s, bond, n, eta);
         const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear);
-        const PERI_VECTOR part = PERI_IF(linear, weight * along, weight * (along / (now + length)));
-        PERI_LANES_FN(gather)(&sum[n], PERI_IF(whole, part, PERI_KEEP(PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH)), part)));
+        const PERI_VECTOR far = PERI_IF(linear, along, along / (now + length));
+        const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
+        PERI_LANES_FN(gather)(&sum[n], PERI_IF(whole, weight * far, PERI_KEEP_PRODUCT(live, weight, far)));
     }
 }
 
@@ -163,7 +163,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_of)(const peri_body *
     for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const peri_b weight = bond.weight * (linear ? (gauged ? 1 : bond.inverse) : gauged ? bond.length : 1);
-        if (bond.mask == PERI_WHOLE) PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 1, linear);
+        if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE) PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 1, linear);
         else PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 0, linear);
     }
     for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(out + n * PERI_WIDTH, &sum[n]);
@@ -217,8 +217,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_column)(const PERI_LA
         const PERI_VECTOR scale = PERI_IF(linear, pull, pull / (reach * (now + tiny)));
         if (breaking) hit |= (uint32_t)PERI_ABOVE(along, most * reach, live) << (n * PERI_WIDTH);
         for (int d = 0; d < PERI_D; ++d) {
-            const PERI_VECTOR part = scale * y[d];
-            PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, part, PERI_KEEP(live, part)));
+            PERI_LANES_FN(gather)(&sum[d][n], PERI_IF(whole, scale * y[d], PERI_KEEP_PRODUCT(live, scale, y[d])));
         }
     }
     return hit;
@@ -241,7 +240,8 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_of)(const peri__step 
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const peri_b gauge = m->ordinary == PERI_OTERKUS ? 1 : bond.length;
         const peri_b weight = linear ? bond.weight * (bond.inverse * bond.inverse) : bond.weight;
-        if (bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 1, linear, breaking);
+        if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE)
+            hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 1, linear, breaking);
         else hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 0, linear, breaking);
     }
     PERI_LANES_FN(leave)(sum, f);
@@ -271,7 +271,7 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
             PERI_VECTOR eta[PERI_D];
             PERI_LANES_FN(moved)(&s, &bond, n, eta);
             for (int a = 0; a < PERI_D; ++a) {
-                const PERI_VECTOR pulled = PERI_KEEP(live, weight * eta[a]);
+                const PERI_VECTOR pulled = PERI_KEEP_PRODUCT(live, weight, eta[a]);
                 for (int d = 0; d < PERI_D; ++d) PERI_LANES_FN(gather)(&sum[a][d][n], pulled * bond.xi[d]);
             }
         }
@@ -316,7 +316,7 @@ PERI_LANES_TARGET static uint32_t PERI_LANES_FN(tensor)(const peri__step *step, 
                 along += PERI_IF(linear, bond.xi[a], bond.twice[a] + eta[a]) * eta[a];
             }
             hit |= (uint32_t)PERI_ABOVE(along, limit, live) << (n * PERI_WIDTH);
-            for (int a = 0; a < PERI_D; ++a) PERI_LANES_FN(gather)(&sum[a][n], PERI_KEEP(live, weight * y[a]));
+            for (int a = 0; a < PERI_D; ++a) PERI_LANES_FN(gather)(&sum[a][n], PERI_KEEP_PRODUCT(live, weight, y[a]));
         }
     }
     PERI_LANES_FN(leave)(sum, f);

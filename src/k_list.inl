@@ -50,24 +50,22 @@ PERI_INLINE uint32_t PERI_LANES_FN(live)(const peri_body *b, int64_t i, int64_t 
     return flags & (((uint32_t)1 << (count - k < PERI_CHUNK ? count - k : PERI_CHUNK)) - 1);
 }
 
-PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(const PERI_STATE *sum) {
-    peri_r lane[PERI_CHUNK];
-    for (int l = 0; l < PERI_CHUNK; l += PERI_WIDTH) PERI_LANES_FN(spread)(lane + l, &sum[l / PERI_WIDTH]);
-    for (int half = PERI_CHUNK / 2; half > 0; half /= 2)
-        for (int l = 0; l < half; ++l) lane[l] += lane[l + half];
-    return lane[0];
+/* The sum over all lanes. */
+PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(PERI_STATE *sum) {
+    for (int half = PERI_PIECES / 2; half > 0; half /= 2)
+        for (int n = 0; n < half; ++n) PERI_LANES_FN(merge)(&sum[n], &sum[n + half]);
+    return PERI_LANES_FN(fold)(sum);
 }
 
 /* Adds the force of all live bonds of the point at a place to f, all points being of one model. Returns nonzero where a bond comes near its
-   critical stretch; f is then void. `model` is a constant where this is inlined, and `linear` where speed matters. */
+   critical stretch; f is then void. `model` and `slots` are constants where this is inlined, and `linear` where speed matters. */
 PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t place, peri_r *f, const int model,
-                                                          const int linear) {
+                                                          const int32_t slots, const int linear) {
     PERI_NO_CONTRACTION
     const peri_body *b = step->body;
     const peri__model *m = b->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const int states = model != PERI_BOND_BASED, mixed = PERI_D == 2 ? m->slots > 4 : m->materials > 1;
-    const int32_t slots = states || PERI_D == 3 ? 8 : m->slots;
+    const int states = model != PERI_BOND_BASED, mixed = PERI_D == 2 ? slots > 4 : m->materials > 1;
     const peri_r *pack = (const peri_r *)b->pack, *mine = pack + place * slots;
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
     const PERI_VECTOR limit = PERI_V(set1)((peri_b)(step->breaking ? peri__least_stretch(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER));
@@ -113,7 +111,7 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
             scale = scale / (reach * (product + tiny));
             hit |= (int)PERI_ABOVE(s.along, limit * reach, live);
             for (int d = 0; d < PERI_D; ++d) /* a choice: what a dead lane read may be anything */
-                PERI_LANES_FN(gather)(&sum[d][n], PERI_KEEP(live, scale * s.y[d]));
+                PERI_LANES_FN(gather)(&sum[d][n], PERI_KEEP_PRODUCT(live, scale, s.y[d]));
         }
     }
     for (int d = 0; d < PERI_D; ++d) f[d] += PERI_LANES_FN(added)(sum[d]);
@@ -121,15 +119,19 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
 }
 
 PERI_LANES_TARGET static int PERI_LANES_FN(list_force)(const peri__step *step, int64_t place, peri_r *f) {
-    return step->body->desc.geometry == PERI_LINEAR ? PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 1)
-                                                    : PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 0);
+    const int linear = step->body->desc.geometry == PERI_LINEAR;
+    if (PERI_D == 3 || step->body->model->slots > 4)
+        return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 8, 1)
+                      : PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 8, 0);
+    return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 4, 1)
+                  : PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 4, 0);
 }
 
 PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, int64_t place, peri_r *f) {
     const int linear = step->body->desc.geometry == PERI_LINEAR;
     if (step->body->model->ordinary == PERI_LPS)
-        return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 1) : PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 0);
-    return PERI_LANES_FN(list_row)(step, place, f, PERI_OTERKUS, linear);
+        return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 8, 1) : PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 8, 0);
+    return PERI_LANES_FN(list_row)(step, place, f, PERI_OTERKUS, 8, linear);
 }
 
 /* sum w g e V of the point at a place. */
@@ -196,8 +198,8 @@ PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int6
             PERI_LANES_FN(differ)(pack, PERI_TENSOR_SLOTS, ids, own, got);
             if (PERI_D == 3) PERI_LANES_FN(differ)(pack + 4, PERI_TENSOR_SLOTS, ids, own + 4, got + 4);
             for (int a = 0; a < PERI_D; ++a) {
-                const PERI_VECTOR pulled = PERI_KEEP(live, weight * got[PERI_D + a]);
-                for (int d = 0; d < PERI_D; ++d) PERI_LANES_FN(gather)(&sum[a][d][n], PERI_KEEP(live, pulled * got[d]));
+                const PERI_VECTOR pulled = PERI_KEEP_PRODUCT(live, weight, got[PERI_D + a]);
+                for (int d = 0; d < PERI_D; ++d) PERI_LANES_FN(gather)(&sum[a][d][n], PERI_KEEP_PRODUCT(live, pulled, got[d]));
             }
         }
     }
@@ -258,5 +260,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *step, 
 #undef PERI_LIVE
 #undef PERI_TO_LIVE
 #undef PERI_KEEP
+#undef PERI_KEEP_PRODUCT
+#undef PERI_FREE_CHOICE
 #undef PERI_ABOVE
 #undef PERI_STATE

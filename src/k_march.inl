@@ -2,32 +2,37 @@
 
 /* v = keep*v + kick*f/rho; then, where drift > 0: u += drift*v and f = 0, ready for the loads of the new time.
    sums: b work of damping over the kick, its impulse times the mean velocity: what it takes from the kinetic energy, exactly;
-   bad the first point whose motion is not finite. */
+   bad the first point whose motion is not finite. At most PERI_BLOCK points. */
 static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     peri_body *b = step->body;
     const peri__model *m = b->model;
-    const peri_r keep = (peri_r)step->keep, drift = (peri_r)step->drift;
+    const peri_r keep = (peri_r)step->keep;
+    const int64_t count = end - begin;
     const int lossy = step->loss_old != 0.0 || step->loss_new != 0.0;
-    for (int64_t i = begin; i < end; ++i) {
-        const double rho = m->rho[m->material[i]];
-        const peri_r kick = (peri_r)(step->kick / rho);
-        double work = 0.0;
-        for (int d = 0; d < PERI_D; ++d) {
-            int64_t at = d * m->stride + i;
-            peri_r *u = (peri_r *)b->u + at, *v = (peri_r *)b->v + at, *f = (peri_r *)b->f + at;
-            peri_r old = *v, now = keep * old + kick * *f;
-            if (lossy) work += (step->loss_old * (double)old + step->loss_new * (double)now) * 0.5 * ((double)old + (double)now);
-            *v = now;
-            if (step->drift > 0.0) {
-                *u += drift * now;
-                *f = 0;
-            }
-            /* a comparison that NaN fails; the bound is far beyond any speed in inner units */
-            if (!(now > (peri_r)-1e9 && now < (peri_r)1e9) && sums->bad < 0) sums->bad = i;
-        }
-        if (lossy) sums->b += work * rho * m->volume[i];
+    peri_r kick[PERI_BLOCK], old[PERI_BLOCK], now = 0;
+    double work[PERI_BLOCK];
+    int32_t last = -1;
+    for (int64_t k = 0; k < count; ++k) {
+        const int32_t material = m->material[begin + k];
+        if (material != last) now = (peri_r)(step->kick / m->rho[last = material]);
+        kick[k] = now;
     }
+    if (lossy) memset(work, 0, sizeof work);
+    for (int d = 0; d < PERI_D; ++d) {
+        const int64_t at = d * m->stride + begin;
+        peri_r *u = (peri_r *)b->u + at, *v = (peri_r *)b->v + at, *f = (peri_r *)b->f + at;
+        if (lossy) memcpy(old, v, (size_t)count * sizeof *v);
+        if (PERI_ON_LANES(m->lanes.isa, kick_some, (count, keep, kick, f, v)) > 0)
+            for (int64_t k = 0; k < count; ++k)
+                if (!(v[k] > -PERI_SPEEDING && v[k] < PERI_SPEEDING) && (sums->bad < 0 || begin + k < sums->bad)) sums->bad = begin + k;
+        for (int64_t k = 0; lossy && k < count; ++k)
+            work[k] += (step->loss_old * (double)old[k] + step->loss_new * (double)v[k]) * 0.5 * ((double)old[k] + (double)v[k]);
+        if (!(step->drift > 0.0)) continue;
+        PERI_ON_LANES(m->lanes.isa, drift_some, (count, (peri_r)step->drift, v, u));
+        memset(f, 0, (size_t)count * sizeof *f);
+    }
+    for (int64_t k = 0; lossy && k < count; ++k) sums->b += work[k] * m->rho[m->material[begin + k]] * m->volume[begin + k];
 }
 
 static void PERI_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__sums *sums) {

@@ -3,10 +3,11 @@
 
    PERI_VECTOR     PERI_WIDTH reals of bonds. + - * / are the compiler's own, each rounded; PERI_V(set1), PERI_V(loadu), PERI_V(sqrt)
    PERI_LIVE       which of its lanes count, from the lowest bits of a word
-   PERI_KEEP       0 in the lanes that do not count
+   PERI_KEEP       0 in the lanes that do not count; PERI_KEEP_PRODUCT: of a product
+   PERI_FREE_CHOICE 1: leaving lanes out of a product takes no time
    PERI_ABOVE      a bit for each lane that counts where a > b
    PERI_STATE      as many reals of the state: `take` reads them, `apart` is what others are more than these, as reals of bonds, `gather`
-                   adds reals of bonds to them, `spread` writes them
+                   adds reals of bonds to them, `merge` others like them, `spread` writes them, `fold` is the sum over lanes, by halves
    differ          four reals of the state from pack + slots*id of each of PERI_WIDTH ids, less own[4], as four PERI_VECTOR. Records are
                    loaded whole and turned in registers (`fetch`): a fraction of the time of gathering numbers one by one */
 
@@ -23,6 +24,8 @@ PERI_INLINE peri_r PERI_LANES_FN(take)(const peri_r *at) { return *at; }
 PERI_INLINE peri_b PERI_LANES_FN(apart)(const peri_r *at, peri_r own) { return (peri_b)(*at - own); }
 PERI_INLINE void PERI_LANES_FN(gather)(peri_r *sum, peri_b part) { *sum += part; }
 PERI_INLINE void PERI_LANES_FN(spread)(peri_r *at, const peri_r *from) { *at = *from; }
+PERI_INLINE void PERI_LANES_FN(merge)(peri_r *sum, const peri_r *other) { *sum += *other; }
+PERI_INLINE peri_r PERI_LANES_FN(fold)(const peri_r *sum) { return *sum; }
 PERI_INLINE void PERI_LANES_FN(differ)(const peri_r *pack, int32_t slots, const int32_t *ids, const peri_r *own, peri_b *got) {
     for (int s = 0; s < 4; ++s) got[s] = (peri_b)(pack[(int64_t)slots * ids[0] + s] - own[s]);
 }
@@ -58,11 +61,13 @@ PERI_INLINE void PERI_V(storeu)(peri_b *at, PERI_VECTOR a) { memcpy(at, &a, size
 #if PERI_T_REAL == 64
 #define PERI_HALF peri__double2
 #define PERI_ROW(s) { pack[(int64_t)slots * ids[0] + (s)], pack[(int64_t)slots * ids[1] + (s)] }
+PERI_INLINE double PERI_LANES_FN(across)(PERI_HALF a) { return a[0] + a[1]; }
 #else
 #define PERI_HALF peri__float4
 #define PERI_ROW(s)                                                                                                    \
     { pack[(int64_t)slots * ids[0] + (s)], pack[(int64_t)slots * ids[1] + (s)], pack[(int64_t)slots * ids[2] + (s)],   \
       pack[(int64_t)slots * ids[3] + (s)] }
+PERI_INLINE float PERI_LANES_FN(across)(PERI_HALF a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 #endif
 PERI_INLINE void PERI_LANES_FN(fetch)(const peri_r *pack, int32_t slots, const int32_t *ids, PERI_HALF *got) {
     for (int s = 0; s < 4; ++s) got[s] = (PERI_HALF)PERI_ROW(s);
@@ -103,6 +108,7 @@ PERI_INLINE PERI_VECTOR PERI_LANES_FN(narrow)(PERI_HALF lo, PERI_HALF hi) {
 #if PERI_T_REAL == 64
 #define PERI_HALF __m128d
 #define PERI_S(name) _mm_##name##_pd
+PERI_LANES_TARGET PERI_INLINE double PERI_LANES_FN(across)(__m128d a) { return peri__across_2(a); }
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int32_t slots, const int32_t *ids, __m128d *got) {
     const double *a = pack + (int64_t)slots * ids[0], *b = pack + (int64_t)slots * ids[1];
     const __m128d a01 = _mm_loadu_pd(a), a23 = _mm_loadu_pd(a + 2), b01 = _mm_loadu_pd(b), b23 = _mm_loadu_pd(b + 2);
@@ -114,6 +120,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int3
 #else
 #define PERI_HALF __m128
 #define PERI_S(name) _mm_##name##_ps
+PERI_LANES_TARGET PERI_INLINE float PERI_LANES_FN(across)(__m128 a) { return peri__across_4(a); }
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32_t slots, const int32_t *ids, __m128 *got) {
     for (int k = 0; k < 4; ++k) got[k] = _mm_loadu_ps(pack + (int64_t)slots * ids[k]);
     _MM_TRANSPOSE4_PS(got[0], got[1], got[2], got[3]);
@@ -148,6 +155,9 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32
 #if PERI_T_REAL == 64
 #define PERI_HALF __m256d
 #define PERI_S(name) _mm256_##name##_pd
+PERI_LANES_TARGET PERI_INLINE double PERI_LANES_FN(across)(__m256d a) {
+    return peri__across_2(_mm256_castpd256_pd128(a) + _mm256_extractf128_pd(a, 1));
+}
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int32_t slots, const int32_t *ids, __m256d *got) {
     const __m256d a = _mm256_loadu_pd(pack + (int64_t)slots * ids[0]), b = _mm256_loadu_pd(pack + (int64_t)slots * ids[1]);
     const __m256d c = _mm256_loadu_pd(pack + (int64_t)slots * ids[2]), d = _mm256_loadu_pd(pack + (int64_t)slots * ids[3]);
@@ -161,6 +171,9 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int3
 #else
 #define PERI_HALF __m256
 #define PERI_S(name) _mm256_##name##_ps
+PERI_LANES_TARGET PERI_INLINE float PERI_LANES_FN(across)(__m256 a) {
+    return peri__across_4(_mm256_castps256_ps128(a) + _mm256_extractf128_ps(a, 1));
+}
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32_t slots, const int32_t *ids, __m256 *got) {
 #define PERI_ONE(k) _mm_loadu_ps(pack + (int64_t)slots * ids[k])
 #define PERI_TWO(k) _mm256_insertf128_ps(_mm256_castps128_ps256(PERI_ONE(k)), PERI_ONE((k) + 4), 1)
@@ -180,6 +193,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32
 #define PERI_WIDEN_HI(a) _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1))
 
 #else
+#define PERI_FREE_CHOICE 1
 #define PERI_WIDTH PERI_CHUNK
 #if PERI_T_BOND == 64
 #define PERI_VECTOR __m512d
@@ -187,6 +201,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32
 #define PERI_LIVE __mmask8
 #define PERI_TO_LIVE(bits) ((__mmask8)(bits))
 #define PERI_KEEP(live, a) _mm512_maskz_mov_pd(live, a)
+#define PERI_KEEP_PRODUCT(live, a, b) _mm512_maskz_mul_pd(live, a, b)
 #define PERI_ABOVE(a, b, live) _mm512_mask_cmp_pd_mask(live, a, b, _CMP_GT_OQ)
 #else
 #define PERI_VECTOR __m512
@@ -194,11 +209,16 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32
 #define PERI_LIVE __mmask16
 #define PERI_TO_LIVE(bits) ((__mmask16)(bits))
 #define PERI_KEEP(live, a) _mm512_maskz_mov_ps(live, a)
+#define PERI_KEEP_PRODUCT(live, a, b) _mm512_maskz_mul_ps(live, a, b)
 #define PERI_ABOVE(a, b, live) _mm512_mask_cmp_ps_mask(live, a, b, _CMP_GT_OQ)
 #endif
 #if PERI_T_REAL == 64
 #define PERI_HALF __m512d
 #define PERI_S(name) _mm512_##name##_pd
+PERI_LANES_TARGET PERI_INLINE double PERI_LANES_FN(across)(__m512d a) {
+    const __m256d half = _mm512_castpd512_pd256(a) + _mm512_extractf64x4_pd(a, 1);
+    return peri__across_2(_mm256_castpd256_pd128(half) + _mm256_extractf128_pd(half, 1));
+}
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int32_t slots, const int32_t *ids, __m512d *got) {
 #define PERI_ONE(k) _mm256_loadu_pd(pack + (int64_t)slots * ids[k])
 #define PERI_TWO(k) _mm512_insertf64x4(_mm512_castpd256_pd512(PERI_ONE(k)), PERI_ONE((k) + 2), 1)
@@ -215,6 +235,10 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const double *pack, int3
 #else
 #define PERI_HALF __m512
 #define PERI_S(name) _mm512_##name##_ps
+PERI_LANES_TARGET PERI_INLINE float PERI_LANES_FN(across)(__m512 a) {
+    const __m256 half = _mm512_castps512_ps256(a) + _mm512_extractf32x8_ps(a, 1);
+    return peri__across_4(_mm256_castps256_ps128(half) + _mm256_extractf128_ps(half, 1));
+}
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32_t slots, const int32_t *ids, __m512 *got) {
 #define PERI_ONE(k) _mm_loadu_ps(pack + (int64_t)slots * ids[k])
 #define PERI_TWO(k) _mm512_insertf32x4(_mm512_castps128_ps512(PERI_ONE(k)), PERI_ONE((k) + 4), 1)
@@ -237,6 +261,11 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(fetch)(const float *pack, int32
 #define PERI_WIDEN_HI(a) _mm512_cvtps_pd(_mm512_extractf32x8_ps(a, 1))
 #endif
 
+#ifndef PERI_FREE_CHOICE
+#define PERI_FREE_CHOICE 0
+#define PERI_KEEP_PRODUCT(live, a, b) PERI_KEEP(live, (a) * (b))
+#endif
+
 #if defined(PERI_HALF) && PERI_T_REAL == PERI_T_BOND
 #define PERI_STATE PERI_VECTOR
 PERI_LANES_TARGET PERI_INLINE PERI_STATE PERI_LANES_FN(take)(const peri_r *at) { return PERI_V(loadu)(at); }
@@ -245,6 +274,8 @@ PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(apart)(const peri_r *at,
 }
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(gather)(PERI_STATE *sum, PERI_VECTOR part) { *sum += part; }
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(spread)(peri_r *at, const PERI_STATE *from) { PERI_V(storeu)(at, *from); }
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(merge)(PERI_STATE *sum, const PERI_STATE *other) { *sum += *other; }
+PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(fold)(const PERI_STATE *sum) { return PERI_LANES_FN(across)(*sum); }
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(differ)(const peri_r *pack, int32_t slots, const int32_t *ids, const peri_r *own,
                                                          PERI_VECTOR *got) {
     PERI_LANES_FN(fetch)(pack, slots, ids, got);
@@ -273,6 +304,11 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(spread)(peri_r *at, const PERI_
     PERI_S(storeu)(at, from->lo);
     PERI_S(storeu)(at + PERI_WIDTH / 2, from->hi);
 }
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(merge)(PERI_STATE *sum, const PERI_STATE *other) {
+    sum->lo += other->lo;
+    sum->hi += other->hi;
+}
+PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(fold)(const PERI_STATE *sum) { return PERI_LANES_FN(across)(sum->lo + sum->hi); }
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(differ)(const peri_r *pack, int32_t slots, const int32_t *ids, const peri_r *own,
                                                          PERI_VECTOR *got) {
     PERI_HALF lo[4], hi[4];

@@ -45,6 +45,7 @@
 #define PERI_FN(name) peri__##name##_f3
 #endif
 #define PERI_D PERI_T_DIM
+#define PERI_SPEEDING ((peri_r)1e9)
 
 #include "k_bond.inl"
 
@@ -61,6 +62,7 @@
 #include "k_vector.inl"
 #include "k_lanes.inl"
 #include "k_list.inl"
+#include "k_kick.inl"
 #undef PERI_LANES_FN
 #undef PERI_LANES_TARGET
 #ifdef PERI_ISA
@@ -70,6 +72,7 @@
 #include "k_vector.inl"
 #include "k_lanes.inl"
 #include "k_list.inl"
+#include "k_kick.inl"
 #undef PERI_LANES_FN
 #undef PERI_LANES_TARGET
 #define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX512
@@ -78,6 +81,7 @@
 #include "k_vector.inl"
 #include "k_lanes.inl"
 #include "k_list.inl"
+#include "k_kick.inl"
 #undef PERI_LANES_FN
 #undef PERI_LANES_TARGET
 #endif
@@ -116,6 +120,7 @@ static const peri__ops PERI_FN(ops) = {
 #undef PERI_ROOT
 #undef PERI_CHUNK
 #undef PERI_TINY
+#undef PERI_SPEEDING
 #undef PERI_FN
 #undef PERI_D
 #undef PERI_T_REAL

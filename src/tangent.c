@@ -3,9 +3,6 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* Memory as body->response. */
-static int64_t peri__response_reals(const peri__model *m) { return (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin; }
-
 /* t->q = the change of the force density of all bonds when the displacements change by t->p. at_rest: as if the body were undeformed;
    there, and where the geometry is linear, the force itself is linear in u and its fast kernels serve. Else body->response must be that of
    body->u. */
@@ -154,66 +151,101 @@ static double peri__fill_diagonal(peri_body *b, void *blocks) {
 
 /* ---- the product in the user's units ------------------------------------------------------------------------------ */
 
-/* Interleaved vectors of the user to planes of the body, times a power of two; and K u of planes back. */
-static void peri__to_planes(const peri_body *b, const double *in, double factor, void *planes) {
-    const int64_t points = b->model->points, stride = b->model->stride;
-    const int dim = b->dim;
-    for (int d = 0; d < dim; ++d) {
-        double *wide = (double *)planes + d * stride;
-        float *narrow = (float *)planes + d * stride;
+/* The largest size of count numbers; *wrong: the first that is not finite, or -1. Compared by their bits without the sign, which ascend
+   with the size, and to infinity and beyond where there is no number. */
+static double peri__largest(const double *in, int64_t count, int64_t *wrong) {
+    const uint64_t size = UINT64_MAX >> 1, infinite = UINT64_C(0x7ff) << 52;
+    uint64_t most = 0;
+    double largest;
+    for (int64_t k = 0; k < count; ++k) {
+        uint64_t bits;
+        memcpy(&bits, &in[k], sizeof bits);
+        bits &= size;
+        most = bits > most ? bits : most;
+    }
+    *wrong = -1;
+    for (int64_t k = 0; most >= infinite && *wrong < 0; ++k)
+        if (!peri__finite(in[k])) *wrong = k;
+    memcpy(&largest, &most, sizeof largest);
+    return largest;
+}
+
+typedef struct peri__product { /* a product in the user's units                                                          */
+    peri__tangent t;
+    const double *in;
+    double       *out;
+    double        scale, unit; /* of the vector, a power of two; of stiffness                                            */
+} peri__product;
+
+/* Interleaved reals of the user to planes of the body, and K u of planes back. */
+static void peri__to_planes(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__product *product = (const peri__product *)context;
+    const peri_body *b = product->t.body;
+    const double factor = 1.0 / product->scale;
+    (void)sums;
+    for (int32_t d = 0; d < b->dim; ++d) {
+        double *wide = (double *)b->change_u + b->model->margin + d * b->model->stride;
+        float *narrow = (float *)b->change_u + b->model->margin + d * b->model->stride;
         if (b->f32)
-            for (int64_t i = 0; i < points; ++i) narrow[i] = (float)(in[i * dim + d] * factor);
+            for (int64_t i = begin; i < end; ++i) narrow[i] = (float)(product->in[i * b->dim + d] * factor);
         else
-            for (int64_t i = 0; i < points; ++i) wide[i] = in[i * dim + d] * factor;
+            for (int64_t i = begin; i < end; ++i) wide[i] = product->in[i * b->dim + d] * factor;
     }
 }
 
-static void peri__from_planes(const peri_body *b, const void *planes, double unit, double scale, double *out) {
-    const int64_t points = b->model->points, stride = b->model->stride;
-    const int dim = b->dim;
-    const double *volume = b->model->volume;
-    for (int d = 0; d < dim; ++d) {
-        const double *wide = (const double *)planes + d * stride;
-        const float *narrow = (const float *)planes + d * stride;
+static void peri__from_planes(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__product *product = (const peri__product *)context;
+    const peri_body *b = product->t.body;
+    const double *volume = b->model->volume, scale = product->scale, unit = -product->unit;
+    (void)sums;
+    for (int32_t d = 0; d < b->dim; ++d) {
+        const double *wide = (const double *)product->t.q + d * b->model->stride;
+        const float *narrow = (const float *)product->t.q + d * b->model->stride;
+        double *out = product->out + d;
         if (b->f32)
-            for (int64_t i = 0; i < points; ++i) out[i * dim + d] = -unit * (scale * (volume[i] * (double)narrow[i]));
+            for (int64_t i = begin; i < end; ++i) out[i * b->dim] = unit * (scale * (volume[i] * (double)narrow[i]));
         else
-            for (int64_t i = 0; i < points; ++i) out[i * dim + d] = -unit * (scale * (volume[i] * wide[i]));
+            for (int64_t i = begin; i < end; ++i) out[i * b->dim] = unit * (scale * (volume[i] * wide[i]));
     }
+}
+
+/* Memory for the changes that a product works on; it stays with the body. 0 where memory is short. */
+static int peri__need_change(peri_body *b) {
+    const peri__model *m = b->model;
+    const int64_t vector = peri__vector_reals(m);
+    if (!b->change_u) b->change_u = peri__new(&b->memory, vector, peri__real(b));
+    if (!b->change_f) b->change_f = peri__new(&b->memory, vector, peri__real(b));
+    if (!b->change_response && m->states) b->change_response = peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b));
+    return b->change_u && b->change_f && (b->change_response || !m->states);
 }
 
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
     PERI_NEED_CHANGEABLE(b);
     const peri__model *m = b->model;
-    peri__tangent t;
-    double unit = m->energy / m->length / m->length, largest = 0.0, scale = 1.0;
+    peri__product product;
+    int64_t wrong;
     int exponent = 0;
     PERI_NEED(b, in, "in");
     PERI_NEED(b, out, "out");
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
     if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
-    for (int64_t k = 0; k < count; ++k) {
-        if (!peri__finite(in[k])) return peri__fail(b, PERI_ERROR_RANGE, "in", k, in[k]);
-        if (fabs(in[k]) > largest) largest = fabs(in[k]);
-    }
+    const double largest = peri__largest(in, count, &wrong);
+    if (wrong >= 0) return peri__fail(b, PERI_ERROR_RANGE, "in", wrong, in[wrong]);
     if (largest > 0.0) (void)frexp(largest, &exponent);
     if (exponent < -1000) exponent = -1000; /* so that its inverse is a number, too */
-    scale = ldexp(1.0, exponent - 1);       /* of order one inside, whatever the size in the caller's units */
-    int32_t status = peri__update_force(b);
+    const int32_t status = peri__update_force(b);
     if (status < 0) return status;
-    t.body = b;
-    void *p = peri__new_vector(b);
-    t.p = p;
-    t.q = peri__new_vector(b);
-    t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
-    if (p && t.q && (t.change || !m->states)) {
-        peri__to_planes(b, in, 1.0 / scale, p);
-        peri__apply_tangent(&t, 0);
-        peri__from_planes(b, t.q, unit, scale, out);
-    } else
-        status = peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
-    peri__delete_vector(b, p);
-    peri__delete_vector(b, t.q);
-    peri__delete(&b->memory, t.change, peri__response_reals(m), peri__bond_real(b));
-    return status;
+    if (!peri__need_change(b)) return peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
+    product.t.body = b;
+    product.t.p = (char *)b->change_u + (size_t)m->margin * peri__real(b);
+    product.t.q = (char *)b->change_f + (size_t)m->margin * peri__real(b);
+    product.t.change = b->change_response;
+    product.in = in;
+    product.out = out;
+    product.scale = ldexp(1.0, exponent - 1); /* of order one inside, whatever the size in the caller's units */
+    product.unit = m->energy / m->length / m->length;
+    peri__for_points(b, m->points, 1, peri__to_planes, &product, NULL);
+    peri__apply_tangent(&product.t, 0);
+    peri__for_points(b, m->points, 1, peri__from_planes, &product, NULL);
+    return PERI_OK;
 }
