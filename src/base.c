@@ -84,6 +84,13 @@ static int32_t peri__isa(int32_t most) {
     return 0;
 }
 
+#ifdef PERI_ISA
+#define PERI_BY_ISA(isa, name, arguments)                                                                              \
+    ((isa) == 2 ? name##_avx512 arguments : (isa) == 1 ? name##_avx2 arguments : name##_plain arguments)
+#else
+#define PERI_BY_ISA(isa, name, arguments) name##_plain arguments
+#endif
+
 #define PERI_PI 3.14159265358979323846264338327950288
 
 /* Horizon comparisons: |xi| <= horizon*(1 + PERI_HORIZON_TOLERANCE). Far above the rounding of coordinates a million spacings

@@ -74,6 +74,7 @@ PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(extend)(const PERI_LANES
                                                                 PERI_VECTOR y[PERI_D], PERI_VECTOR *along, const int linear) {
     PERI_NO_CONTRACTION
     PERI_VECTOR square = PERI_V(set1)(0);
+    *along = square;
     for (int d = 0; d < PERI_D; ++d) {
         const PERI_VECTOR part = PERI_IF(linear, bond->xi[d], bond->twice[d] + eta[d]) * eta[d];
         y[d] = PERI_IF(linear, bond->xi[d], bond->xi[d] + eta[d]);

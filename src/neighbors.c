@@ -8,6 +8,8 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+#define PERI_NEAR_AHEAD 8 /* points whose entries, anywhere in memory, are asked for before their turn                     */
+
 static void peri__sort_row(int32_t *row, int64_t count) {
     /* shell sort: rows are short, and runs of neighbouring cells are ascending already */
     static const int64_t gaps[] = { 132, 57, 23, 10, 4, 1 };
@@ -30,14 +32,15 @@ static void peri__count_block(void *context, int64_t begin, int64_t end, peri__s
     for (int64_t cell = begin; cell < end; ++cell) {
         if (c->start[cell] == c->start[cell + 1]) continue;
         peri__look_around(c, cell, &s);
-        for (int first = 1; peri__next_near(c, &s) > 0; first = 0)
+        for (int first = 1; peri__next_near(&s) > 0; first = 0)
             for (int32_t p = c->start[cell]; p < c->start[cell + 1]; ++p) {
                 int32_t *count = &c->model->count[c->order[p]];
                 double x[3];
+                PERI_PREFETCH(&c->model->count[c->order[peri__min(p + PERI_NEAR_AHEAD, c->model->points - 1)]]);
                 peri__place_of(c, p, x);
-                int64_t within = peri__measure_near(c, &s, x, &sums->n);
+                int64_t within = peri__count_near(c, &s, x, &sums->n);
                 if (whole) within -= first; /* the point itself */
-                else within = peri__keep_family(c, &s, peri__take_near(c, &s, p), p);
+                else within = peri__keep_family(c, &s, peri__take_near(c, &s, x, p), p);
                 *count = (int32_t)(within + (first ? 0 : *count));
             }
     }
@@ -150,15 +153,14 @@ static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__su
             last = (int32_t)peri__min(p + PERI_BLOCK, c->start[cell + 1]);
             peri__look_around(c, cell, &s);
             memset(tally, 0, sizeof tally);
-            while (peri__next_near(c, &s) > 0)
+            while (peri__next_near(&s) > 0)
                 for (int32_t q = p; q < last; ++q) {
                     const int64_t i = c->order[q];
                     peri__tally *t = &tally[q - p];
                     double x[3];
-                    int64_t same = 0;
+                    PERI_PREFETCH(&m->start[c->order[peri__min(q + PERI_NEAR_AHEAD, m->points - 1)]]);
                     peri__place_of(c, q, x);
-                    if (peri__measure_near(c, &s, x, &same) == 0) continue;
-                    const int64_t taken = peri__keep_family(c, &s, peri__take_near(c, &s, q), q), at = m->start[i] + t->count;
+                    const int64_t taken = peri__keep_family(c, &s, peri__take_near(c, &s, x, q), q), at = m->start[i] + t->count;
                     memcpy(&m->ids[at], s.hit, (size_t)taken * sizeof *m->ids);
                     if (c->weighs) peri__weigh_hits(c, &s, i, taken, at, t);
                     t->count += taken;

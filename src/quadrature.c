@@ -158,27 +158,28 @@ typedef struct peri__tally { /* of a row so far                                 
     }                                                                                                                  \
     target static void peri__tally_##isa(const double *length, const double *weight, int64_t count, double (*sum)[PERI_TALLY_LANES]) { \
         PERI_NO_CONTRACTION                                                                                            \
+        double total[PERI_TALLY_LANES] = { 0.0 }, stiff[PERI_TALLY_LANES] = { 0.0 }, rate[PERI_TALLY_LANES] = { 0.0 }; \
         for (int64_t k = 0; k < count; k += PERI_TALLY_LANES)                                                          \
             for (int l = 0; l < PERI_TALLY_LANES; ++l) {                                                               \
                 const double w = weight[k + l], bond = length[k + l];                                                  \
-                sum[0][l] += fabs(w);                                                                                  \
-                sum[1][l] += w * bond * bond;                                                                          \
-                sum[2][l] += fabs(w) / bond;                                                                           \
+                total[l] += fabs(w);                                                                                   \
+                stiff[l] += w * bond * bond;                                                                           \
+                rate[l] += fabs(w) / bond;                                                                             \
             }                                                                                                          \
+        memcpy(sum[0], total, sizeof total);                                                                           \
+        memcpy(sum[1], stiff, sizeof stiff);                                                                           \
+        memcpy(sum[2], rate, sizeof rate);                                                                             \
     }
 #ifdef PERI_ISA
 PERI_TALLY(plain, PERI_VECTOR_CODE, 2, _mm_loadu_pd, _mm_storeu_pd, _mm_sqrt_pd)
 PERI_TALLY(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2, 4, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd)
 PERI_TALLY(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512, 8, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd)
-#define PERI_BY_ISA(isa, name, arguments)                                                                              \
-    ((isa) == 2 ? name##_avx512 arguments : (isa) == 1 ? name##_avx2 arguments : name##_plain arguments)
 #else
 #define PERI_TALLY_LOAD(a) (*(a))
 #define PERI_TALLY_STORE(a, value) (*(a) = (value))
 PERI_TALLY(plain, PERI_VECTOR_CODE, 1, PERI_TALLY_LOAD, PERI_TALLY_STORE, sqrt)
 #undef PERI_TALLY_LOAD
 #undef PERI_TALLY_STORE
-#define PERI_BY_ISA(isa, name, arguments) name##_plain arguments
 #endif
 #undef PERI_TALLY
 
@@ -188,7 +189,7 @@ PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *
     const peri_body_desc *desc = &c->body->desc;
     const int64_t whole = (taken + PERI_TALLY_LANES - 1) / PERI_TALLY_LANES * PERI_TALLY_LANES;
     double *length = s->length, *weight = s->square; /* which is measured anew for the next point */
-    double sum[3][PERI_TALLY_LANES] = { { 0.0 } };
+    double sum[3][PERI_TALLY_LANES];
     for (int64_t k = taken; k < whole; ++k) length[k] = 1.0;
     PERI_BY_ISA(c->isa, peri__roots, (length, whole));
     if (desc->influence == PERI_INFLUENCE_CONSTANT) {

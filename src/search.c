@@ -2,8 +2,8 @@
 
    Points are sorted into the cells of a grid, and the cells follow each other brick by brick, line by line in a brick. The place of a point
    is its rank in this order: points of near places are near in space, whatever their ids. The cells within reach of a cell are few runs of
-   places, met in ascending order, so the points found need no sorting. The coordinates in the runs are copied side by side once for all
-   points of the cell; the test of a point is then one loop over them, which compilers turn into vector instructions.
+   places, met in ascending order, so the points found need no sorting. Coordinates lie in the order of places, so the test of a point is a
+   loop over each run, in vector instructions.
 
    Cells are half the reach wide: 125 of them hold 15.6 cubes of the reach, where 27 cells of its width hold 27; a third of it would leave
    12.7, but makes more runs than points. */
@@ -15,17 +15,17 @@
 #define PERI_BRICK 8         /* cells per edge of a brick                                                                 */
 #define PERI_RUNS 50         /* 5 x 5 lines of cells, each in two bricks at most                                          */
 #define PERI_NEAR_ROOM 1024  /* points tested at once                                                                     */
-#define PERI_NEAR_PIECE 8    /* what copies and vectors move at a time                                                    */
+#define PERI_NEAR_PIECE 8    /* what vectors read and write at a time, also where fewer are left                          */
 #define PERI_COINCIDENT 1e-24 /* square of the distance below which points are at the same place                          */
 
 typedef struct peri__near { /* what may lie within reach of the points of a cell                                          */
     int32_t run[PERI_RUNS][2];        /* places, ascending; not empty                                                     */
     int32_t runs, at;                 /* at: the run that comes next                                                      */
     int32_t from;                     /* the place in it                                                                  */
-    int64_t count;                    /* points at hand:                                                                  */
-    int32_t place[PERI_NEAR_ROOM + PERI_NEAR_PIECE];
-    double  x[3][PERI_NEAR_ROOM + PERI_NEAR_PIECE];
-    double  square[PERI_NEAR_ROOM + PERI_NEAR_PIECE]; /* of the distance from the point asked about                       */
+    int32_t piece[PERI_RUNS][2];      /* the points at hand: parts of runs,                                               */
+    int32_t pieces;
+    int64_t count;                    /* and how many points                                                              */
+    double  square[PERI_NEAR_ROOM + PERI_NEAR_PIECE]; /* of their distances from the point asked about                    */
     int32_t hit[PERI_NEAR_ROOM + PERI_NEAR_PIECE];    /* places of those within reach, and                                */
     double  length[PERI_NEAR_ROOM + PERI_NEAR_PIECE]; /* the squares of their distances                                  */
 } peri__near;
@@ -191,93 +191,129 @@ static void peri__look_around(const peri__cloud *c, int64_t cell, peri__near *s)
     s->from = s->run[0][0];
 }
 
-/* Takes the next points of the runs; 0 where there are none left. */
-static int64_t peri__next_near(const peri__cloud *c, peri__near *s) {
-    const int64_t stride = c->model->points + PERI_NEAR_PIECE;
+/* Takes the next points of the runs, as many as there is room for the squares of; returns their number. */
+static int64_t peri__next_near(peri__near *s) {
+    s->pieces = 0;
     s->count = 0;
     while (s->at < s->runs && s->count < PERI_NEAR_ROOM) {
-        const int32_t from = s->from, take = (int32_t)peri__min(s->run[s->at][1] - from, PERI_NEAR_ROOM - s->count);
-        for (int32_t k = 0; k < take; k += PERI_NEAR_PIECE) { /* whole pieces: what is too much is written over or not looked at */
-            for (int32_t d = 0; d < c->model->dim; ++d)
-                memcpy(&s->x[d][s->count + k], &c->placed[d * stride + from + k], PERI_NEAR_PIECE * sizeof(double));
-            for (int32_t n = 0; n < PERI_NEAR_PIECE; ++n) s->place[s->count + k + n] = from + k + n;
-        }
+        const int32_t take = (int32_t)peri__min(s->run[s->at][1] - s->from, PERI_NEAR_ROOM - s->count);
+        s->piece[s->pieces][0] = s->from;
+        s->piece[s->pieces++][1] = s->from += take;
         s->count += take;
-        s->from += take;
         if (s->from == s->run[s->at][1] && ++s->at < s->runs) s->from = s->run[s->at][0];
     }
     return s->count;
 }
 
-/* See peri__measure_near. The squares are the same from either end, to the last bit. */
-#define PERI_TEST_NEAR(isa, target)                                                                                    \
-    target static int64_t peri__measure_near_##isa(peri__near *s, const double *x, int32_t dim, double reach2, int64_t *same) { \
+/* Squares of the distances from x of the points at hand, the same from either end to the last bit. Returns how many are within reach, x
+   itself included, and adds to *same those that are where x is. */
+#define PERI_MEASURE_NEAR(isa, target)                                                                                 \
+    target static int64_t peri__measure_near_##isa(const peri__cloud *c, peri__near *s, const double *at, int64_t *same) { \
         PERI_NO_CONTRACTION                                                                                            \
-        const int64_t count = s->count;                                                                                \
-        const double a = x[0], b = x[1], c = dim == 3 ? x[2] : 0.0;                                                    \
+        const int64_t stride = c->model->points + PERI_NEAR_PIECE;                                                     \
+        const int solid = c->model->dim == 3;                                                                          \
+        const double p = at[0], q = at[1], r = solid ? at[2] : 0.0, reach2 = c->reach2;                                \
+        double *out = s->square;                                                                                       \
         int64_t within = 0, close = 0;                                                                                 \
-        for (int64_t k = 0; k < count; ++k) {                                                                          \
-            double square = (s->x[0][k] - a) * (s->x[0][k] - a) + (s->x[1][k] - b) * (s->x[1][k] - b);                 \
-            if (dim == 3) square += (s->x[2][k] - c) * (s->x[2][k] - c);                                               \
-            s->square[k] = square;                                                                                     \
-            within += square <= reach2;                                                                                \
-            close += square < PERI_COINCIDENT;                                                                         \
+        for (int32_t n = 0; n < s->pieces; ++n) {                                                                      \
+            const int32_t count = s->piece[n][1] - s->piece[n][0];                                                     \
+            const double *x = c->placed + s->piece[n][0], *y = x + stride, *z = solid ? y + stride : y;                \
+            for (int32_t k = 0; k < count; ++k) {                                                                      \
+                double square = (x[k] - p) * (x[k] - p) + (y[k] - q) * (y[k] - q);                                     \
+                if (solid) square += (z[k] - r) * (z[k] - r);                                                          \
+                out[k] = square;                                                                                       \
+                within += square <= reach2;                                                                            \
+                close += square < PERI_COINCIDENT;                                                                     \
+            }                                                                                                          \
+            out += count;                                                                                              \
         }                                                                                                              \
         *same += close;                                                                                                \
         return within;                                                                                                 \
     }
-PERI_TEST_NEAR(plain, PERI_VECTOR_CODE)
+PERI_MEASURE_NEAR(plain, PERI_VECTOR_CODE)
 #ifdef PERI_ISA
-PERI_TEST_NEAR(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2)
-PERI_TEST_NEAR(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512)
+PERI_MEASURE_NEAR(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2)
 #endif
-#undef PERI_TEST_NEAR
+#undef PERI_MEASURE_NEAR
 
-/* Squares of the distances from x of the points at hand. Returns how many are within reach, itself included, and adds to *same those that
-   are where x is. */
-static int64_t peri__measure_near(const peri__cloud *c, peri__near *s, const double *x, int64_t *same) {
-    const int32_t dim = c->model->dim;
 #ifdef PERI_ISA
-    if (c->isa == 2) return peri__measure_near_avx512(s, x, dim, c->reach2, same);
-    if (c->isa == 1) return peri__measure_near_avx2(s, x, dim, c->reach2, same);
-#endif
-    return peri__measure_near_plain(s, x, dim, c->reach2, same);
-}
+#define PERI_EIGHT_CODE PERI_VECTOR_CODE PERI_TARGET_AVX512
 
-/* Puts the places of those within reach into hit, all but `own`, and the squares of their distances into length; returns their number. */
-static int64_t peri__take_near_plain(peri__near *s, double reach2, int32_t own) {
-    int64_t taken = 0;
-    for (int64_t k = 0; k < s->count; ++k) { /* without a branch: what is not within reach is written over */
-        s->hit[taken] = s->place[k];
-        s->length[taken] = s->square[k];
-        taken += (s->square[k] <= reach2) & (s->place[k] != own);
+/* The same for the eight points at places x and on, none of which is kept. Bits of those within reach. */
+PERI_EIGHT_CODE PERI_INLINE unsigned peri__eight_near(const double *x, int64_t stride, const __m512d at[3], __m512d reach2, const int solid,
+                                                      __m512d *square) {
+    PERI_NO_CONTRACTION
+    const __m512d a = _mm512_loadu_pd(x) - at[0], b = _mm512_loadu_pd(x + stride) - at[1];
+    *square = a * a + b * b;
+    if (solid) {
+        const __m512d d = _mm512_loadu_pd(x + 2 * stride) - at[2];
+        *square = *square + d * d;
     }
-    return taken;
+    return _mm512_cmp_pd_mask(*square, reach2, _CMP_LE_OQ);
 }
 
-#ifdef PERI_ISA
-PERI_VECTOR_CODE PERI_TARGET_AVX512 static int64_t peri__take_near_avx512(peri__near *s, double reach2, int32_t own) {
-    const __m512d reach = _mm512_set1_pd(reach2);
-    const __m256i self = _mm256_set1_epi32(own);
-    int64_t taken = 0;
-    for (int64_t k = 0; k < s->count; k += 8) {
-        const __m512d square = _mm512_loadu_pd(s->square + k);
-        const __m256i place = _mm256_loadu_si256((const __m256i *)(const void *)(s->place + k));
-        const unsigned rest = s->count - k < 8 ? (1u << (s->count - k)) - 1 : 255u;
-        const unsigned hit = _mm512_cmp_pd_mask(square, reach, _CMP_LE_OQ) & _mm256_cmpneq_epi32_mask(place, self) & rest;
-        _mm256_storeu_si256((__m256i *)(void *)(s->hit + taken), _mm256_maskz_compress_epi32((__mmask8)hit, place));
-        _mm512_storeu_pd(s->length + taken, _mm512_maskz_compress_pd((__mmask8)hit, square));
-        taken += __builtin_popcount(hit);
-    }
-    return taken;
+/* taking: as peri__take_near; else as peri__measure_near. */
+PERI_EIGHT_CODE PERI_INLINE int64_t peri__visit_eights(const peri__cloud *c, peri__near *s, const double *x, int64_t *same, int32_t own,
+                                                       const int solid, const int taking) {
+    const int64_t stride = c->model->points + PERI_NEAR_PIECE;
+    const __m512d reach2 = _mm512_set1_pd(c->reach2), none = _mm512_set1_pd(PERI_COINCIDENT);
+    const __m512d at[3] = { _mm512_set1_pd(x[0]), _mm512_set1_pd(x[1]), _mm512_set1_pd(solid ? x[2] : 0.0) };
+    const __m256i self = _mm256_set1_epi32(own), steps = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    int64_t found = 0, close = 0;
+    for (int32_t n = 0; n < s->pieces; ++n)
+        for (int32_t p = s->piece[n][0], end = s->piece[n][1]; p < end; p += 8) {
+            __m512d square;
+            unsigned hit = peri__eight_near(c->placed + p, stride, at, reach2, solid, &square);
+            if (end - p < 8) hit &= (1u << (end - p)) - 1;
+            if (taking) {
+                const __m256i place = _mm256_add_epi32(_mm256_set1_epi32(p), steps);
+                hit &= _mm256_cmpneq_epi32_mask(place, self);
+                _mm256_storeu_si256((__m256i *)(void *)(s->hit + found), _mm256_maskz_compress_epi32((__mmask8)hit, place));
+                _mm512_storeu_pd(s->length + found, _mm512_maskz_compress_pd((__mmask8)hit, square));
+            } else
+                close += __builtin_popcount(_mm512_mask_cmp_pd_mask((__mmask8)hit, square, none, _CMP_LT_OQ));
+            found += __builtin_popcount(hit);
+        }
+    *same += close;
+    return found;
 }
+
+PERI_EIGHT_CODE static int64_t peri__count_near_avx512(const peri__cloud *c, peri__near *s, const double *x, int64_t *same) {
+    return c->model->dim == 3 ? peri__visit_eights(c, s, x, same, 0, 1, 0) : peri__visit_eights(c, s, x, same, 0, 0, 0);
+}
+
+PERI_EIGHT_CODE static int64_t peri__take_near_avx512(const peri__cloud *c, peri__near *s, const double *x, int32_t own) {
+    int64_t same = 0;
+    return c->model->dim == 3 ? peri__visit_eights(c, s, x, &same, own, 1, 1) : peri__visit_eights(c, s, x, &same, own, 0, 1);
+}
+#undef PERI_EIGHT_CODE
 #endif
 
-static int64_t peri__take_near(const peri__cloud *c, peri__near *s, int32_t own) {
+/* As peri__measure_near; may leave the squares alone. */
+static int64_t peri__count_near(const peri__cloud *c, peri__near *s, const double *x, int64_t *same) {
 #ifdef PERI_ISA
-    if (c->isa == 2) return peri__take_near_avx512(s, c->reach2, own);
+    if (c->isa == 2) return peri__count_near_avx512(c, s, x, same);
+    if (c->isa == 1) return peri__measure_near_avx2(c, s, x, same);
 #endif
-    return peri__take_near_plain(s, c->reach2, own);
+    return peri__measure_near_plain(c, s, x, same);
+}
+
+/* Puts the places of those within reach of x into hit, all but `own`, and the squares of their distances into length; returns their
+   number. */
+static int64_t peri__take_near(const peri__cloud *c, peri__near *s, const double *x, int32_t own) {
+    int64_t taken = 0, at = 0;
+#ifdef PERI_ISA
+    if (c->isa == 2) return peri__take_near_avx512(c, s, x, own);
+#endif
+    if (peri__count_near(c, s, x, &taken) == 0) return 0;
+    taken = 0;
+    for (int32_t n = 0; n < s->pieces; ++n)
+        for (int32_t p = s->piece[n][0]; p < s->piece[n][1]; ++p, ++at) { /* without a branch: what is not within reach is written over */
+            s->hit[taken] = p;
+            s->length[taken] = s->square[at];
+            taken += (s->square[at] <= c->reach2) & (p != own);
+        }
+    return taken;
 }
 
 /* Keeps of the hits those that are in the family of the point at place `own`; the quadrature may want more than the distance. */
@@ -299,13 +335,12 @@ static void peri__place_of(const peri__cloud *c, int64_t place, double *x) {
 /* Row of a point, ids in the order of places: up to `room` of them are written. Returns their number. */
 static int64_t peri__visit_family(const peri__cloud *c, int64_t i, peri__near *s, int32_t *row, int64_t room) {
     const int64_t cell = peri__cell_of(c, &c->x[i * c->model->dim]);
-    int64_t count = 0, same = 0;
+    int64_t count = 0;
     int32_t own = c->start[cell];
     while (c->order[own] != i) ++own;
     peri__look_around(c, cell, s);
-    while (peri__next_near(c, s) > 0) {
-        (void)peri__measure_near(c, s, &c->x[i * c->model->dim], &same);
-        const int64_t taken = peri__keep_family(c, s, peri__take_near(c, s, own), own);
+    while (peri__next_near(s) > 0) {
+        const int64_t taken = peri__keep_family(c, s, peri__take_near(c, s, &c->x[i * c->model->dim], own), own);
         for (int64_t k = 0; k < taken && count + k < room; ++k) row[count + k] = c->order[s->hit[k]];
         count += taken;
     }
@@ -317,12 +352,14 @@ static int64_t peri__twin_of(const peri__cloud *c, int64_t i, peri__near *s) {
     const double *x = &c->x[i * c->model->dim];
     int64_t twin = -1, same = 0;
     peri__look_around(c, peri__cell_of(c, x), s);
-    while (peri__next_near(c, s) > 0) {
-        (void)peri__measure_near(c, s, x, &same);
-        for (int64_t k = 0; k < s->count; ++k) {
-            const int64_t j = c->order[s->place[k]];
-            if (s->square[k] < PERI_COINCIDENT && j != i && (twin < 0 || j < twin)) twin = j;
-        }
+    while (peri__next_near(s) > 0) {
+        (void)peri__measure_near_plain(c, s, x, &same);
+        const double *square = s->square;
+        for (int32_t n = 0; n < s->pieces; ++n)
+            for (int32_t p = s->piece[n][0]; p < s->piece[n][1]; ++p) {
+                const int64_t j = c->order[p];
+                if (*square++ < PERI_COINCIDENT && j != i && (twin < 0 || j < twin)) twin = j;
+            }
     }
     return twin;
 }

@@ -209,14 +209,21 @@ static void peri__from_planes(void *context, int64_t begin, int64_t end, peri__s
     }
 }
 
-/* Memory for the changes that a product works on; it stays with the body. 0 where memory is short. */
+/* Memory for the changes that a product works on: all of it, which then stays with the body, or none and 0. */
 static int peri__need_change(peri_body *b) {
     const peri__model *m = b->model;
-    const int64_t vector = peri__vector_reals(m);
-    if (!b->change_u) b->change_u = peri__new(&b->memory, vector, peri__real(b));
-    if (!b->change_f) b->change_f = peri__new(&b->memory, vector, peri__real(b));
-    if (!b->change_response && m->states) b->change_response = peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b));
-    return b->change_u && b->change_f && (b->change_response || !m->states);
+    const int64_t vector = peri__vector_reals(m), response = peri__response_reals(m);
+    if (b->change_f) return 1;
+    void *u = peri__new(&b->memory, vector, peri__real(b)), *r = m->states ? peri__new(&b->memory, response, peri__bond_real(b)) : NULL;
+    if (u && (r || !m->states)) b->change_f = peri__new(&b->memory, vector, peri__real(b));
+    if (b->change_f) {
+        b->change_u = u;
+        b->change_response = r;
+        return 1;
+    }
+    peri__delete(&b->memory, u, vector, peri__real(b));
+    peri__delete(&b->memory, r, response, peri__bond_real(b));
+    return 0;
 }
 
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
