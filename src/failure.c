@@ -69,7 +69,7 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
             b->broken++;
         }
         if (b->marked[i] == 1) {
-            if (b->lanes_alive) peri__group_masks(m, i / PERI_LANES, b->alive, b->lanes_alive);
+            if (b->lanes_alive) peri__group_masks(m, i / PERI_LANES, (uint32_t)1 << (i % PERI_LANES), b->alive, b->lanes_alive);
             peri__row row;
             peri__read_row(b, i, &row);
             peri__set_constants(b, i, &row);

@@ -71,7 +71,8 @@ static void PERI_FN(force_rows)(const peri__step *step, int64_t begin, int64_t e
 static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *sums) {
     peri_body *b = step->body;
     const peri__model *m = b->model;
-    const int64_t first = g * PERI_LANES, broken = sums->n;
+    const int64_t first = g * PERI_LANES;
+    uint32_t broke = 0;
     peri_r *force = (peri_r *)b->f + first, f[PERI_D][PERI_LANES];
     for (int d = 0; d < PERI_D; ++d)
         for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
@@ -82,11 +83,13 @@ static void PERI_FN(force_group)(const peri__step *step, int64_t g, peri__sums *
         return;
     }
     for (int l = 0; l < PERI_LANES; ++l) {
+        const int64_t broken = sums->n;
         if (hit >> l & 1) PERI_FN(force_rows)(step, first + l, first + l + 1, sums);
         else
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride + l] = f[d][l];
+        if (sums->n > broken) broke |= (uint32_t)1 << l;
     }
-    if (sums->n > broken) peri__group_masks(m, g, b->alive, b->lanes_alive);
+    if (broke) peri__group_masks(m, g, broke, b->alive, b->lanes_alive);
 }
 
 /* Asks for what a pass over the list wants of the point four places on: places are not met in the order in which memory lies. */

@@ -450,19 +450,21 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "lanes", -1, 0.0) : 0;
 }
 
-/* Masks of a group of what flags[points][words] leave of it: bit k of a row for its k-th bond. */
-static void peri__group_masks(const peri__model *m, int64_t g, const uint32_t *flags, uint16_t *masks) {
-    const peri__lanes *lanes = &m->lanes;
-    const peri__column *column = &lanes->column[lanes->first[g]];
-    int64_t next[PERI_LANES] = { 0 }; /* bond of each point that comes next */
-    for (int64_t c = lanes->begin[g]; c < lanes->begin[g + 1]; ++c, ++column) {
-        uint32_t mask = 0;
-        for (int lane = 0; lane < PERI_LANES; ++lane) {
-            if (!(column->member >> lane & 1)) continue;
-            const uint32_t word = flags[(g * PERI_LANES + lane) * m->words + next[lane] / 32];
-            mask |= (word >> (next[lane]++ % 32) & 1) << lane;
+/* Brings the masks of the columns of a group up to date with flags[points][words], bit k of a row for its k-th bond, in some lanes. */
+static void peri__group_masks(const peri__model *m, int64_t g, uint32_t lanes, const uint32_t *flags, uint16_t *masks) {
+    const peri__lanes *l = &m->lanes;
+    const peri__column *column = &l->column[l->first[g]];
+    const int64_t count = l->begin[g + 1] - l->begin[g];
+    uint16_t *mask = &masks[l->begin[g]];
+    for (int lane = 0; lane < PERI_LANES; ++lane) {
+        const uint32_t *word = &flags[(g * PERI_LANES + lane) * m->words];
+        int64_t k = 0; /* the bond that comes next */
+        if (!(lanes >> lane & 1)) continue;
+        for (int64_t c = 0; c < count; ++c) {
+            if (!(column[c].member >> lane & 1)) continue;
+            mask[c] = (uint16_t)((mask[c] & ~(1u << lane)) | (word[k / 32] >> (k % 32) & 1) << lane);
+            ++k;
         }
-        masks[c] = (uint16_t)mask;
     }
 }
 
@@ -478,6 +480,6 @@ static void peri__whole_masks(const peri__model *m, uint16_t *masks) {
 /* Masks of what is alive, brought up to date with the flags. */
 static void peri__update_lanes(peri_body *b) {
     if (!b->lanes_stale || !b->lanes_alive) return;
-    for (int64_t g = 0; g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, b->alive, b->lanes_alive);
+    for (int64_t g = 0; g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, ~(uint32_t)0, b->alive, b->lanes_alive);
     b->lanes_stale = 0;
 }

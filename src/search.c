@@ -258,7 +258,7 @@ PERI_EIGHT_CODE PERI_INLINE int64_t peri__visit_eights(const peri__cloud *c, per
     const int64_t stride = c->model->points + PERI_NEAR_PIECE;
     const __m512d reach2 = _mm512_set1_pd(c->reach2), none = _mm512_set1_pd(PERI_COINCIDENT);
     const __m512d at[3] = { _mm512_set1_pd(x[0]), _mm512_set1_pd(x[1]), _mm512_set1_pd(solid ? x[2] : 0.0) };
-    const __m256i self = _mm256_set1_epi32(own), steps = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i steps = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     int64_t found = 0, close = 0;
     for (int32_t n = 0; n < s->pieces; ++n)
         for (int32_t p = s->piece[n][0], end = s->piece[n][1]; p < end; p += 8) {
@@ -267,7 +267,8 @@ PERI_EIGHT_CODE PERI_INLINE int64_t peri__visit_eights(const peri__cloud *c, per
             if (end - p < 8) hit &= (1u << (end - p)) - 1;
             if (taking) {
                 const __m256i place = _mm256_add_epi32(_mm256_set1_epi32(p), steps);
-                hit &= _mm256_cmpneq_epi32_mask(place, self);
+                if (hit == 0) continue;
+                if (own - p < 8 && own >= p) hit &= ~(1u << (own - p));
                 _mm256_storeu_si256((__m256i *)(void *)(s->hit + found), _mm256_maskz_compress_epi32((__mmask8)hit, place));
                 _mm512_storeu_pd(s->length + found, _mm512_maskz_compress_pd((__mmask8)hit, square));
             } else
