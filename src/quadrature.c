@@ -150,38 +150,59 @@ typedef struct peri__tally { /* of a row so far                                 
 
 #define PERI_TALLY_LANES 8
 
-/* Squares of lengths to lengths, and the sums of a tally over bonds: bond k in lane k % PERI_TALLY_LANES, so the same bits from every
-   instruction set. count is a multiple of that. Roots as in kernels.inl. */
-#define PERI_TALLY(isa, target, width, load, store, root)                                                              \
+/* Squares of lengths to lengths. count is a multiple of PERI_TALLY_LANES. Roots as in kernels.inl. */
+#define PERI_ROOTS(isa, target, width, load, store, root)                                                              \
     target static void peri__roots_##isa(double *length, int64_t count) {                                              \
         for (int64_t k = 0; k < count; k += width) store(length + k, root(load(length + k)));                          \
-    }                                                                                                                  \
+    }
+/* The sums of a tally over bonds: bond k in lane k % PERI_TALLY_LANES, so the same bits from every instruction set. */
+#define PERI_TALLY(isa, target)                                                                                        \
     target static void peri__tally_##isa(const double *length, const double *weight, int64_t count, double (*sum)[PERI_TALLY_LANES]) { \
         PERI_NO_CONTRACTION                                                                                            \
-        double total[PERI_TALLY_LANES] = { 0.0 }, stiff[PERI_TALLY_LANES] = { 0.0 }, rate[PERI_TALLY_LANES] = { 0.0 }; \
-        for (int64_t k = 0; k < count; k += PERI_TALLY_LANES)                                                          \
-            for (int l = 0; l < PERI_TALLY_LANES; ++l) {                                                               \
-                const double w = weight[k + l], bond = length[k + l];                                                  \
-                total[l] += fabs(w);                                                                                   \
-                stiff[l] += w * bond * bond;                                                                           \
-                rate[l] += fabs(w) / bond;                                                                             \
-            }                                                                                                          \
-        memcpy(sum[0], total, sizeof total);                                                                           \
-        memcpy(sum[1], stiff, sizeof stiff);                                                                           \
-        memcpy(sum[2], rate, sizeof rate);                                                                             \
+        peri__double8 total = { 0.0 }, stiff = { 0.0 }, rate = { 0.0 };                                                \
+        for (int64_t k = 0; k < count; k += PERI_TALLY_LANES) {                                                        \
+            peri__double8 w, bond;                                                                                     \
+            memcpy(&w, weight + k, sizeof w);                                                                          \
+            memcpy(&bond, length + k, sizeof bond);                                                                    \
+            const peri__double8 size = (peri__double8)((peri__long8)w & INT64_MAX); /* |w| */                          \
+            total += size;                                                                                             \
+            stiff += w * bond * bond;                                                                                  \
+            rate += size / bond;                                                                                       \
+        }                                                                                                              \
+        memcpy(sum[0], &total, sizeof total);                                                                          \
+        memcpy(sum[1], &stiff, sizeof stiff);                                                                          \
+        memcpy(sum[2], &rate, sizeof rate);                                                                            \
     }
 #ifdef PERI_ISA
-PERI_TALLY(plain, PERI_VECTOR_CODE, 2, _mm_loadu_pd, _mm_storeu_pd, _mm_sqrt_pd)
-PERI_TALLY(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2, 4, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd)
-PERI_TALLY(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512, 8, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd)
+typedef double  peri__double8 __attribute__((vector_size(64)));
+typedef int64_t peri__long8 __attribute__((vector_size(64)));
+PERI_ROOTS(plain, PERI_VECTOR_CODE, 2, _mm_loadu_pd, _mm_storeu_pd, _mm_sqrt_pd)
+PERI_TALLY(plain, PERI_VECTOR_CODE)
+PERI_ROOTS(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2, 4, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd)
+PERI_TALLY(avx2, PERI_VECTOR_CODE PERI_TARGET_AVX2)
+PERI_ROOTS(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512, 8, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd)
+PERI_TALLY(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512)
 #else
 #define PERI_TALLY_LOAD(a) (*(a))
 #define PERI_TALLY_STORE(a, value) (*(a) = (value))
-PERI_TALLY(plain, PERI_VECTOR_CODE, 1, PERI_TALLY_LOAD, PERI_TALLY_STORE, sqrt)
+PERI_ROOTS(plain, PERI_VECTOR_CODE, 1, PERI_TALLY_LOAD, PERI_TALLY_STORE, sqrt)
+PERI_VECTOR_CODE static void peri__tally_plain(const double *length, const double *weight, int64_t count, double (*sum)[PERI_TALLY_LANES]) {
+    PERI_NO_CONTRACTION
+    for (int n = 0; n < 3; ++n)
+        for (int l = 0; l < PERI_TALLY_LANES; ++l) sum[n][l] = 0.0;
+    for (int64_t k = 0; k < count; k += PERI_TALLY_LANES)
+        for (int l = 0; l < PERI_TALLY_LANES; ++l) {
+            const double w = weight[k + l], bond = length[k + l];
+            sum[0][l] += fabs(w);
+            sum[1][l] += w * bond * bond;
+            sum[2][l] += fabs(w) / bond;
+        }
+}
 #undef PERI_TALLY_LOAD
 #undef PERI_TALLY_STORE
 #endif
 #undef PERI_TALLY
+#undef PERI_ROOTS
 
 /* Weights of the hits of point i, entries `at` and on; taken of them. */
 PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *s, int64_t i, int64_t taken, int64_t at, peri__tally *t) {

@@ -267,7 +267,6 @@ PERI_EIGHT_CODE PERI_INLINE int64_t peri__visit_eights(const peri__cloud *c, per
             if (end - p < 8) hit &= (1u << (end - p)) - 1;
             if (taking) {
                 const __m256i place = _mm256_add_epi32(_mm256_set1_epi32(p), steps);
-                if (hit == 0) continue;
                 if (own - p < 8 && own >= p) hit &= ~(1u << (own - p));
                 _mm256_storeu_si256((__m256i *)(void *)(s->hit + found), _mm256_maskz_compress_epi32((__mmask8)hit, place));
                 _mm512_storeu_pd(s->length + found, _mm512_maskz_compress_pd((__mmask8)hit, square));
