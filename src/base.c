@@ -11,6 +11,12 @@
 #define PERI_INLINE static
 #endif
 
+#if defined(_MSC_VER)
+#define PERI_RESTRICT __restrict
+#else
+#define PERI_RESTRICT restrict
+#endif
+
 #if defined(__GNUC__) || defined(__clang__)
 #define PERI_PREFETCH(address) __builtin_prefetch(address)
 #else
@@ -102,6 +108,12 @@ static int32_t peri__isa(int32_t most) {
 
 static int64_t peri__min(int64_t a, int64_t b) { return a < b ? a : b; }
 static double peri__square(double a) { return a * a; }
+
+/* a as a double: the registers of the x87 have more digits and a wider range. */
+static double peri__stored(double a) {
+    volatile double stored = a;
+    return stored;
+}
 
 /* Finite, without isfinite: -ffast-math compilers may fold isfinite to 1. */
 static int peri__finite(double a) { return a >= -DBL_MAX && a <= DBL_MAX; }

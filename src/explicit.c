@@ -172,12 +172,13 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     PERI_NEED(b, r->steps >= 0, "steps");
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
     peri__refresh(b);
-    double stable = peri__stable(b) * b->model->time, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
+    const double unit = b->model->time;
+    double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
     /* in the unit of time both may vanish */
-    if (!(step / b->model->time > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
-    if (r->duration > 0.0 && !(r->duration / b->model->time > 0.0))
+    if (!(peri__stored(step / unit) > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
+    if (r->duration > 0.0 && !(peri__stored(r->duration / unit) > 0.0))
         return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
-    if (r->damping * step > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
+    if (peri__stored(r->damping * step) > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
     if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
         return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
     if (r->time_step > stable) peri__log(b, 1, "time_step is larger than the stable step, as forced");

@@ -145,32 +145,28 @@ static void PERI_FN(tangent_share)(void *context, int64_t begin, int64_t end, pe
 /* d += alpha p, r -= alpha q. sums: |r|^2 of free dofs to a, of held ones to b. */
 static void PERI_FN(krylov_step)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
-    const int64_t stride = s->body->model->stride;
-    const peri_r alpha = (peri_r)s->alpha;
+    const peri__model *m = s->body->model;
+    double loose[PERI_BLOCK] = { 0.0 }, fixed[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
-        peri_r *x = (peri_r *)s->d + d * stride, *r = (peri_r *)s->r + d * stride;
-        const peri_r *p = (const peri_r *)s->p + d * stride, *q = (const peri_r *)s->q + d * stride;
-        for (int64_t i = begin; i < end; ++i) {
-            const double held = s->held[i] >> d & 1;
-            x[i] += alpha * p[i];
-            r[i] -= alpha * q[i];
-            const double square = (double)r[i] * (double)r[i];
-            sums->a += (1.0 - held) * square;
-            sums->b += held * square;
-        }
+        const int64_t at = d * m->stride + begin;
+        peri_r *x = (peri_r *)s->d + at, *r = (peri_r *)s->r + at;
+        const peri_r *p = (const peri_r *)s->p + at, *q = (const peri_r *)s->q + at;
+        PERI_ON_LANES(m->lanes.isa, step_some, (end - begin, (peri_r)s->alpha, p, q, x, r));
+        PERI_ON_LANES(m->lanes.isa, square_some, (end - begin, d, s->held + begin, r, loose, fixed));
     }
+    sums->a += peri__add_up(loose);
+    sums->b += peri__add_up(fixed);
 }
 
 /* p = z + beta p on free dofs, 0 on held ones. */
 static void PERI_FN(krylov_turn)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
-    const int64_t stride = s->body->model->stride;
-    const peri_r beta = (peri_r)s->beta;
+    const peri__model *m = s->body->model;
     (void)sums;
     for (int d = 0; d < PERI_D; ++d) {
-        peri_r *p = (peri_r *)s->p + d * stride;
-        const peri_r *z = (const peri_r *)s->z + d * stride;
-        for (int64_t i = begin; i < end; ++i) p[i] = s->held[i] >> d & 1 ? 0 : z[i] + beta * p[i];
+        peri_r *p = (peri_r *)s->p + d * m->stride + begin;
+        const peri_r *z = (const peri_r *)s->z + d * m->stride + begin;
+        PERI_ON_LANES(m->lanes.isa, turn_some, (end - begin, d, s->held + begin, (peri_r)s->beta, z, p));
     }
 }
 
@@ -178,15 +174,14 @@ static void PERI_FN(krylov_turn)(void *context, int64_t begin, int64_t end, peri
 static void PERI_FN(krylov_force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->body->model;
+    double bent[PERI_BLOCK] = { 0.0 }, square[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
-        const peri_r *p = (const peri_r *)s->p + d * m->stride;
-        peri_r *q = (peri_r *)s->q + d * m->stride;
-        for (int64_t i = begin; i < end; ++i) {
-            q[i] *= -(peri_r)m->volume[i];
-            sums->a += (double)p[i] * (double)q[i];
-            sums->b += (double)p[i] * (double)p[i];
-        }
+        const peri_r *p = (const peri_r *)s->p + d * m->stride + begin;
+        peri_r *q = (peri_r *)s->q + d * m->stride + begin;
+        PERI_ON_LANES(m->lanes.isa, weigh_some, (end - begin, m->volume + begin, p, q, bent, square));
     }
+    sums->a += peri__add_up(bent);
+    sums->b += peri__add_up(square);
 }
 
 /* z = inverse blocks times r (0 for held dofs, whose rows are 0), or r itself. */
@@ -208,23 +203,24 @@ static void PERI_FN(krylov_blocks)(void *context, int64_t begin, int64_t end, pe
 /* sums: |r|^2 of free dofs to a, of held ones to b. */
 static void PERI_FN(krylov_norm)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
-    const int64_t stride = s->body->model->stride;
+    const peri__model *m = s->body->model;
+    double loose[PERI_BLOCK] = { 0.0 }, fixed[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
-        const peri_r *r = (const peri_r *)s->r + d * stride;
-        for (int64_t i = begin; i < end; ++i) {
-            const double held = s->held[i] >> d & 1, square = (double)r[i] * (double)r[i];
-            sums->a += (1.0 - held) * square;
-            sums->b += held * square;
-        }
+        const peri_r *r = (const peri_r *)s->r + d * m->stride + begin;
+        PERI_ON_LANES(m->lanes.isa, square_some, (end - begin, d, s->held + begin, r, loose, fixed));
     }
+    sums->a += peri__add_up(loose);
+    sums->b += peri__add_up(fixed);
 }
 
 /* sums: r.z over free dofs to a. */
 static void PERI_FN(krylov_dot)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
-    const int64_t stride = s->body->model->stride;
+    const peri__model *m = s->body->model;
+    double sum[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
-        const peri_r *r = (const peri_r *)s->r + d * stride, *z = (const peri_r *)s->z + d * stride;
-        for (int64_t i = begin; i < end; ++i) sums->a += s->held[i] >> d & 1 ? 0.0 : (double)r[i] * (double)z[i];
+        const peri_r *r = (const peri_r *)s->r + d * m->stride + begin, *z = (const peri_r *)s->z + d * m->stride + begin;
+        PERI_ON_LANES(m->lanes.isa, dot_some, (end - begin, d, s->held + begin, r, z, sum));
     }
+    sums->a += peri__add_up(sum);
 }

@@ -62,7 +62,7 @@
 #include "k_vector.inl"
 #include "k_lanes.inl"
 #include "k_list.inl"
-#include "k_kick.inl"
+#include "k_pointwise.inl"
 #undef PERI_LANES_FN
 #undef PERI_LANES_TARGET
 #ifdef PERI_ISA
@@ -72,7 +72,7 @@
 #include "k_vector.inl"
 #include "k_lanes.inl"
 #include "k_list.inl"
-#include "k_kick.inl"
+#include "k_pointwise.inl"
 #undef PERI_LANES_FN
 #undef PERI_LANES_TARGET
 #define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX512
@@ -81,7 +81,7 @@
 #include "k_vector.inl"
 #include "k_lanes.inl"
 #include "k_list.inl"
-#include "k_kick.inl"
+#include "k_pointwise.inl"
 #undef PERI_LANES_FN
 #undef PERI_LANES_TARGET
 #endif
