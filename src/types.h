@@ -359,7 +359,7 @@ struct peri_body {
     void     *work;          /* real [entries] work done on bonds; NULL, like the next, without that criterion           */
     void     *pull;          /* real [entries][dim] force density of bonds when last worked out                          */
     void     *worked;        /* real [dim][stride] displacement then                                                     */
-    void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u, */
+    void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u,    */
     void     *change_f;      /* of the force, both laid out as u with its margins,                                         */
     void     *change_response; /* and of the response                                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */

@@ -404,6 +404,8 @@ static const extreme rows[] = {
     {"spinning to pieces", "momentum and angular momentum are conserved", spinning, 200, 0, 1, PERI_OK, NULL, {2e-13, 1e-4, 1e-4}},
     /* 3e5 steps of rounding without bias, 600 units */
     {"1e4 revolutions, then pulled, bond-based", OBJECTIVE, revolved, 1e4, 0, PERI_BOND_BASED, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
-    {"1e3 revolutions, then pulled, LPS", OBJECTIVE, revolved, 1e3, 0, PERI_LPS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, LPS", OBJECTIVE, revolved, 1e4, 0, PERI_LPS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, Oterkus", OBJECTIVE, revolved, 1e4, 0, PERI_OTERKUS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, correspondence", OBJECTIVE, revolved, 1e4, 0, PERI_CORRESPONDENCE, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
 };
 const extreme_table extreme_motion = EXTREME_TABLE("motion", rows);
