@@ -107,7 +107,8 @@ static outcome sharp(const extreme *row, int32_t precision) {
 /* Steps without end: the invariant, exact in exact arithmetic, wanders as sqrt(n) roundings at most; the phase drifts by n of them. */
 static outcome long_run(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    const double n = extreme_long || precision == PERI_F64 ? 1e7 : row->value, size = 1e-3, omega = sqrt(omega2_of(PERI_BOND_BASED, 1.5)), s = 0.9;
+    const double n = extreme_long || precision == PERI_F64 ? 1e7 : row->value, size = 1e-3, s = 0.9;
+    const double omega = sqrt(omega2_of(PERI_BOND_BASED, 1.5));
     const double theta = 2 * asin(s), unit = extreme_roundoff(precision);
     peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, 1, 1);
     peri_run run;
