@@ -457,12 +457,12 @@ static void peri__group_masks(const peri__model *m, int64_t g, uint32_t lanes, c
     const int64_t count = l->begin[g + 1] - l->begin[g];
     uint16_t *mask = &masks[l->begin[g]];
     for (int lane = 0; lane < PERI_LANES; ++lane) {
-        const uint32_t *word = &flags[(g * PERI_LANES + lane) * m->words];
+        const int64_t row = (g * PERI_LANES + lane) * m->words;
         int64_t k = 0; /* the bond that comes next */
         if (!(lanes >> lane & 1)) continue;
         for (int64_t c = 0; c < count; ++c) {
             if (!(column[c].member >> lane & 1)) continue;
-            mask[c] = (uint16_t)((mask[c] & ~(1u << lane)) | (word[k / 32] >> (k % 32) & 1) << lane);
+            mask[c] = (uint16_t)((mask[c] & ~(1u << lane)) | (flags[row + k / 32] >> (k % 32) & 1) << lane);
             ++k;
         }
     }
