@@ -14,10 +14,12 @@ static int peri__packed(int32_t dim, int a, int b) {
    matrices this small as exact as any way. */
 static void peri__jacobi(int n, double *a, double *v) {
     for (int k = 0; k < n * n; ++k) v[k] = k % (n + 1) == 0 ? 1.0 : 0.0;
-    for (int sweep = 0; sweep < 30; ++sweep)
+    for (int sweep = 0, turned = 1; sweep < 30 && turned; ++sweep) {
+        turned = 0;
         for (int p = 0; p < n; ++p)
             for (int q = p + 1; q < n; ++q) {
                 if (!(fabs(a[p * n + q]) > DBL_MIN)) continue;
+                turned = 1;
                 double phi = 0.5 * (a[q * n + q] - a[p * n + p]) / a[p * n + q];
                 double t = (phi < 0.0 ? -1.0 : 1.0) / (fabs(phi) + sqrt(phi * phi + 1.0)), c = 1.0 / sqrt(t * t + 1.0), s = t * c;
                 for (int k = 0; k < n; ++k) {
@@ -32,7 +34,9 @@ static void peri__jacobi(int n, double *a, double *v) {
                     v[k * n + p] = c * vx - s * vy;
                     v[k * n + q] = s * vx + c * vy;
                 }
+                a[p * n + q] = a[q * n + p] = 0.0; /* but for rounding, which would never end */
             }
+    }
 }
 
 /* The same of a packed one; full: [dim][dim]. */
