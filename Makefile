@@ -3,7 +3,7 @@
 # make validate  the long tables of the source texts
 # make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
 # make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
-# make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, half an hour
+# make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, more than an hour
 # make examples  builds and runs every example
 # make lib       build/libperi.a and build/libperi.so
 # make dist      build/dist/peri.h, the single-file header
