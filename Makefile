@@ -22,7 +22,7 @@ NATIVE := $(shell for n in -march=native -mcpu=native; do \
 # threads that wait must not spin where other work shares the machine
 export OMP_WAIT_POLICY ?= passive
 
-SOURCES = peri.h peri_impl.c $(wildcard src/*)
+SOURCES = peri.h peri_impl.c $(wildcard src/*/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
@@ -30,15 +30,33 @@ EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 .PHONY: all demo programs test validate bench tradeoff machines examples lib dist fuzz lint clean
 all: lib
 
-build/peri.o: $(SOURCES)
-	@mkdir -p build
-	$(COMPILE) -fPIC -c peri_impl.c -o $@
+# The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
+# and left alone by edits elsewhere.
+KERNELS = d2 d3 m2 m3 f2 f3
+KERNEL_TEXT = peri.h src/base/compiler.h src/base/types.h src/base/inline.h $(wildcard src/kernels/*)
+KERNEL_d = -DPERI_T_REAL=64 -DPERI_T_BOND=64
+KERNEL_m = -DPERI_T_REAL=64 -DPERI_T_BOND=32
+KERNEL_f = -DPERI_T_REAL=32 -DPERI_T_BOND=32
+OBJECTS = $(KERNELS:%=build/kernels/%.o) build/core.o
 
-build/libperi.a: build/peri.o
-	$(AR) rcs $@ $<
+build/kernels/%2.o: $(KERNEL_TEXT)
+	@mkdir -p $(@D)
+	$(COMPILE) -fPIC -DPERI_SPLIT $(KERNEL_$*) -DPERI_T_DIM=2 -c src/kernels/unit.c -o $@
 
-build/libperi.so: build/peri.o
-	$(CC) -shared $(OPENMP) $< -o $@ -lm
+build/kernels/%3.o: $(KERNEL_TEXT)
+	@mkdir -p $(@D)
+	$(COMPILE) -fPIC -DPERI_SPLIT $(KERNEL_$*) -DPERI_T_DIM=3 -c src/kernels/unit.c -o $@
+
+build/core.o: peri.h peri_impl.c $(filter-out src/kernels/%,$(SOURCES))
+	@mkdir -p $(@D)
+	$(COMPILE) -fPIC -DPERI_SPLIT -c peri_impl.c -o $@
+
+build/libperi.a: $(OBJECTS)
+	rm -f $@
+	$(AR) rcs $@ $^
+
+build/libperi.so: $(OBJECTS)
+	$(CC) -shared $(OPENMP) $^ -o $@ -lm
 
 lib: build/libperi.a build/libperi.so
 
@@ -56,11 +74,11 @@ build/extremes/%.o: tests/extremes/%.c peri.h tests/peri_test.h $(wildcard tests
 	@mkdir -p $(@D)
 	$(COMPILE) -c $< -o $@
 
-build/tests/extremes: $(EXTREMES:%=build/extremes/%.o) build/peri.o
+build/tests/extremes: $(EXTREMES:%=build/extremes/%.o) build/libperi.a
 	@mkdir -p $(@D)
 	$(CC) $(OPENMP) $^ -o $@ -lm
 
-build/%: build/%.o build/peri.o
+build/%: build/%.o build/libperi.a
 	$(CC) $(OPENMP) $^ -o $@ -lm
 
 # the same library twice in one program: plain -O2 as users compile it, and with all that the compiler has. The second without
@@ -78,12 +96,12 @@ build/bench/%.o: bench/%.c $(wildcard bench/*.h bench/*.inl tests/test_glass.h)
 	$(CC) $(STRICT) $(or $(FLAGS),-O2) $(OPENMP) -I. -c $< -o $@
 
 BENCH = bench bars cases_native cases_plain glass limits runs table textbook work
-build/bench/bench: $(BENCH:%=build/bench/%.o) build/peri.o
+build/bench/bench: $(BENCH:%=build/bench/%.o) build/libperi.a
 	$(CC) $(OPENMP) $^ -o $@ -lm
 
 TRADEOFF = tradeoff tradeoff_motion tradeoff_recipes tradeoff_statics tradeoff_table tradeoff_trial
 $(TRADEOFF:%=build/bench/%.o): bench/tradeoff.h peri.h
-build/bench/tradeoff: $(TRADEOFF:%=build/bench/%.o) build/peri.o
+build/bench/tradeoff: $(TRADEOFF:%=build/bench/%.o) build/libperi.a
 	$(CC) $(OPENMP) $^ -o $@ -lm
 
 demo: build/examples/branching

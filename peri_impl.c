@@ -19,75 +19,100 @@
 #include <omp.h>
 #endif
 
-#include "src/base.c"       /* compiler differences, small arithmetic, numbers to text                     */
-#include "src/types.h"      /* every internal struct, and the glossary of symbols                          */
-#include "src/status.c"     /* status texts, the error record, the log                                     */
-#include "src/memory.c"     /* the allocator hook, aligned arrays, growing arrays                          */
-#include "src/parallel.c"   /* one loop over blocks of points; sums in a fixed order                       */
-#include "src/tensor.c"     /* symmetric matrices, small linear systems                                    */
-#include "src/influence.c"  /* w(q) and its moments                                                        */
-#include "src/material.c"   /* engineering constants           -> those of the laws, critical values       */
-#include "src/points.c"     /* boxes, balls, shapes, arrays    -> points and cells                         */
-#include "src/overlap.c"    /* disk and polygon, ball and box  -> exact partial areas and volumes          */
-#include "src/parts.c"      /* a cell and a horizon            -> the part within                          */
-#include "src/search.c"     /* points                          -> those within reach of each other         */
-#include "src/quadrature.c" /* bonds                           -> lengths and weights                      */
-#include "src/neighbors.c"  /* points                          -> families (Ibond)                         */
-#include "src/correction.c" /* weights                         -> weights that surfaces need               */
-#include "src/lanes.c"      /* points of lattices              -> families by columns, Ibond compressed     */
-#include "src/rows.c"       /* the family of a point, wherever it is stored                                */
+/* ---- base: knows nobody ---------------------------------------------------------------- */
+#include "src/base/compiler.h"     /* what compilers and machines differ in                                        */
+#include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
+#include "src/base/inline.h"       /* what is small and used everywhere                                            */
+#include "src/base/base.c"         /* the instruction set, constants, small arithmetic                             */
+#include "src/base/text.c"         /* numbers to text                                                              */
+#include "src/base/real.c"         /* access to reals of either precision                                          */
+#include "src/base/status.c"       /* status texts, the error record, the log                                      */
+#include "src/base/memory.c"       /* the allocator hook, aligned arrays, growing arrays                           */
+#include "src/base/parallel.c"     /* one loop over blocks of points; sums in a fixed order                        */
+#include "src/base/tensor.c"       /* symmetric matrices, small linear systems                                     */
 
+/* ---- geometry: points, cells, and the parts of cells within a horizon ------------------ */
+#include "src/geometry/points.c"   /* boxes, balls, shapes, arrays    -> points and cells                          */
+#include "src/geometry/overlap.c"  /* disk and polygon, ball and box  -> exact partial areas and volumes           */
+#include "src/geometry/parts.c"    /* a cell and a horizon            -> the part within                           */
+
+/* ---- families: who is bonded, with what weight, and where that is kept ----------------- */
+#include "src/families/influence.c"  /* w(q) and its moments                                                       */
+#include "src/families/search.c"     /* points                        -> those within reach of each other          */
+#include "src/families/quadrature.c" /* bonds                         -> lengths and weights                       */
+#include "src/families/neighbors.c"  /* points                        -> families (Ibond)                          */
+#include "src/families/correction.c" /* weights                       -> weights that surfaces need                */
+#include "src/families/lanes.c"      /* points of lattices            -> families by columns, Ibond compressed     */
+#include "src/families/rows.c"       /* the family of a point, wherever it is stored                               */
+
+/* ---- laws: what materials make of live families ---------------------------------------- */
+#include "src/laws/material.c"     /* engineering constants           -> those of the laws, critical values        */
+#include "src/laws/response.c"     /* live families                   -> constants of state-based laws             */
+
+/* ---- kernels: one text, six instantiations -> peri__ops_d2 ... -------------------------- */
+#ifdef PERI_SPLIT                  /* objects of their own (src/kernels/unit.c)                                    */
+extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, peri__ops_m3, peri__ops_f2, peri__ops_f3;
+#else
 #define PERI_T_REAL 64
 #define PERI_T_BOND 64
 #define PERI_T_DIM 2
-#include "src/kernels.inl"  /* the numerical kernels: one text, six instantiations -> peri__ops_d2 ...      */
+#include "src/kernels/kernels.inl"
 #define PERI_T_REAL 64
 #define PERI_T_BOND 64
 #define PERI_T_DIM 3
-#include "src/kernels.inl"
+#include "src/kernels/kernels.inl"
 #define PERI_T_REAL 64
 #define PERI_T_BOND 32
 #define PERI_T_DIM 2
-#include "src/kernels.inl"
+#include "src/kernels/kernels.inl"
 #define PERI_T_REAL 64
 #define PERI_T_BOND 32
 #define PERI_T_DIM 3
-#include "src/kernels.inl"
+#include "src/kernels/kernels.inl"
 #define PERI_T_REAL 32
 #define PERI_T_BOND 32
 #define PERI_T_DIM 2
-#include "src/kernels.inl"
+#include "src/kernels/kernels.inl"
 #define PERI_T_REAL 32
 #define PERI_T_BOND 32
 #define PERI_T_DIM 3
-#include "src/kernels.inl"
+#include "src/kernels/kernels.inl"
+#endif
 
-#include "src/response.c"   /* live families                   -> constants of state-based laws            */
-#include "src/arrays.c"     /* what a body keeps                                                           */
-#include "src/body.c"       /* create, build, reset, destroy                                               */
-#include "src/clone.c"      /* copies; counts                                                              */
-#include "src/sets.c"       /* selections of points                                                        */
-#include "src/state.c"      /* access to the state in the user's units; energies                           */
-#include "src/cracks.c"     /* initial cracks, no-fail zones, break events                                 */
-#include "src/loads.c"      /* supports, loads, obstacles                                                  */
-#include "src/failure.c"    /* state-based bonds that break                                                */
-#include "src/explicit.c"   /* stable step, the step loop                                                  */
-#include "src/strain.c"     /* dilatation, strain and stress of points                                     */
-#include "src/tangent.c"    /* products with the tangent stiffness, its diagonal                           */
-#include "src/loose.c"      /* parts and points that can move without resistance                           */
-#include "src/grids.c"      /* regular grids: smoothing, V-cycle                                           */
-#include "src/multilevel.c" /* elasticity on coarser grids, as a preconditioner                            */
-#include "src/conjugate.c"  /* conjugate gradients                                                         */
-#include "src/matrix.c"     /* the tangent assembled, BiCGSTAB                                             */
-#include "src/equilibrium.c" /* Newton's method                                                             */
-#include "src/relax.c"      /* adaptive dynamic relaxation                                                 */
-#include "src/statics.c"    /* load steps, quasi-static fracture                                           */
-#include "src/surface.c"    /* tractions and pressures that pass the patch test                            */
-#include "src/fields.c"     /* fields by copy and by view, the ledger                                      */
-#include "src/output.c"     /* VTU, CSV                                                                    */
-#include "src/sketch.c"     /* a body that is only described  -> its bonds and columns                     */
-#include "src/plan.c"       /* what a scene would cost                                                     */
-#include "src/choose.c"     /* the knobs for an accuracy or a budget                                       */
+/* ---- body: what there is, and what may be done to it ----------------------------------- */
+#include "src/body/arrays.c"       /* what a body keeps                                                            */
+#include "src/body/body.c"         /* create, build, reset, destroy                                                */
+#include "src/body/clone.c"        /* copies; counts                                                               */
+#include "src/body/sets.c"         /* selections of points                                                         */
+#include "src/body/state.c"        /* access to the state in the user's units; energies                            */
+#include "src/body/cracks.c"       /* initial cracks, no-fail zones, break events                                  */
+#include "src/body/loads.c"        /* supports, loads, obstacles, the force                                        */
+#include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
+
+/* ---- dynamics -------------------------------------------------------------------------- */
+#include "src/dynamics/failure.c"  /* state-based bonds that break                                                 */
+#include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
+
+/* ---- statics --------------------------------------------------------------------------- */
+#include "src/statics/tangent.c"   /* products with the tangent stiffness, its diagonal                            */
+#include "src/statics/loose.c"     /* parts and points that can move without resistance                            */
+#include "src/statics/grids.c"     /* regular grids: smoothing, V-cycle                                            */
+#include "src/statics/multilevel.c" /* elasticity on coarser grids, as a preconditioner                            */
+#include "src/statics/conjugate.c" /* conjugate gradients                                                          */
+#include "src/statics/matrix.c"    /* the tangent assembled, BiCGSTAB                                              */
+#include "src/statics/equilibrium.c" /* Newton's method                                                            */
+#include "src/statics/relax.c"     /* adaptive dynamic relaxation                                                  */
+#include "src/statics/statics.c"   /* load steps, quasi-static fracture                                            */
+#include "src/statics/surface.c"   /* tractions and pressures that pass the patch test                             */
+
+/* ---- output ---------------------------------------------------------------------------- */
+#include "src/output/fields.c"     /* fields by copy and by view, the ledger                                       */
+#include "src/output/output.c"     /* VTU, CSV                                                                     */
+
+/* ---- advice ---------------------------------------------------------------------------- */
+#include "src/advice/sketch.c"     /* a body that is only described  -> its bonds and columns                      */
+#include "src/advice/plan.c"       /* what a scene would cost                                                      */
+#include "src/advice/choose.c"     /* the knobs for an accuracy or a budget                                        */
 
 #if defined(PERI_AS_WRITTEN) && defined(__clang__)
 #pragma float_control(pop)

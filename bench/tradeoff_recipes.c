@@ -1,5 +1,5 @@
 /* tradeoff_recipes.c - `tradeoff --recipes`: a few sets of knobs, and what each gives in every problem at every resolution: the table of
-   src/choose.c. Takes half an hour.
+   src/advice/choose.c. Takes half an hour.
 
    State-based laws: the largest error over the Poisson ratios 0.1, 0.3 and 0.45 (branching, whose truth is bond-based: 1/3 alone), and the
    seconds and bytes of the slowest and the largest. Errors as measured, not guarded. */

@@ -29,11 +29,11 @@ for header in peri.h $file; do
 done
 
 if command -v nm > /dev/null; then
-    nm -g --defined-only build/peri.o | grep -v ' peri_' > $dir/foreign || true
+    nm -g --defined-only build/libperi.a | awk "NF == 3" | grep -v ' peri_' > $dir/foreign || true
     must_be_empty "exported names without peri_" $dir/foreign
 fi
 if command -v objdump > /dev/null; then # .data.rel.ro: constants that hold addresses
-    objdump -t build/peri.o | grep -E '[[:space:]](\.(data|bss|tdata|tbss)|\*COM\*)' | grep -vE ' d +\.|\.data\.rel\.ro' > $dir/state || true
+    objdump -t build/libperi.a | grep -E '[[:space:]](\.(data|bss|tdata|tbss)|\*COM\*)' | grep -vE ' d +\.|\.data\.rel\.ro' > $dir/state || true
     must_be_empty "writable data" $dir/state
 fi
 printf '#include <stdint.h>\n#include <stddef.h>\n' | $cc -std=c99 -dM -E - | sort > $dir/before

@@ -30,12 +30,12 @@ for compiler in gcc clang; do
 done
 queue fast_math "$CC $STRICT -O1 -ffast-math -c peri_impl.c -o build/checks/fast.o"
 # the tokens of peri_impl.c, of peri.h with PERI_IMPLEMENTATION and of the single file are the same (dist): one build stands for all; $CC
-# made build/peri.o with $STRICT, too. Without optimisation clang takes a fifth of gcc's time
+# made build/libperi.a with $STRICT, too. Without optimisation clang takes a fifth of gcc's time
 queue "strict_single_file" "$quick $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o"
 queue "static_in_two_units" "$quick $STRICT -O0 -DPERI_PLAIN -I. tests/static_a.c tests/static_b.c -o build/checks/static -lm && \
     build/checks/static"
 if command -v g++ > /dev/null; then
-    queue cxx11 "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/peri.o \
+    queue cxx11 "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/libperi.a \
         -o build/checks/cxx $OPENMP -lm && build/checks/cxx"
 else
     skip cxx11 "no g++ on this machine"
@@ -49,7 +49,7 @@ run_queue
 
 # ---- the same bits, whatever the vectors and the compiler
 bits() { $CC $STRICT -I. tests/bits.c "$1" -o "$1.bits" $OPENMP -lm && "$1.bits" > "$1.text" && cmp "$1.text" build/checks/bits.text; }
-$CC $STRICT -I. tests/bits.c build/peri.o -o build/checks/bits $OPENMP -lm
+$CC $STRICT -I. tests/bits.c build/libperi.a -o build/checks/bits $OPENMP -lm
 build/checks/bits > build/checks/bits.text
 for other in build/checks/*.other.o; do check "same_bits_$(basename "$other" .other.o)" bits "$other"; done
 
@@ -67,7 +67,7 @@ if [ -n "$sanitized" ]; then
 fi
 
 if command -v python3 > /dev/null; then
-    check ctypes_build $CC $STRICT -O2 -I. tests/ctypes_scene.c build/peri.o -o build/checks/ctypes_scene $OPENMP -lm
+    check ctypes_build $CC $STRICT -O2 -I. tests/ctypes_scene.c build/libperi.a -o build/checks/ctypes_scene $OPENMP -lm
     program test_ctypes python3 tests/test_ctypes.py build/libperi.so build/checks/ctypes_scene
 else
     skip test_ctypes "no python3 on this machine"

@@ -17,15 +17,15 @@ if command -v cppcheck > /dev/null; then
 else
     echo "lint: no cppcheck, skipped"
 fi
-for file in src/* peri_impl.c examples/* tests/*.c tests/*.h tests/extremes/* bench/*; do
+for file in src/*/* peri_impl.c examples/* tests/*.c tests/*.h tests/extremes/* bench/*; do
     lines=$(wc -l < "$file")
     [ "$lines" -le 600 ] || fail "$file: $lines lines, more than 600"
 done
 awk 'length > 140 { printf "lint: %s:%d: longer than 140\n", FILENAME, FNR; bad = 1 } END { exit bad }' \
-    peri.h peri_impl.c src/* examples/* tests/*.c tests/*.h tests/extremes/* bench/* || status=1
-grep -nE '[[:space:]]+$' peri.h peri_impl.c src/* examples/* tests/*.* tests/extremes/* bench/* tools/* Makefile README.md && fail "trailing blanks"
-grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/* && fail "the library prints or exits"
+    peri.h peri_impl.c src/*/* examples/* tests/*.c tests/*.h tests/extremes/* bench/* || status=1
+grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* examples/* tests/*.* tests/extremes/* bench/* tools/* Makefile README.md && fail "trailing blanks"
+grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the library prints or exits"
 # no state: every variable of the library is const or local
-grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/* | grep -v const && fail "global state"
+grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
 [ $status -eq 0 ] && echo "lint: clean"
 exit $status

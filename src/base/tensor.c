@@ -5,11 +5,6 @@
 
 #define PERI_PACKED(dim) ((dim) * ((dim) + 1) / 2)
 
-/* Place of entry (a, b) in the packed form. */
-static int peri__packed(int32_t dim, int a, int b) {
-    return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
-}
-
 /* Eigenvalues (on the diagonal of a) and orthonormal eigenvectors (columns of v) of a symmetric a[n][n], by Jacobi's rotations: for
    matrices this small as exact as any way. */
 static void peri__jacobi(int n, double *a, double *v) {
@@ -98,4 +93,10 @@ static void peri__solve(int n, int row, double *g, const double *r, double *x) {
         for (int j = k + 1; j < n; ++j) sum -= g[j * row + k] * x[j];
         x[k] = g[k * row + k] > 0.0 ? sum / g[k * row + k] : 0.0;
     }
+}
+
+static void peri__cross(const double *a, const double *b, double *out) {
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
 }

@@ -96,3 +96,9 @@ static const char *peri__field_name(const char *expression) {
 #define PERI_NEED_IDLE(b)                                                                                              \
     PERI_NEED_BUILT(b);                                                                                                \
     if ((b)->running) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)
+
+static int32_t peri__check_material_id(peri_body *b, int32_t material) {
+    if (material < 0 || material >= b->material_count)
+        return peri__fail(b, PERI_ERROR_MATERIAL, "material", material, 0.0);
+    return PERI_OK;
+}

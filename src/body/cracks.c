@@ -60,12 +60,6 @@ static void peri__add_face(peri__crack *c, const double *normal, const double *p
     c->faces++;
 }
 
-static void peri__cross(const double *a, const double *b, double *out) {
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* A place in inner units. */
 static void peri__inner(const peri_body *b, const double *place, double *out) {
     for (int32_t d = 0; d < b->dim; ++d) out[d] = (place[d] - b->model->origin[d]) / b->model->length;
@@ -377,22 +371,6 @@ PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
     b->on_break = fn;
     b->break_user = user;
     return PERI_OK;
-}
-
-/* Stretch of bond k of point i at the present displacement. */
-static double peri__stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k) {
-    const peri__model *m = b->model;
-    int64_t at = row->first + k, j = row->ids[k];
-    double along = 0.0, square = 0.0, bond = peri__get_real(row->bond, b->b32, k);
-    int linear = b->desc.geometry == PERI_LINEAR;
-    for (int32_t d = 0; d < m->dim; ++d) {
-        double xi = peri__get_real(m->x, b->f32, d * m->stride + j) - peri__get_real(m->x, b->f32, d * m->stride + i);
-        double eta = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);
-        if (m->centroid) xi = peri__get_real(m->centroid, b->b32, at * m->dim + d);
-        along += linear ? xi * eta : (2.0 * xi + eta) * eta;
-        square += peri__square(xi + eta);
-    }
-    return along / (bond * (linear ? bond : sqrt(square) + bond));
 }
 
 /* Reports the bonds that broke in this step. */

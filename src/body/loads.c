@@ -414,3 +414,86 @@ PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t obstacle) {
     b->force_current = 0;
     return PERI_OK;
 }
+
+/* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion; counts the work on
+   them where step->working. */
+static void peri__bond_forces(peri_body *b, peri__step *step) {
+    const peri__model *m = b->model;
+    peri__sum_bonds(b, step, b->sums);
+    if (step->working) memcpy(b->worked, b->u, (size_t)(m->stride * m->dim) * peri__real(b));
+}
+
+/* Brings f up to date with u, loads and cracks as they are, without breaking anything. */
+static int32_t peri__update_force(peri_body *b) {
+    peri__step step = peri__no_step(b);
+    const peri__model *m = b->model;
+    int32_t running = b->running;
+    if (b->force_current) return PERI_OK;
+    b->running = 2;
+    peri__update_lanes(b);
+    peri__refresh(b);
+    memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
+    int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
+    if (status == PERI_OK) {
+        step.working = m->works;
+        peri__bond_forces(b, &step);
+        status = peri__meet_supports(b);
+    }
+    b->running = running;
+    b->force_current = status == PERI_OK;
+    return status;
+}
+
+PERI_API int32_t peri_read_obstacle_force(peri_body *b, int32_t obstacle, double *force) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_obstacle(b, obstacle);
+    if (status < 0) return status;
+    PERI_NEED(b, force, "force");
+    if (b->running < 2) status = peri__update_force(b); /* moves the obstacle to where it is now */
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    double total[3] = { 0.0, 0.0, 0.0 };
+    for (int64_t i = 0; i < m->points; ++i) {
+        double push[3] = { 0.0, 0.0, 0.0 };
+        peri__push(b, &b->obstacles[obstacle], i, push);
+        for (int32_t d = 0; d < m->dim; ++d) total[d] += push[d] * m->volume[i];
+    }
+    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+    return PERI_OK;
+}
+
+/* Force density of the supports on every point, user's units. */
+static void peri__read_reactions(const peri_body *b, double *out) {
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < m->points * m->dim; ++k) out[k] = 0.0;
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        const peri__load *load = &b->loads[s];
+        for (int64_t k = 0; load->owned && k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d)
+                if (load->owned[k] >> d & 1)
+                    out[peri__set_point(b, load->set, k) * m->dim + d] =
+                        *peri__held(b, load, PERI__HELD_REACTION, k, d) * peri__force_unit(m);
+    }
+}
+
+PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_load(b, id);
+    if (status < 0) return status;
+    PERI_NEED(b, force, "force");
+    if (b->running < 2) status = peri__update_force(b);
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    const peri__load *load = &b->loads[id];
+    double total[3] = { 0.0, 0.0, 0.0 };
+    for (int64_t k = 0; k < load->count; ++k)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            double volume = m->volume[peri__set_point(b, load->set, k)];
+            if (load->owned && !(load->owned[k] >> d & 1)) continue;
+            if (load->owned) total[d] += *peri__held(b, load, PERI__HELD_REACTION, k, d) * volume;
+            else total[d] += peri__load_force(b, load, k, d) * volume;
+        }
+    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+    return PERI_OK;
+}

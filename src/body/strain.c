@@ -16,14 +16,6 @@ typedef struct peri__deformation {
     int    whole; /* the live bonds span the space                                                                       */
 } peri__deformation;
 
-/* Bond (i, j): xi and eta. */
-static void peri__pull_of(const peri_body *b, int64_t i, int64_t j, double *xi, double *eta) {
-    const peri__model *m = b->model;
-    peri__bond_of(m, b->f32, i, j, xi);
-    for (int32_t d = 0; d < m->dim; ++d)
-        eta[d] = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);
-}
-
 /* theta of the law; a bond-based point counts as LPS with w/|xi| in place of w. */
 static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;

@@ -5,25 +5,6 @@
 
 #define PERI_BLUR 1e-3
 
-/* Sizes of the reals of a body: of the state and reference positions, and of what bonds are reckoned with. */
-static size_t peri__real(const peri_body *b) { return b->f32 ? sizeof(float) : sizeof(double); }
-static size_t peri__bond_real(const peri_body *b) { return b->b32 ? sizeof(float) : sizeof(double); }
-
-static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
-    if (f32) ((float *)array)[at] = (float)value;
-    else ((double *)array)[at] = value;
-}
-
-PERI_INLINE double peri__get_real(const void *array, int32_t f32, int64_t at) {
-    return f32 ? (double)((const float *)array)[at] : ((const double *)array)[at];
-}
-
-/* The point at place k: the k-th in passes over the list. */
-static int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
-
-/* The neighbour of entry `at` of the list. */
-static int64_t peri__entry_id(const peri__model *m, int64_t at) { return m->order ? m->order[m->ids[at]] : m->ids[at]; }
-
 /* The centroid rule made objective: beta_ij w |centroid bond|/|bond|, w at the centroid of the part of j within the horizon of i. */
 static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, double bond, double edge) {
     double centre[3], beta = peri__part(c, i, j, centre), length = sqrt(peri__dot(centre, centre, c->model->dim));
@@ -31,7 +12,7 @@ static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, do
 }
 
 /* sum of beta V_j over the whole family of a point. */
-static double peri__family_volume(const peri__model *m, int64_t i) {
+PERI_SHARED double peri__family_volume(const peri__model *m, int64_t i) {
     double sum = 0.0;
     for (int64_t k = 0; k < m->count[i]; ++k)
         sum += m->part ? (double)m->part[m->start[i] + k] : m->volume[peri__entry_id(m, m->start[i] + k)];

@@ -59,7 +59,7 @@ static void peri__measure_row(const peri_body *b, int64_t i, peri__row *row) {
 #undef PERI_MEASURE
 
 /* Row i: ids, and what each bond weighs. Valid while `row` and the model are. */
-static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
+PERI_SHARED void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
     const peri__model *m = b->model;
     const size_t real = peri__bond_real(b);
     if (m->lanes.columns) {
@@ -82,7 +82,7 @@ static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
 }
 
 /* The least critical stretch that a bond of point i may have. */
-static double peri__least_stretch(const peri_body *b, int64_t i) {
+PERI_SHARED double peri__least_stretch(const peri_body *b, int64_t i) {
     const peri__pair *pairs = b->cls ? &b->pairs[b->cls[i] * b->classes] : b->pairs;
     double least = pairs->s0;
     for (int32_t k = 1; b->cls && k < b->classes; ++k)
@@ -99,7 +99,7 @@ static int64_t peri__next_bond(const peri__row *row, int64_t after) {
 }
 
 /* Which bond of row i leads to j, or -1. */
-static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
+PERI_SHARED int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
     const peri__lanes *lanes = &m->lanes;
     const int64_t g = i / PERI_LANES;
     int64_t place = 0;
@@ -111,4 +111,38 @@ static int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
         place += has;
     }
     return -1;
+}
+
+PERI_INLINE int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
+    return !b->alive || (b->alive[i * b->model->words + k / 32] >> (k % 32) & 1);
+}
+
+PERI_INLINE void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t j, double *xi) {
+    xi[0] = peri__get_real(m->x, f32, j) - peri__get_real(m->x, f32, i);
+    xi[1] = peri__get_real(m->x, f32, m->stride + j) - peri__get_real(m->x, f32, m->stride + i);
+    if (m->dim == 3) xi[2] = peri__get_real(m->x, f32, 2 * m->stride + j) - peri__get_real(m->x, f32, 2 * m->stride + i);
+}
+
+/* Bond (i, j): xi and eta. */
+static void peri__pull_of(const peri_body *b, int64_t i, int64_t j, double *xi, double *eta) {
+    const peri__model *m = b->model;
+    peri__bond_of(m, b->f32, i, j, xi);
+    for (int32_t d = 0; d < m->dim; ++d)
+        eta[d] = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);
+}
+
+/* Stretch of bond k of point i at the present displacement. */
+static double peri__stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k) {
+    const peri__model *m = b->model;
+    int64_t at = row->first + k, j = row->ids[k];
+    double along = 0.0, square = 0.0, bond = peri__get_real(row->bond, b->b32, k);
+    int linear = b->desc.geometry == PERI_LINEAR;
+    for (int32_t d = 0; d < m->dim; ++d) {
+        double xi = peri__get_real(m->x, b->f32, d * m->stride + j) - peri__get_real(m->x, b->f32, d * m->stride + i);
+        double eta = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);
+        if (m->centroid) xi = peri__get_real(m->centroid, b->b32, at * m->dim + d);
+        along += linear ? xi * eta : (2.0 * xi + eta) * eta;
+        square += peri__square(xi + eta);
+    }
+    return along / (bond * (linear ? bond : sqrt(square) + bond));
 }

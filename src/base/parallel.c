@@ -55,7 +55,7 @@ static void peri__for_points(const peri_body *b, int64_t points, int64_t cost, p
 }
 
 /* The sum of PERI_BLOCK numbers, by halves, which are lost: the order does not depend on the width of vectors, and errors stay small. */
-PERI_VECTOR_CODE static double peri__add_up(double *part) {
+PERI_VECTOR_CODE PERI_SHARED double peri__add_up(double *part) {
     PERI_NO_CONTRACTION
     for (int half = PERI_BLOCK / 2; half > 0; half /= 2)
         for (int k = 0; k < half; ++k) part[k] += part[k + half];

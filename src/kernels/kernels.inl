@@ -104,7 +104,7 @@
 #include "k_march.inl"
 #include "k_solve.inl"
 
-static const peri__ops PERI_FN(ops) = {
+PERI_SHARED const peri__ops PERI_FN(ops) = {
     PERI_FN(pack), PERI_FN(pack_response), PERI_FN(force), PERI_FN(respond), PERI_FN(respond_rows), PERI_FN(share),
     PERI_FN(exchange), PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic), PERI_FN(tangent_respond), PERI_FN(tangent_share),
     PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force), PERI_FN(krylov_blocks), PERI_FN(krylov_norm),

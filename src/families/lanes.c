@@ -451,7 +451,7 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
 }
 
 /* Brings the masks of the columns of a group up to date with flags[points][words], bit k of a row for its k-th bond, in some lanes. */
-static void peri__group_masks(const peri__model *m, int64_t g, uint32_t lanes, const uint32_t *flags, uint16_t *masks) {
+PERI_SHARED void peri__group_masks(const peri__model *m, int64_t g, uint32_t lanes, const uint32_t *flags, uint16_t *masks) {
     const peri__lanes *l = &m->lanes;
     const peri__column *column = &l->column[l->first[g]];
     const int64_t count = l->begin[g + 1] - l->begin[g];

@@ -119,12 +119,6 @@ PERI_API int32_t peri_add_material(peri_body *b, const peri_material *m) {
     return b->material_count++;
 }
 
-static int32_t peri__check_material_id(peri_body *b, int32_t material) {
-    if (material < 0 || material >= b->material_count)
-        return peri__fail(b, PERI_ERROR_MATERIAL, "material", material, 0.0);
-    return PERI_OK;
-}
-
 PERI_API int32_t peri_set_interface(peri_body *b, int32_t i, int32_t j, const peri_material *material) {
     PERI_NEED_UNBUILT(b);
     int32_t status = peri__check_material_id(b, i);

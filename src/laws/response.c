@@ -16,16 +16,6 @@ typedef struct peri__moments { /* sums over the bonds of a family, inner units  
     double shape[6];     /* w xi xi V                                                                                    */
 } peri__moments;
 
-PERI_INLINE int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
-    return !b->alive || (b->alive[i * b->model->words + k / 32] >> (k % 32) & 1);
-}
-
-PERI_INLINE void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t j, double *xi) {
-    xi[0] = peri__get_real(m->x, f32, j) - peri__get_real(m->x, f32, i);
-    xi[1] = peri__get_real(m->x, f32, m->stride + j) - peri__get_real(m->x, f32, m->stride + i);
-    if (m->dim == 3) xi[2] = peri__get_real(m->x, f32, 2 * m->stride + j) - peri__get_real(m->x, f32, 2 * m->stride + i);
-}
-
 static void peri__add_moments(peri__moments *sum, int32_t dim, const double *xi, double bond, double weight) {
     const double planes = dim * (dim - 1) / 2;
     sum->m += weight * bond * bond;

@@ -1,0 +1,89 @@
+/* compiler.h - what compilers and machines differ in. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define PERI_INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define PERI_INLINE static __forceinline
+#else
+#define PERI_INLINE static
+#endif
+
+/* PERI_SHARED: what the kernels and the rest call of each other. The library is one unit, but for developers the kernels are objects of
+   their own (PERI_SPLIT), which an edit elsewhere leaves alone. */
+#ifndef PERI_SPLIT
+#define PERI_SHARED static
+#elif defined(__GNUC__) || defined(__clang__)
+#define PERI_SHARED __attribute__((visibility("hidden")))
+#else
+#define PERI_SHARED
+#endif
+
+#if defined(_MSC_VER)
+#define PERI_RESTRICT __restrict
+#else
+#define PERI_RESTRICT restrict
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define PERI_PREFETCH(address) __builtin_prefetch(address)
+#else
+#define PERI_PREFETCH(address) ((void)(address))
+#endif
+
+/* Arithmetic is what is written, whatever the user's flags: refusals compare with NaN and infinity, which -ffinite-math-only would fold
+   away, and both ends of a bond must come to the same number, which sums taken in another order or fused with products (FMA) do not.
+   clang's -ffast-math fuses, and estimates square roots, in spite of the pragma. Ends with peri_impl.c. */
+#if defined(__clang__) && __clang_major__ >= 12
+#define PERI_AS_WRITTEN
+#pragma float_control(push)
+#pragma float_control(precise, on)
+#pragma clang fp contract(off)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__TINYC__) &&                                                \
+    (__FINITE_MATH_ONLY__ || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__) || \
+     defined(__FP_FAST_FMA))
+#define PERI_AS_WRITTEN
+#pragma GCC push_options
+#pragma GCC optimize("no-finite-math-only", "no-associative-math", "no-reciprocal-math", "signed-zeros", "no-unsafe-math-optimizations", \
+                     "fp-contract=off")
+#endif
+
+/* Kernels on columns and on the list work on vectors (k_vector.inl): on x86-64 with the best instruction set, chosen at run time; elsewhere
+   those of gcc and clang, or plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the
+   same bits. gcc gets its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which
+   costs half the speed and more. Builds with gcc's address sanitizer, or with PERI_PLAIN, take the plain text alone: vector code takes
+   minutes to instrument. */
+#if defined(__clang__)
+#define PERI_VECTOR_CODE
+#define PERI_NO_CONTRACTION _Pragma("clang fp contract(off)")
+#define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw"
+#elif defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+#define PERI_VECTOR_CODE __attribute__((optimize("O3", "no-trapping-math", "fp-contract=off")))
+#define PERI_NO_CONTRACTION
+#define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw,prefer-vector-width=512"
+#else
+#define PERI_VECTOR_CODE
+#define PERI_NO_CONTRACTION
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__) && !defined(__SANITIZE_ADDRESS__) && !defined(PERI_PLAIN)
+#if defined(__x86_64__) && !defined(PERI_PORTABLE)
+#define PERI_ISA
+#include <immintrin.h>
+#define PERI_TARGET_AVX2 __attribute__((target("avx2")))
+#define PERI_TARGET_AVX512 __attribute__((target(PERI_WIDE)))
+/* Sums over lanes, by halves. */
+PERI_INLINE double peri__across_2(__m128d a) { return _mm_cvtsd_f64(_mm_add_sd(a, _mm_unpackhi_pd(a, a))); }
+PERI_INLINE float peri__across_4(__m128 a) {
+    const __m128 half = _mm_add_ps(a, _mm_movehl_ps(a, a));
+    return _mm_cvtss_f32(_mm_add_ss(half, _mm_shuffle_ps(half, half, 1)));
+}
+#elif !defined(__i386__) || defined(__SSE2__)
+#define PERI_GENERIC /* the vectors of gcc and clang, 16 bytes: NEON, VSX, ... */
+typedef double  peri__double2 __attribute__((vector_size(16)));
+typedef float   peri__float4 __attribute__((vector_size(16)));
+typedef int64_t peri__long2 __attribute__((vector_size(16)));
+typedef int32_t peri__int4 __attribute__((vector_size(16)));
+#endif
+#endif

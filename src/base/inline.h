@@ -1,0 +1,18 @@
+/* inline.h - what is small and used everywhere. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+PERI_INLINE int64_t peri__min(int64_t a, int64_t b) { return a < b ? a : b; }
+PERI_INLINE double peri__square(double a) { return a * a; }
+
+/* Place of entry (a, b) in the packed form. */
+PERI_INLINE int peri__packed(int32_t dim, int a, int b) {
+    return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
+}
+
+/* The point at place k: the k-th in passes over the list. */
+PERI_INLINE int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
+
+/* The neighbour of entry `at` of the list. */
+PERI_INLINE int64_t peri__entry_id(const peri__model *m, int64_t at) { return m->order ? m->order[m->ids[at]] : m->ids[at]; }

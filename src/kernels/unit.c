@@ -1,0 +1,22 @@
+/* unit.c - the kernels of one precision and dimension as an object of their own, for developers:
+   cc -DPERI_SPLIT -DPERI_T_REAL=64 -DPERI_T_BOND=64 -DPERI_T_DIM=2 -I. -c src/kernels/unit.c; then peri_impl.c with -DPERI_SPLIT. */
+#include "peri.h"
+#define PERI_IMPL
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "src/base/compiler.h"
+#include "src/base/types.h"
+#include "src/base/inline.h"
+
+/* what kernels call of the parts above them */
+PERI_SHARED double  peri__add_up(double *part);
+PERI_SHARED double  peri__family_volume(const peri__model *m, int64_t i);
+PERI_SHARED void    peri__group_masks(const peri__model *m, int64_t g, uint32_t lanes, const uint32_t *flags, uint16_t *masks);
+PERI_SHARED void    peri__read_row(const peri_body *b, int64_t i, peri__row *row);
+PERI_SHARED double  peri__least_stretch(const peri_body *b, int64_t i);
+PERI_SHARED int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j);
+
+#include "src/kernels/kernels.inl"
