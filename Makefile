@@ -33,7 +33,7 @@ all: lib
 # The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
 # and left alone by edits elsewhere.
 KERNELS = d2 d3 m2 m3 f2 f3
-KERNEL_TEXT = peri.h src/base/compiler.h src/base/types.h src/base/inline.h $(wildcard src/kernels/*)
+KERNEL_TEXT = peri.h $(wildcard src/base/*.h src/laws/*.h src/laws/*.inl src/kernels/*)
 KERNEL_d = -DPERI_T_REAL=64 -DPERI_T_BOND=64
 KERNEL_m = -DPERI_T_REAL=64 -DPERI_T_BOND=32
 KERNEL_f = -DPERI_T_REAL=32 -DPERI_T_BOND=32

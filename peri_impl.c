@@ -23,6 +23,7 @@
 #include "src/base/compiler.h"     /* what compilers and machines differ in                                        */
 #include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
 #include "src/base/inline.h"       /* what is small and used everywhere                                            */
+#include "src/laws/law.h"          /* what laws differ in, and the list of them                                    */
 #include "src/base/base.c"         /* the instruction set, constants, small arithmetic                             */
 #include "src/base/text.c"         /* numbers to text                                                              */
 #include "src/base/real.c"         /* access to reals of either precision                                          */
@@ -51,7 +52,7 @@
 
 /* ---- kernels: one text, six instantiations -> peri__ops_d2 ... -------------------------- */
 #ifdef PERI_SPLIT                  /* objects of their own (src/kernels/unit.c)                                    */
-extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, peri__ops_m3, peri__ops_f2, peri__ops_f3;
+extern PERI_SHARED const peri__ops peri__ops_d2[], peri__ops_d3[], peri__ops_m2[], peri__ops_m3[], peri__ops_f2[], peri__ops_f3[];
 #else
 #define PERI_T_REAL 64
 #define PERI_T_BOND 64

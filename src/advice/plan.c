@@ -57,7 +57,7 @@ static int32_t peri__lay_sketch(peri__sketch *s) {
     m->material = s->material;
     s->volume[0] = s->volume[1] = volume;
     peri__note_law(m, &m->laws[0], material->criterion);
-    s->corrected = b->desc.correction == PERI_MOMENT_CORRECTION || (!m->states && b->desc.correction != PERI_NO_CORRECTION);
+    s->corrected = b->desc.correction == PERI_MOMENT_CORRECTION || (m->pairwise && b->desc.correction != PERI_NO_CORRECTION);
 
     memset(&s->cloud, 0, sizeof s->cloud);
     s->cloud.body = b;
@@ -162,7 +162,7 @@ static void peri__mark_list(peri__sketch *s, void *there, void *other) {
     m->start = (int64_t *)there;
     m->ids = (int32_t *)there;
     m->weight = there;
-    m->back = s->corrected && m->states ? other : there;
+    m->back = s->corrected && !m->pairwise ? other : there;
     m->bond = centroids || s->width > PERI_VECTOR_LIMIT ? there : NULL;
     m->centroid = centroids ? there : NULL;
     m->part = desc->quadrature != PERI_FULL_VOLUME ? (float *)there : NULL;
@@ -172,7 +172,8 @@ static void peri__mark_lanes(peri__sketch *s, void *there) {
     peri__lanes *l = &s->model.lanes;
     l->begin = l->first = (int64_t *)there;
     l->column = (peri__column *)there;
-    l->table = (double *)there;
+    l->table = (peri__stencil_bond *)there;
+    l->ends = s->model.works ? (peri__stencil_ends *)there : NULL;
 }
 
 /* Marks what peri__new_state takes. */
@@ -248,7 +249,7 @@ static int32_t peri__weigh_sketch(peri__sketch *s) {
         total += fabs(bond.weight);
         stiff += bond.weight * bond.length * bond.length;
     }
-    const int32_t status = peri__check_weight(&s->body, total, stiff, !s->model.states);
+    const int32_t status = peri__check_weight(&s->body, total, stiff, s->model.pairwise);
     return status < 0 ? peri__fail(&s->body, status, "influence", 0, 0.0) : PERI_OK;
 }
 
@@ -283,8 +284,7 @@ typedef struct peri__kindred { /* points that see the same faces, mirrored or no
 static double peri__gauge_of(const peri__sketch *s, const peri__kindred *a, const double *xi, double bond) {
     const int32_t dim = s->model.dim;
     double square = 0.0;
-    if (s->model.laws[0].model == PERI_LPS) return a->r.dilate * bond;
-    if (s->model.laws[0].model == PERI_OTERKUS) return a->r.dilate;
+    if (!(s->model.laws[0].gather & PERI__GRADIENT)) return a->r.dilate * peri__law_gauge(&s->model.laws[0], bond);
     for (int32_t p = 0; p < dim; ++p) {
         double sum = 0.0;
         for (int32_t q = 0; q < dim; ++q) sum += a->r.inverse[peri__packed(dim, p, q)] * xi[q];
@@ -296,7 +296,7 @@ static double peri__gauge_of(const peri__sketch *s, const peri__kindred *a, cons
 /* As peri__set_constants and peri__set_wide of the whole family of p. */
 static void peri__fill_kindred(const peri__sketch *s, const int64_t *p, peri__kindred *a) {
     const peri__law *law = &s->model.laws[0];
-    const int tensor = law->model == PERI_CORRESPONDENCE;
+    const int tensor = (law->gather & PERI__GRADIENT) != 0;
     double lean[3] = { 0.0, 0.0, 0.0 }, xi[3], stiff = 0.0;
     int64_t to[3];
     peri__moments sum;
@@ -364,7 +364,7 @@ static int32_t peri__plan_step(peri__sketch *s, double *step) {
     int64_t all = 1;
     s->loose = 0.0;
     for (int d = 0; d < 3; ++d) all *= 1 + s->far[d];
-    if (s->vector_count == 0 || (s->model.states && all > PERI_CLASS_LIMIT)) {
+    if (s->vector_count == 0 || (!s->model.pairwise && all > PERI_CLASS_LIMIT)) {
         const double coarser = s->model.horizon / s->model.spacing / most;
         for (int32_t d = 0; d < s->body.dim; ++d) {
             const double extent = s->piece.cell[d] * (double)s->piece.cells[d], edge = s->body.desc.horizon / most;
@@ -380,7 +380,7 @@ static int32_t peri__plan_step(peri__sketch *s, double *step) {
     }
     int32_t status = peri__weigh_sketch(s);
     if (status < 0) return status;
-    const double rate = s->model.states ? peri__corner_rate(s) : peri__middle_rate(s);
+    const double rate = !s->model.pairwise ? peri__corner_rate(s) : peri__middle_rate(s);
     if (!(rate > 1e-30 && rate < 1e30)) return peri__fail(&s->body, PERI_ERROR_RANGE, "horizon", -1, s->body.desc.horizon);
     *step = 2.0 / sqrt(rate) * s->model.time;
     return PERI_OK;

@@ -256,7 +256,7 @@ static int peri__sketch_lanes(peri__sketch *s) {
     peri__lanes *l = &s->model.lanes;
     peri__model *m = &s->model;
     double rows = 0.0;
-    if (desc->quadrature == PERI_PARTIAL_CENTROID || m->works || m->nodes || (s->corrected && m->states)) return -1;
+    if (desc->quadrature == PERI_PARTIAL_CENTROID || (s->corrected && !m->pairwise)) return -1;
     if (desc->kernel != PERI_KERNEL_BEST) return -1;
     if (s->loose > 0.0 || s->vector_count == 0 || s->width > PERI_VECTOR_LIMIT) return 0;
     l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;

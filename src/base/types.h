@@ -62,6 +62,7 @@ typedef struct peri__pair { /* constants of the bonds between two materials, in 
 
 typedef struct peri__law { /* the elasticity of a material, inner units                                                   */
     int32_t model;
+    int32_t gather, gauge, pairwise; /* what its points gather; g = |xi|^gauge; 1: no constants, c of the pair. See law.h    */
     double  young, lambda, mu; /* lambda: of the plane, lambda' = E nu/(1-nu^2) in plane stress                          */
     double  a, b;              /* A, B of LPS                                                                            */
     double  bulk;              /* lambda + 2 mu/D: W = D^2/2 bulk e^2 under the strain e in all directions               */
@@ -86,7 +87,17 @@ typedef struct peri__interface {
 
 typedef struct peri__ops peri__ops;
 
-#define PERI_TABLE_ROW 9       /* xi (3), |xi|, weight, beta V_j, 1/|xi|, c, s0                                          */
+typedef struct peri__stencil_bond { /* what bonds along one lattice vector between two materials share, rounded as bond       */
+    double xi[3], length, weight, share, inverse; /* weight: w beta V_j; share: beta V_j; inverse: 1/|xi|                 */
+    double c, s0;                                 /* of the pair                                                         */
+} peri__stencil_bond;
+
+typedef struct peri__stencil_ends { /* and what their ends are, where laws differ or bonds break by their energy             */
+    double gauge, other_gauge; /* g of the own end and of the other; 0 of a pairwise law                                   */
+    double spring;             /* c/(2 |xi|) of the pairwise ends                                                         */
+    double energy;             /* critical energy density of the bond, times beta V_j                                     */
+} peri__stencil_ends;
+
 #define PERI_VECTOR_LIMIT 1024 /* rows of the table; so no family on columns is larger                                    */
 
 typedef struct peri__column { /* the bonds of a group of PERI_LANES points along one vector                               */
@@ -100,7 +111,8 @@ typedef struct peri__lanes { /* see lanes.c                                     
     int64_t      *begin;          /* [groups+1] columns of the groups before                                             */
     int64_t      *first;          /* [groups] place in `column` of the first of a group; equal groups share their columns */
     peri__column *column;         /* [kept] ascending by offset, then vector, in a group                                 */
-    double       *table;          /* [vectors][PERI_TABLE_ROW], rounded as bond                                          */
+    peri__stencil_bond *table;    /* [vectors]                                                                           */
+    peri__stencil_ends *ends;     /* [vectors]; NULL where nobody needs them                                             */
     int32_t       vectors, isa;   /* isa: which instruction set the kernels use                                          */
     int32_t       parts;          /* 1: cells may be partial                                                             */
 } peri__lanes;
@@ -110,6 +122,7 @@ typedef struct peri__model {
     peri__memory     memory;
     volatile int32_t users;
 
+    int32_t f32, b32;          /* single precision: of the state; of the arithmetic of bonds, weights and constants        */
     int32_t dim, width, words; /* words: 32-bit words of bond flags per row                                              */
     int64_t points, stride;    /* stride: length of a component plane                                                    */
     int64_t blocks, bonds;     /* bonds: directed                                                                        */
@@ -141,11 +154,11 @@ typedef struct peri__model {
     int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
 
     int32_t    materials;
-    int32_t    states;  /* 1 where some material is state-based: bodies then have constants and responses                */
-    int32_t    uniform; /* the model of all materials in use; -1 where they differ                                       */
-    int32_t    ordinary; /* that, where it is PERI_LPS or PERI_OTERKUS, else 0                                           */
-    int32_t    dilates; /* 1 where some of them responds to theta                                                        */
-    int32_t    tensors; /* 1 where some of them is of the correspondence model                                           */
+    int32_t    law;      /* the number of one of the laws in use; 0: none                                                */
+    int32_t    pairwise; /* 1 where all laws in use are: bodies have no constants and responses then                        */
+    int32_t    mixed;    /* 1 where laws in use differ                                                                   */
+    int32_t    gauge;    /* of laws that do not                                                                          */
+    int32_t    gathers;  /* bits of peri__gather: what some law in use asks for                                          */
     int32_t    works;   /* 1 where some bond breaks by its energy                                                        */
     int32_t    nodes;   /* 1 where some bond breaks by the energy of its ends                                            */
     peri__law  laws[PERI_MATERIAL_LIMIT];
@@ -159,16 +172,18 @@ typedef union peri__reals {
     float  f32[PERI_VECTOR_LIMIT];
 } peri__reals;
 
-typedef struct peri__row { /* the family of a point, see peri__read_row; 27 kB, and not to be copied                      */
+typedef struct peri__row { /* the family of a point, see peri__read_row; 31 kB, and not to be copied                      */
     int64_t        count, first;          /* first: its entry in the list; 0 on columns                                   */
     const int32_t *ids;                   /* ascending by place in the order of the model                                 */
     const void    *weight, *bond, *back;  /* bond, as the arrays of the model                                             */
     const float   *part;                  /* NULL for whole cells                                                         */
     const uint16_t *vector;               /* on columns: rows of `table`, where xi is; NULL on the list, where x tells    */
-    const double  *table;
+    const int32_t *column;                /* on columns: which column of the group                                        */
+    const peri__stencil_bond *table;
     int32_t        ids_room[PERI_VECTOR_LIMIT];
     float          part_room[PERI_VECTOR_LIMIT];
     uint16_t       vector_room[PERI_VECTOR_LIMIT];
+    int32_t        column_room[PERI_VECTOR_LIMIT];
     peri__reals    weight_room, bond_room;
 } peri__row;
 
@@ -218,25 +233,46 @@ typedef struct peri__sums { /* what a block of points adds up; summed over block
     int64_t n, bad; /* bad: first point whose motion is not finite, or -1                                                */
 } peri__sums;
 
-typedef struct peri__step { /* what a pass over the points needs to know                                                  */
-    peri_body *body;
-    double     keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                                */
-    double     loss_old, loss_new; /* damping work: (loss_old v_old + loss_new v_new).(v_old + v_new)/2 rho V            */
-    double     impulse;           /* time that a bond still acts after it broke: half a step, or 0                       */
-    int32_t    working;           /* the work on bonds is counted                                                        */
-    int32_t    breaking;          /* bonds may break                                                                     */
-    double    *out;               /* energy density per point, or NULL                                                   */
+/* All that a pass over the points may read or write: vectors of a body, or any others laid out alike. */
+typedef struct peri__step {
+    const peri__model *model;
+    const void        *u;       /* real [dim][stride] displacement, with margins like all vectors                        */
+    void              *v, *f;   /* real [dim][stride] velocity, force density                                            */
+    void              *drifted; /* real [dim][stride]: the displacement that `kick` moves                                  */
+    void              *pack;    /* real [places][slots], see peri_body                                                   */
+    const void        *constant; /* bond [constants][stride], from the first point on: the margin lies before               */
+    void              *response; /* bond [1 + dim*dim][stride], likewise                                                  */
+    uint32_t          *alive, *dying; /* [points][words]                                                                 */
+    uint16_t          *masks;   /* [columns] alive by columns                                                            */
+    const uint8_t     *cls;     /* [points] row of pairs; NULL: 0                                                        */
+    const peri__pair  *pairs;   /* [classes][classes]                                                                    */
+    int32_t            classes;
+    const uint8_t     *central; /* [groups] 1: points there or beside it that act by central bonds instead of a gradient   */
+    void              *work, *pull; /* real [bonds], [bonds][dim], see peri_body                                         */
+    const void        *worked;
+    double            *node;    /* [points]                                                                              */
+    double             node_most; /* the largest, of points whose bonds may break by it                                  */
+    int32_t            linear;  /* the geometry                                                                          */
+    int32_t            working; /* the work on bonds is counted                                                          */
+    int32_t            breaking; /* bonds may break                                                                      */
+    double             impulse; /* time that a bond still acts after it broke: half a step, or 0                         */
+    double             keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                       */
+    double             loss_old, loss_new; /* damping work: (loss_old v_old + loss_new v_new).(v_old + v_new)/2 rho V     */
+    double            *out;     /* energy density per point, or NULL                                                     */
+    const void        *p;       /* real [dim][stride]: a change of the displacements                                     */
+    void              *q;       /* real [dim][stride]: the change that the tangent makes of the force density            */
+    void              *change;  /* as response: of p and Q                                                               */
 } peri__step;
 
 typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                          */
     peri_body  *body;
     const void *p;      /* real [dim][stride] with margins: the change                                                   */
     void       *q;      /* real [dim][stride] with margins: the change of the force density                              */
-    void       *change; /* as body->response: that of p and Q; NULL without state-based laws                             */
+    void       *change; /* as body->response: that of p and Q; NULL without constants                                    */
 } peri__tangent;
 
 typedef struct peri__krylov { /* vectors of conjugate gradients, real [dim][stride], forces times volumes                 */
-    peri_body     *body;
+    const peri__model *model;
     void          *d, *r, *p, *q, *z; /* solution, residual, direction, K p, preconditioned residual                     */
     const void    *blocks;            /* real [packed][stride] inverses of the diagonal blocks, 0 where held; or NULL    */
     const uint8_t *held;              /* [points] axes that do not move                                                  */
@@ -297,19 +333,18 @@ typedef struct peri__ledger { /* inner units of energy                          
     int32_t pending; /* 1 from such a change until it is accounted                                                       */
 } peri__ledger;
 
-struct peri__ops { /* the kernels of one real type and dimension; all are peri__block_fn, on a peri__step unless said       */
-    void (*pack)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or respond on the list     */
-    void (*pack_response)(void *, int64_t, int64_t, peri__sums *); /* p; before share                                   */
-    void (*force)(void *, int64_t, int64_t, peri__sums *);   /* bond-based                                               */
-    void (*respond)(void *, int64_t, int64_t, peri__sums *); /* state-based: what each point makes of its family, then   */
-    void (*respond_rows)(void *, int64_t, int64_t, peri__sums *);
-    void (*share)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
+struct peri__ops { /* the kernels of one precision, dimension and instruction set; all are peri__block_fn, on a peri__step unless said */
+    void (*pack)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or gather on the list      */
+    void (*pack_response)(void *, int64_t, int64_t, peri__sums *); /* p; before force                                   */
+    void (*gather)(void *, int64_t, int64_t, peri__sums *);  /* what each point makes of its family, then                */
+    void (*gather_rows)(void *, int64_t, int64_t, peri__sums *);
+    void (*force)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
     void (*exchange)(const peri__step *, const int32_t *points, int64_t count, int sign);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
-    void (*tangent_respond)(void *, int64_t, int64_t, peri__sums *); /* on a peri__tangent                               */
-    void (*tangent_share)(void *, int64_t, int64_t, peri__sums *);
+    void (*tangent_gather)(void *, int64_t, int64_t, peri__sums *);
+    void (*tangent_force)(void *, int64_t, int64_t, peri__sums *);
     void (*krylov_step)(void *, int64_t, int64_t, peri__sums *); /* these on a peri__krylov                              */
     void (*krylov_turn)(void *, int64_t, int64_t, peri__sums *);
     void (*krylov_force)(void *, int64_t, int64_t, peri__sums *);
@@ -351,13 +386,14 @@ struct peri_body {
     double   *rate, *wide;   /* [points] row sum of the stiffness over rho; what theta or F of a point adds to those of others */
     double    fastest;       /* largest rate                                                                             */
     int32_t   stale;         /* 1: bonds have changed since the constants were made                                      */
-    uint8_t  *central;       /* [groups of PERI_LANES] 1: correspondence points there or beside it act by central bonds; NULL without
-                                tensors                                                                                  */
+    uint8_t  *central;       /* [groups of PERI_LANES] 1: points there or beside it act by central bonds instead of a gradient; NULL without
+                                gradients                                                                                */
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
     uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
-    void     *work;          /* real [entries] work done on bonds; NULL, like the next, without that criterion           */
-    void     *pull;          /* real [entries][dim] force density of bonds when last worked out                          */
+    void     *work;          /* real work done on bonds, by peri__bond_slot; NULL, like the next, without that criterion   */
+    void     *pull;          /* real force density of bonds when last worked out: on the list [entries][dim], on columns [columns][dim]
+                                [PERI_LANES]                                                                             */
     void     *worked;        /* real [dim][stride] displacement then                                                     */
     void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u,    */
     void     *change_f;      /* of the force, both laid out as u with its margins,                                         */

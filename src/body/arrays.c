@@ -7,7 +7,12 @@
 static int64_t peri__vector_reals(const peri__model *m) { return m->stride * m->dim + 2 * m->margin; }
 
 /* What the force of laws needs of every point: p, and Q where there are tensors. */
-static int64_t peri__response_reals(const peri__model *m) { return (m->tensors ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin; }
+static int64_t peri__response_reals(const peri__model *m) {
+    return (m->gathers & PERI__GRADIENT ? 1 + m->dim * m->dim : 1) * m->stride + 2 * m->margin;
+}
+
+/* Entries of the arrays of bonds, see peri__bond_slot. */
+static int64_t peri__bond_slots(const peri__model *m) { return m->lanes.columns ? m->lanes.columns * PERI_LANES : m->entries; }
 
 /* Numbers per point of a field, 0 where there is no such field. */
 static int32_t peri__components(int32_t field, int32_t dim) {
@@ -41,7 +46,7 @@ typedef struct peri__array {
 } peri__array;
 #define PERI_ARRAYS 25       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
-#define PERI_MODEL_ARRAYS 17 /* with all others                                                                           */
+#define PERI_MODEL_ARRAYS 18 /* with all others                                                                           */
 
 static void *peri__pointer_at(const void *owner, size_t place) {
     void *pointer;
@@ -74,7 +79,8 @@ static void peri__list_model(const peri_body *b, const peri__model *m, peri__arr
         PERI_ARRAY_(lanes.begin, groups + 1, sizeof(int64_t), PERI__FAMILIES),
         PERI_ARRAY_(lanes.first, groups, sizeof(int64_t), PERI__FAMILIES),
         PERI_ARRAY_(lanes.column, m->lanes.kept, sizeof(peri__column), PERI__FAMILIES),
-        PERI_ARRAY_(lanes.table, (int64_t)m->lanes.vectors * PERI_TABLE_ROW, sizeof(double), PERI__FAMILIES),
+        PERI_ARRAY_(lanes.table, m->lanes.vectors, sizeof(peri__stencil_bond), PERI__FAMILIES),
+        PERI_ARRAY_(lanes.ends, m->lanes.vectors, sizeof(peri__stencil_ends), PERI__FAMILIES),
         PERI_ARRAY_(x, m->stride * m->dim, real, PERI__POINTS),
         PERI_ARRAY_(volume, n, sizeof(double), PERI__POINTS),
         PERI_ARRAY_(material, n, 1, PERI__POINTS),
@@ -101,9 +107,9 @@ static void peri__set_array(peri_body *b, const peri__array *array, void *pointe
 
 static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const peri__model *m = b->model;
-    const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = m->entries;
-    const int64_t constants = m->tensors ? PERI__INVERSE + PERI_PACKED(m->dim) : PERI__VECTOR;
-    const int32_t states = m->states, breaks = m->states && m->breakable;
+    const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = peri__bond_slots(m);
+    const int64_t constants = peri__constant_planes(m);
+    const int32_t states = !m->pairwise, breaks = !m->pairwise && m->breakable;
     const size_t real = peri__real(b), bond = peri__bond_real(b);
 #define PERI_ARRAY_(member, number, bytes, want, purpose) { offsetof(peri_body, member), number, bytes, want, purpose }
     const peri__array arrays[PERI_ARRAYS] = {
@@ -124,7 +130,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(change_response, peri__response_reals(m), bond, 0, PERI__STATE),
         PERI_ARRAY_(rate, n, sizeof(double), states, PERI__LAWS),
         PERI_ARRAY_(wide, n, sizeof(double), states, PERI__LAWS),
-        PERI_ARRAY_(central, n / PERI_LANES + 1, 1, m->tensors, PERI__LAWS),
+        PERI_ARRAY_(central, n / PERI_LANES + 1, 1, (m->gathers & PERI__GRADIENT) != 0, PERI__LAWS),
         PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE),

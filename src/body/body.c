@@ -99,13 +99,13 @@ static void peri__release_model(const peri_body *b, peri__model *m) {
 
 /* What a material that is used asks of the body. */
 static void peri__note_law(peri__model *m, const peri__law *law, int32_t criterion) {
-    if (law->model != PERI_BOND_BASED) m->states = 1;
-    if (law->model == PERI_CORRESPONDENCE) m->tensors = 1;
-    if (law->model == PERI_OTERKUS || (law->model == PERI_LPS && law->a != 0.0)) m->dilates = 1;
     if (criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
     if (criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
-    m->uniform = m->uniform == 0 || m->uniform == law->model ? law->model : -1;
-    m->ordinary = m->uniform == PERI_LPS || m->uniform == PERI_OTERKUS ? m->uniform : 0;
+    if (m->law != 0 && m->law != law->model) m->mixed = 1;
+    m->pairwise = law->pairwise && (m->law == 0 || m->pairwise);
+    m->gathers |= law->gather;
+    m->gauge = law->gauge;
+    m->law = law->model;
 }
 
 /* Are the modulus and density of material i, in those of the body, within what bonds and states can be reckoned with? */
@@ -160,7 +160,7 @@ static int32_t peri__fill_list(peri_body *b, peri__model *m, peri__cloud *cloud,
     if (status == PERI_OK && b->setup.ibond) status = peri__check_families(b, m);
     if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
     if (status == PERI_OK) status = peri__correct(b, cloud, sums);
-    if (status < 0 || m->states || (cloud->weighs && !corrects)) return status;
+    if (status < 0 || !m->pairwise || (cloud->weighs && !corrects)) return status;
     peri__for_points(b, m->points, m->width, peri__rate_block, cloud, sums);
     for (int64_t k = 0; k < m->blocks; ++k)
         if (sums[k].a > m->rate) m->rate = sums[k].a;
@@ -189,8 +189,8 @@ static int64_t peri__stride(int64_t points) { return ((points + PERI_LANES - 1) 
 static void peri__fit_model(const peri_body *b, peri__model *m) {
     m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
     m->words = (m->width + 31) / 32;
-    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && m->uniform > 0 && !m->works && !m->nodes)
-        m->slots = m->tensors ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && !m->states && m->materials == 1 ? 4 : 8;
+    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed && !m->works && !m->nodes)
+        m->slots = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
 }
 
 /* Points, families, weights: all that clones share. On failure the model is partly filled; the caller releases it. */
@@ -198,6 +198,8 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     int32_t dim = b->dim, status;
     size_t real = peri__real(b);
     m->dim = dim;
+    m->f32 = b->f32;
+    m->b32 = b->b32;
     m->points = b->setup.point_count;
     m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
     m->stride = peri__stride(m->points);
@@ -231,7 +233,7 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     status = peri__fill_pairs(b, m);
     cloud->edge = 0.5 * m->spacing / m->horizon;
     if (status == PERI_OK) status = peri__fill_families(b, m, cloud, sums);
-    if (status == PERI_OK && !m->states && !(m->rate > 1e-30 && m->rate < 1e30))
+    if (status == PERI_OK && m->pairwise && !(m->rate > 1e-30 && m->rate < 1e30))
         status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
     m->lanes.isa = peri__isa(b->desc.instructions);
     peri__fit_model(b, m);
@@ -349,16 +351,16 @@ static int32_t peri__update_classes(peri_body *b) {
 
 static int32_t peri__new_state(peri_body *b) {
     const peri__model *m = b->model;
-    b->ops = b->f32 ? (b->dim == 3 ? &peri__ops_f3 : &peri__ops_f2)
-           : b->b32 ? (b->dim == 3 ? &peri__ops_m3 : &peri__ops_m2)
-                    : b->dim == 3 ? &peri__ops_d3 : &peri__ops_d2;
+    b->ops = (b->f32 ? (b->dim == 3 ? peri__ops_f3 : peri__ops_f2)
+            : b->b32 ? (b->dim == 3 ? peri__ops_m3 : peri__ops_m2)
+                     : b->dim == 3 ? peri__ops_d3 : peri__ops_d2) + m->lanes.isa;
     b->u = peri__new_vector(b);
     b->v = peri__new_vector(b);
     b->f = peri__new_vector(b);
     if (!b->u || !b->v || !b->f || (m->breakable && !peri__need_alive(b)) || !peri__need_arrays(b))
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
     int32_t status = peri__update_classes(b);
-    if (status < 0 || !m->states) return status;
+    if (status < 0 || m->pairwise) return status;
     b->stale = 1;
     peri__refresh(b);
     b->model->rate = b->fastest; /* of the whole body: broken bonds may only raise it */
@@ -442,11 +444,11 @@ PERI_API int32_t peri_reset(peri_body *b) {
         peri__set_flags(m, b->alive);
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
         b->lanes_stale = 1;
-        b->stale = m->states;
+        b->stale = !m->pairwise;
     }
     if (b->work) {
-        memset(b->work, 0, (size_t)m->entries * peri__real(b));
-        memset(b->pull, 0, (size_t)(m->entries * m->dim) * peri__real(b));
+        memset(b->work, 0, (size_t)peri__bond_slots(m) * peri__real(b));
+        memset(b->pull, 0, (size_t)(peri__bond_slots(m) * m->dim) * peri__real(b));
         memset(b->worked, 0, vector);
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)

@@ -89,7 +89,7 @@ static int peri__cut_one(peri_body *b, int64_t i, int64_t k) {
 /* Bonds have been cut: what is derived from them is out of date. */
 static void peri__cuts_made(peri_body *b) {
     b->lanes_stale = 1;
-    b->stale = b->model->states;
+    b->stale = !b->model->pairwise;
 }
 
 typedef struct peri__cutter {

@@ -370,10 +370,15 @@ static void peri__push(const peri_body *b, const peri__obstacle *o, int64_t i, d
     }
 }
 
-/* context: peri__step; kick holds dt/2. sums->a: work of old and new push. */
+typedef struct peri__pusher {
+    peri_body *body;
+    double     half_step; /* dt/2                                                                                         */
+} peri__pusher;
+
+/* sums->a: work of old and new push. */
 static void peri__push_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *step = (const peri__step *)context;
-    peri_body *b = step->body;
+    const peri__pusher *pusher = (const peri__pusher *)context;
+    peri_body *b = pusher->body;
     const peri__model *m = b->model;
     for (int64_t i = begin; i < end; ++i) {
         double push[3] = { 0.0, 0.0, 0.0 }, work = 0.0;
@@ -384,18 +389,17 @@ static void peri__push_block(void *context, int64_t begin, int64_t end, peri__su
             b->push[at] = push[d];
             if (push[d] != 0.0) peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + push[d]);
         }
-        sums->a += step->kick * work * m->volume[i];
+        sums->a += pusher->half_step * work * m->volume[i];
     }
 }
 
 /* Adds all obstacles at `time` to f; dt > 0: counts the work of the step that ends there. */
 static int32_t peri__apply_obstacles(peri_body *b, double time, double dt) {
-    peri__step step = peri__no_step(b);
+    peri__pusher pusher = { b, 0.5 * dt };
     if (b->obstacle_count == 0) return PERI_OK;
     int32_t status = peri__move_obstacles(b, time);
     if (status < 0) return status;
-    step.kick = 0.5 * dt;
-    peri__for_points(b, b->model->points, 4 * b->obstacle_count, peri__push_block, &step, b->sums);
+    peri__for_points(b, b->model->points, 4 * b->obstacle_count, peri__push_block, &pusher, b->sums);
     if (b->desc.ledger && dt > 0.0) b->ledger.obstacle += peri__total(b->sums, b->model->points).a;
     return PERI_OK;
 }

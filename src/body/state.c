@@ -3,11 +3,33 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* What passes need of a body, with no step, no breaking and no work. */
 static peri__step peri__no_step(const peri_body *b) {
-    peri__step step;
-    memset(&step, 0, sizeof step);
-    step.body = (peri_body *)b;
-    return step;
+    const peri__model *m = b->model;
+    peri__step s;
+    memset(&s, 0, sizeof s);
+    s.model = m;
+    s.u = s.drifted = b->u;
+    s.v = b->v;
+    s.f = b->f;
+    s.pack = b->pack;
+    if (b->constant) {
+        s.constant = (const char *)b->constant + (size_t)m->margin * peri__bond_real(b);
+        s.response = (char *)b->response + (size_t)m->margin * peri__bond_real(b);
+    }
+    s.alive = b->alive;
+    s.dying = b->dying;
+    s.masks = b->lanes_alive;
+    s.cls = b->cls;
+    s.pairs = b->pairs;
+    s.classes = b->classes;
+    s.central = b->central;
+    s.work = b->work;
+    s.pull = b->pull;
+    s.worked = b->worked;
+    s.node = b->node;
+    s.linear = b->desc.geometry == PERI_LINEAR;
+    return s;
 }
 
 static double peri__kinetic_energy(peri_body *b) {
@@ -16,19 +38,24 @@ static double peri__kinetic_energy(peri_body *b) {
     return peri__total(b->sums, b->model->points).a;
 }
 
-/* Adds the force of all bonds to b->f, by b->u. */
-static void peri__sum_bonds(peri_body *b, peri__step *step, peri__sums *sums) {
+/* The largest energy of a node that may lose a bond by it. */
+static double peri__most_node_energy(const peri__step *s) {
+    double most = 0.0;
+    for (int64_t i = 0; i < s->model->points; ++i)
+        if (s->node[i] > most && peri__least_node_energy(s, i) < PERI_NEVER) most = s->node[i];
+    return most;
+}
+
+/* Adds the force of all bonds to step->f, by step->u; b: whose threads do it. */
+static void peri__sum_bonds(const peri_body *b, peri__step *step, peri__sums *sums) {
     const peri__model *m = b->model;
     if (m->slots) peri__for_points(b, m->points, 2, b->ops->pack, step, NULL);
-    if (!m->states) {
-        peri__for_points(b, m->points, m->width, b->ops->force, step, sums);
-        return;
-    }
-    if (m->dilates || m->tensors || b->node) {
-        peri__for_points(b, m->points, m->width, b->ops->respond, step, NULL);
+    if (m->gathers || step->node) {
+        peri__for_points(b, m->points, m->width, b->ops->gather, step, NULL);
         if (m->slots) peri__for_points(b, m->points, 1, b->ops->pack_response, step, NULL);
     }
-    peri__for_points(b, m->points, m->width, b->ops->share, step, sums);
+    if (step->node && step->breaking) step->node_most = peri__most_node_energy(step);
+    peri__for_points(b, m->points, m->width, b->ops->force, step, sums);
 }
 
 /* Energy of the intact bonds; per point to density[points] where it is not NULL. */
@@ -67,7 +94,7 @@ static double peri__force_unit(const peri__model *m) { return m->stress / m->len
    1e9 speeds of sound. */
 static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit,
                                  const char *field) {
-    const int cubes = b->model->tensors && b->b32 && b->desc.geometry != PERI_LINEAR;
+    const int cubes = b->model->gathers & PERI__GRADIENT && b->b32 && b->desc.geometry != PERI_LINEAR;
     const double limit = array == b->v ? 1e9 : cubes ? 1e11 : 1e15;
     for (int64_t k = 0; k < count; ++k)
         if (!(fabs(in[k] / unit) < limit)) return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);

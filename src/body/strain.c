@@ -16,15 +16,15 @@ typedef struct peri__deformation {
     int    whole; /* the live bonds span the space                                                                       */
 } peri__deformation;
 
-/* theta of the law; a bond-based point counts as LPS with w/|xi| in place of w. */
+/* theta of the law: sum w g e V, in units of what it is where e = |xi|. A point of a pairwise law counts as one of LPS with w/|xi| in place of w. */
 static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
-    int32_t law = m->laws[m->material[i]].model;
+    const peri__law *law = &m->laws[m->material[i]];
     double sum = 0.0, whole = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
         double w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
-        if (law == PERI_LPS) w *= bond;
+        if (law->gauge) w *= bond;
         sum += w * bond * peri__stretch(b, i, row, k);
         whole += w * bond;
     }
@@ -56,12 +56,9 @@ static void peri__deform(const peri_body *b, int64_t i, const peri__row *row, pe
 }
 
 static void peri__strain_of(const peri_body *b, const peri__deformation *f, double strain[3][3]) {
-    double e[3][3];
-    for (int a = 0; a < b->dim; ++a)
-        for (int c = 0; c < b->dim; ++c) {
-            e[a][c] = 0.5 * (f->h[a][c] + f->h[c][a]);
-            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) e[a][c] += 0.5 * f->h[d][a] * f->h[d][c];
-        }
+    double e[3][3], h[3][3];
+    memcpy(h, f->h, sizeof h);
+    peri__strain(b->dim, b->desc.geometry == PERI_LINEAR, h, e);
     for (int a = 0; a < b->dim; ++a)
         for (int c = 0; c < b->dim; ++c) {
             strain[a][c] = f->whole ? e[a][c] : 0.0;
@@ -99,19 +96,13 @@ static void peri__cauchy(const peri_body *b, double p[3][3], const peri__deforma
         for (int c = a; c < dim; ++c) out[peri__packed(dim, a, c)] = 0.5 * (sigma[a][c] + sigma[c][a]);
 }
 
-/* sigma = lambda tr(strain) + 2 mu strain of the material, times F where it is the second Piola-Kirchhoff stress. */
+/* P of the strain where the law has a gradient; of others as Hooke's law has it. */
 static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
     const peri__law *law = &b->model->laws[b->model->material[i]];
-    double s[3][3], trace = 0.0;
+    double s[3][3], h[3][3];
+    memcpy(h, f->h, sizeof h);
     peri__strain_of(b, f, s);
-    for (int a = 0; a < b->dim; ++a) trace += s[a][a];
-    for (int a = 0; a < b->dim; ++a)
-        for (int c = 0; c < b->dim; ++c) s[a][c] = 2.0 * law->mu * s[a][c] + (a == c ? law->lambda * trace : 0.0);
-    for (int a = 0; a < b->dim; ++a)
-        for (int c = 0; c < b->dim; ++c) {
-            p[a][c] = s[a][c];
-            for (int d = 0; b->desc.geometry != PERI_LINEAR && d < b->dim; ++d) p[a][c] += f->h[a][d] * s[d][c];
-        }
+    peri__stress(law, b->dim, b->desc.geometry == PERI_LINEAR, h, s, p);
 }
 
 /* sum T xi V over the live bonds, T the half that point i gives. */
@@ -119,14 +110,11 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, 
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     int linear = b->desc.geometry == PERI_LINEAR;
-    double inverse[6] = { 0.0 }, press = 0.0, spring = 0.0, vector = 0.0, stress[3][3];
+    double inverse[6] = { 0.0 }, press = 0.0, vector = 0.0, stress[3][3];
     int tensor = 0;
-    if (law->model != PERI_BOND_BASED) {
-        press = peri__get_constant(b, i, PERI__PRESS);
-        if (press != 0.0) press *= peri__dilatation(b, i, row);
-        spring = peri__get_constant(b, i, PERI__SPRING);
-    }
-    if (law->model == PERI_CORRESPONDENCE) {
+    if (!law->pairwise) press = peri__get_constant(b, i, PERI__PRESS);
+    if (press != 0.0) press *= peri__dilatation(b, i, row);
+    if (law->gather & PERI__GRADIENT) {
         vector = peri__get_constant(b, i, PERI__VECTOR);
         for (int k = 0; k < PERI_PACKED(m->dim); ++k) inverse[k] = peri__get_constant(b, i, PERI__INVERSE + k);
         tensor = inverse[0] != 0.0;
@@ -145,9 +133,7 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, 
         e = bond * peri__stretch(b, i, row, k);
         for (int d = 0; d < m->dim; ++d) length += peri__square(xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
-        if (law->model == PERI_BOND_BASED)
-            central = 0.5 * m->pairs[m->material[i] * m->materials + m->material[row->ids[k]]].c * e / bond;
-        else central = press * (law->model == PERI_OTERKUS ? 1.0 : bond) + spring * e;
+        central = press * peri__law_gauge(law, bond) + peri__spring(b, i, row->ids[k], bond) * e;
         for (int d = 0; d < m->dim; ++d) {
             t[d] = central * (xi[d] + (linear ? 0.0 : eta[d])) / length + vector * eta[d];
             for (int a = 0; tensor && a < m->dim; ++a) {
@@ -170,7 +156,7 @@ static void peri__gradients_block(void *context, int64_t begin, int64_t end, per
         peri__deformation f;
         double p[3][3], *out = &g->out[i * parts];
         peri__read_row(b, i, &row);
-        if (g->field == PERI_DILATATION && m->laws[m->material[i]].model != PERI_CORRESPONDENCE) {
+        if (g->field == PERI_DILATATION && !(m->laws[m->material[i]].gather & PERI__GRADIENT)) {
             *out = peri__dilatation(b, i, &row);
             continue;
         }

@@ -108,7 +108,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     peri__bond_forces(b, &step);
     if (step.breaking) {
         peri__sums total = peri__total(b->sums, m->points);
-        if (m->states && total.n > 0) {
+        if (!m->pairwise && total.n > 0) {
             peri__break_states(b, &step);
         } else {
             b->ledger.fracture += total.a;

@@ -77,7 +77,7 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
         }
     }
     for (int64_t n = 0; n < count; ++n)
-        if (b->marked[b->near_dying[n]] == 1) b->ops->respond_rows(&step, b->near_dying[n], b->near_dying[n] + 1, NULL);
+        if (b->marked[b->near_dying[n]] == 1) b->ops->gather_rows(&step, b->near_dying[n], b->near_dying[n] + 1, NULL);
     b->ledger.fracture += energy - peri__energy_at_stake(b, &step, count);
     b->ops->exchange(&step, b->near_dying, count, 1);
     for (int64_t n = 0; n < count; ++n) {

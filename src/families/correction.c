@@ -45,7 +45,7 @@ static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n
     }
     bond = sqrt(bond);
     for (int32_t d = 0; d < m->dim; ++d) n[d] /= bond;
-    return m->laws[m->material[i]].model == PERI_BOND_BASED ? weight * bond : weight * bond * bond;
+    return m->laws[m->material[i]].pairwise ? weight * bond : weight * bond * bond;
 }
 
 /* Factors x_k = max(0, 1 + lambda.n^4) of row i, nearest to 1 in the mean weighted by the bonds, whose fourth moment is isotropic: the
@@ -121,7 +121,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
     int64_t fitted = -1;
     for (int64_t i = begin; i < end; ++i) {
         double n[3], total = 0.0, least = 0.0, *x = &f->factor[m->start[i]];
-        int bonds = m->laws[m->material[i]].model == PERI_BOND_BASED;
+        int bonds = m->laws[m->material[i]].pairwise;
         for (int64_t k = 0; k < m->count[i]; ++k) {
             double stiff = peri__stiff(f, i, k, n);
             total += stiff;
@@ -163,15 +163,15 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
             int64_t j = m->ids[at];
             double own = f->factor[at], other = f->factor[m->start[j] + peri__find_listed(m, j, i)];
             double weight = peri__get_real(m->weight, b->b32, at);
-            if (m->states) peri__put_real(m->back, b->b32, at, weight * other);
-            peri__put_real(m->weight, b->b32, at, weight * (m->states ? own : 0.5 * (own + other)));
+            if (!m->pairwise) peri__put_real(m->back, b->b32, at, weight * other);
+            peri__put_real(m->weight, b->b32, at, weight * (m->pairwise ? 0.5 * (own + other) : own));
         }
 }
 
 /* Does the descriptor ask for factors on the weights, and not of state-based points alone that know none? */
 static int peri__corrects(const peri_body *b, const peri__model *m) {
     int bonds = 0;
-    for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].model == PERI_BOND_BASED;
+    for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].pairwise;
     return b->desc.correction == PERI_MOMENT_CORRECTION || (bonds && b->desc.correction != PERI_NO_CORRECTION);
 }
 
@@ -184,7 +184,7 @@ static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     size_t real = peri__bond_real(b);
     m->back = m->weight;
     if (!peri__corrects(b, m)) return PERI_OK;
-    if (m->states) m->back = peri__new(&m->memory, m->entries, real);
+    if (!m->pairwise) m->back = peri__new(&m->memory, m->entries, real);
     f.cloud = c;
     f.factor = (double *)peri__new(&m->memory, m->entries, sizeof *f.factor);
     if (!f.factor || !m->back) {

@@ -10,7 +10,7 @@
    even made on the way, except where the weights of bonds are corrected, or families are the caller's.
 
    Not built (no columns) where columns would be mostly empty, where bond vectors are too many to tabulate (clouds), where bonds lead to
-   centroids, where models differ, and for state-based laws with unequal halves or energy criteria. */
+   centroids, and for halves that weigh differently. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -69,6 +69,8 @@ static int32_t *peri__vector_slot(peri__draft *d, const int64_t *key) {
 static int32_t peri__pair_of(const peri__model *m, int64_t i, int64_t j) { return m->material[i] * m->materials + m->material[j]; }
 
 static double peri__rounded(int b32, double value) { return b32 ? (double)(float)value : value; }
+
+static double peri__quotient(int b32, double a, double b) { return b32 ? (double)((float)a / (float)b) : a / b; }
 
 /* Table row of bond (i, j), made where it is new; -1 where the table is full, or the bond is no lattice's. */
 static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri__bond *bond) {
@@ -193,7 +195,7 @@ static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_
     if (count > d->width) d->width = count;
     rate *= 2.0 / m->rho[m->material[i]];
     if (rate > d->rate) d->rate = rate;
-    return peri__check_weight(c->body, total, stiff, m->uniform == PERI_BOND_BASED) == PERI_OK;
+    return peri__check_weight(c->body, total, stiff, m->pairwise) == PERI_OK;
 }
 
 /* Keeps the columns of the group at hand, or finds an earlier group with the same. */
@@ -379,8 +381,23 @@ static void peri__free_lanes(peri__model *m) {
     peri__delete(&m->memory, l->begin, l->groups + 1, sizeof *l->begin);
     peri__delete(&m->memory, l->first, l->groups, sizeof *l->first);
     peri__delete(&m->memory, l->column, l->kept, sizeof *l->column);
-    peri__delete(&m->memory, l->table, (int64_t)l->vectors * PERI_TABLE_ROW, sizeof *l->table);
+    peri__delete(&m->memory, l->table, l->vectors, sizeof *l->table);
+    peri__delete(&m->memory, l->ends, l->vectors, sizeof *l->ends);
     memset(l, 0, sizeof *l);
+}
+
+/* g of an end of a bond, 0 of pairwise laws. */
+static double peri__end_gauge(const peri__law *law, double length) { return law->pairwise ? 0.0 : law->gauge ? length : 1.0; }
+
+static void peri__fill_ends(const peri__model *m, const peri__vector *row, peri__stencil_ends *ends) {
+    const int32_t own = (int32_t)row->key[5] / m->materials, other = (int32_t)row->key[5] % m->materials;
+    double spring[2] = { 0.0, 0.0 };
+    ends->gauge = peri__end_gauge(&m->laws[own], row->length);
+    ends->other_gauge = peri__end_gauge(&m->laws[other], row->length);
+    if (m->laws[own].pairwise) spring[0] = peri__quotient(m->b32, 0.5 * m->pairs[row->key[5]].c, row->length);
+    if (m->laws[other].pairwise) spring[1] = peri__quotient(m->b32, 0.5 * m->pairs[other * m->materials + own].c, row->length);
+    ends->spring = m->b32 ? (double)((float)spring[0] + (float)spring[1]) : spring[0] + spring[1]; /* as the rows add them */
+    ends->energy = m->pairs[row->key[5]].bond_energy * row->bond.share;
 }
 
 static int32_t peri__keep_lanes(peri__draft *d) {
@@ -390,18 +407,20 @@ static int32_t peri__keep_lanes(peri__draft *d) {
     l->kept = d->columns;
     l->vectors = d->count;
     l->column = (peri__column *)peri__copy(&m->memory, d->column, l->kept, sizeof *l->column);
-    l->table = (double *)peri__new(&m->memory, (int64_t)l->vectors * PERI_TABLE_ROW, sizeof *l->table);
-    if (!l->column || !l->table) return PERI_ERROR_MEMORY;
+    l->table = (peri__stencil_bond *)peri__new(&m->memory, l->vectors, sizeof *l->table);
+    if (m->mixed || m->works) l->ends = (peri__stencil_ends *)peri__new(&m->memory, l->vectors, sizeof *l->ends);
+    if (!l->column || !l->table || (!l->ends && (m->mixed || m->works))) return PERI_ERROR_MEMORY;
     for (int32_t k = 0; k < l->vectors; ++k) {
         const peri__vector *row = &d->row[k];
-        double *entry = &l->table[k * PERI_TABLE_ROW];
-        memcpy(entry, row->bond.xi, sizeof row->bond.xi);
-        entry[3] = row->length;
-        entry[4] = row->weight;
-        entry[5] = row->bond.share;
-        entry[6] = d->cloud->body->b32 ? (double)(1 / (float)row->length) : 1 / row->length; /* as the rows take it */
-        entry[7] = m->pairs[row->key[5]].c;
-        entry[8] = m->pairs[row->key[5]].s0;
+        peri__stencil_bond *entry = &l->table[k];
+        memcpy(entry->xi, row->bond.xi, sizeof row->bond.xi);
+        entry->length = row->length;
+        entry->weight = row->weight;
+        entry->share = row->bond.share;
+        entry->inverse = m->b32 ? (double)(1 / (float)row->length) : 1 / row->length; /* as the rows take it */
+        entry->c = m->pairs[row->key[5]].c;
+        entry->s0 = m->pairs[row->key[5]].s0;
+        if (l->ends) peri__fill_ends(m, row, &l->ends[k]);
     }
     for (int64_t c = 0; c < l->kept; ++c)
         if (l->column[c].offset > l->reach) l->reach = l->column[c].offset;
@@ -409,7 +428,7 @@ static int32_t peri__keep_lanes(peri__draft *d) {
     l->parts = d->cloud->body->desc.quadrature != PERI_FULL_VOLUME;
     m->width = (int32_t)d->width;
     m->bonds = d->bonds;
-    if (!m->states) m->rate = d->rate;
+    if (m->pairwise) m->rate = d->rate;
     return PERI_OK;
 }
 
@@ -426,7 +445,7 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
     peri__model *m = c->model;
     peri__lanes *l = &m->lanes;
     int32_t status = PERI_ERROR_MEMORY;
-    if (b->desc.quadrature == PERI_PARTIAL_CENTROID || m->uniform < 0 || m->works || m->nodes) return 0;
+    if (b->desc.quadrature == PERI_PARTIAL_CENTROID) return 0;
     if (b->desc.kernel != PERI_KERNEL_BEST) return 0;
     if (m->ids ? m->back != m->weight : b->setup.ibond || peri__corrects(b, m)) return 0;
     peri__draft *d = (peri__draft *)peri__new(&b->memory, 1, sizeof *d);

@@ -14,7 +14,13 @@ static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, do
 /* sum of beta V_j over the whole family of a point. */
 PERI_SHARED double peri__family_volume(const peri__model *m, int64_t i) {
     double sum = 0.0;
-    for (int64_t k = 0; k < m->count[i]; ++k)
+    const peri__lanes *l = &m->lanes;
+    for (int64_t c = 0; l->columns && c < l->begin[i / PERI_LANES + 1] - l->begin[i / PERI_LANES]; ++c) {
+        const peri__column *column = &l->column[l->first[i / PERI_LANES] + c];
+        if (column->member >> (i % PERI_LANES) & 1)
+            sum += l->parts ? (double)(float)l->table[column->vector].share : m->volume[i + column->offset];
+    }
+    for (int64_t k = 0; !l->columns && k < m->count[i]; ++k)
         sum += m->part ? (double)m->part[m->start[i] + k] : m->volume[peri__entry_id(m, m->start[i] + k)];
     return sum;
 }
@@ -115,7 +121,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
         }
-        if (status == PERI_OK) status = peri__check_weight(b, total, stiff, m->laws[m->material[i]].model == PERI_BOND_BASED);
+        if (status == PERI_OK) status = peri__check_weight(b, total, stiff, m->laws[m->material[i]].pairwise);
         if (status == PERI_OK || (sums->bad >= 0 && sums->bad < i)) continue;
         sums->bad = i;
         sums->n = status;
@@ -231,7 +237,7 @@ static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *
     const peri__model *m = c->model;
     const double own = 2.0 * t->rate / m->rho[m->material[i]];
     if (!(own <= *rate)) *rate = own;
-    return t->blurred == 0 && peri__check_weight(c->body, t->total, t->stiff, m->laws[m->material[i]].model == PERI_BOND_BASED) == PERI_OK;
+    return t->blurred == 0 && peri__check_weight(c->body, t->total, t->stiff, m->laws[m->material[i]].pairwise) == PERI_OK;
 }
 
 /* ---- weights of any rule, of the list ----------------------------------------------------------------------------- */

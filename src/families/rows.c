@@ -4,24 +4,24 @@
 #endif
 
 /* Row i from the columns of its group, into the room of `row`. Columns ascend by offset, so ids ascend. */
-static void peri__expand_row(const peri_body *b, int64_t i, peri__row *row) {
-    const peri__model *m = b->model;
+static void peri__expand_row(const peri__model *m, int64_t i, peri__row *row) {
     const peri__lanes *lanes = &m->lanes;
     const int64_t g = i / PERI_LANES, columns = lanes->begin[g + 1] - lanes->begin[g];
     const peri__column *column = &lanes->column[lanes->first[g]];
     int64_t n = 0;
     for (int64_t c = 0; c < columns; ++c) {
-        const double *entry = &lanes->table[column[c].vector * PERI_TABLE_ROW];
+        const peri__stencil_bond *entry = &lanes->table[column[c].vector];
         if (!(column[c].member >> (i % PERI_LANES) & 1)) continue;
         row->ids_room[n] = (int32_t)(i + column[c].offset);
-        row->part_room[n] = (float)entry[5];
+        row->part_room[n] = (float)entry->share;
         row->vector_room[n] = column[c].vector;
-        if (b->b32) {
-            row->bond_room.f32[n] = (float)entry[3];
-            row->weight_room.f32[n] = (float)entry[4];
+        row->column_room[n] = (int32_t)c;
+        if (m->b32) {
+            row->bond_room.f32[n] = (float)entry->length;
+            row->weight_room.f32[n] = (float)entry->weight;
         } else {
-            row->bond_room.f64[n] = entry[3];
-            row->weight_room.f64[n] = entry[4];
+            row->bond_room.f64[n] = entry->length;
+            row->weight_room.f64[n] = entry->weight;
         }
         ++n;
     }
@@ -32,6 +32,7 @@ static void peri__expand_row(const peri_body *b, int64_t i, peri__row *row) {
     row->bond = &row->bond_room;
     row->part = lanes->parts ? row->part_room : NULL;
     row->vector = row->vector_room;
+    row->column = row->column_room;
     row->table = lanes->table;
 }
 
@@ -45,11 +46,10 @@ static void peri__expand_row(const peri_body *b, int64_t i, peri__row *row) {
         if (m->dim == 3) square += (z[j] - zi) * (z[j] - zi);                                                          \
         room[k] = (bond)root(square);                                                                                  \
     }
-static void peri__measure_row(const peri_body *b, int64_t i, peri__row *row) {
-    const peri__model *m = b->model;
-    if (b->f32) {
+static void peri__measure_row(const peri__model *m, int64_t i, peri__row *row) {
+    if (m->f32) {
         PERI_MEASURE(float, row->bond_room.f32, float, sqrtf)
-    } else if (b->b32) {
+    } else if (m->b32) {
         PERI_MEASURE(double, row->bond_room.f32, float, sqrt)
     } else {
         PERI_MEASURE(double, row->bond_room.f64, double, sqrt)
@@ -59,11 +59,10 @@ static void peri__measure_row(const peri_body *b, int64_t i, peri__row *row) {
 #undef PERI_MEASURE
 
 /* Row i: ids, and what each bond weighs. Valid while `row` and the model are. */
-PERI_SHARED void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
-    const peri__model *m = b->model;
-    const size_t real = peri__bond_real(b);
+PERI_SHARED void peri__row_of(const peri__model *m, int64_t i, peri__row *row) {
+    const size_t real = m->b32 ? sizeof(float) : sizeof(double);
     if (m->lanes.columns) {
-        peri__expand_row(b, i, row);
+        peri__expand_row(m, i, row);
         return;
     }
     row->count = m->count[i];
@@ -77,16 +76,39 @@ PERI_SHARED void peri__read_row(const peri_body *b, int64_t i, peri__row *row) {
     row->back = (const char *)m->back + (size_t)row->first * real;
     row->part = m->part ? &m->part[row->first] : NULL;
     row->vector = NULL;
+    row->column = NULL;
     if (m->bond) row->bond = (const char *)m->bond + (size_t)row->first * real;
-    else peri__measure_row(b, i, row);
+    else peri__measure_row(m, i, row);
+}
+
+static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) { peri__row_of(b->model, i, row); }
+
+/* Entry of bond k of row i in the arrays of bonds, ->work. On columns that of its lane in its column. */
+PERI_SHARED int64_t peri__bond_slot(const peri__model *m, int64_t i, const peri__row *row, int64_t k) {
+    return row->vector ? (m->lanes.begin[i / PERI_LANES] + row->column[k]) * PERI_LANES + i % PERI_LANES : row->first + k;
+}
+
+/* And of component d in ->pull. */
+PERI_SHARED int64_t peri__pull_slot(const peri__model *m, int64_t slot, int32_t d) {
+    if (!m->lanes.columns) return slot * m->dim + d;
+    return (slot / PERI_LANES * m->dim + d) * PERI_LANES + slot % PERI_LANES;
 }
 
 /* The least critical stretch that a bond of point i may have. */
-PERI_SHARED double peri__least_stretch(const peri_body *b, int64_t i) {
-    const peri__pair *pairs = b->cls ? &b->pairs[b->cls[i] * b->classes] : b->pairs;
+PERI_SHARED double peri__least_stretch(const peri__step *s, int64_t i) {
+    const peri__pair *pairs = s->cls ? &s->pairs[s->cls[i] * s->classes] : s->pairs;
     double least = pairs->s0;
-    for (int32_t k = 1; b->cls && k < b->classes; ++k)
+    for (int32_t k = 1; s->cls && k < s->classes; ++k)
         if (pairs[k].s0 < least) least = pairs[k].s0;
+    return least;
+}
+
+/* And the least critical energy of the ends. */
+PERI_SHARED double peri__least_node_energy(const peri__step *s, int64_t i) {
+    const peri__pair *pairs = s->cls ? &s->pairs[s->cls[i] * s->classes] : s->pairs;
+    double least = pairs->node_energy;
+    for (int32_t k = 1; s->cls && k < s->classes; ++k)
+        if (pairs[k].node_energy < least) least = pairs[k].node_energy;
     return least;
 }
 

@@ -47,7 +47,15 @@
 #define PERI_D PERI_T_DIM
 #define PERI_SPEEDING ((peri_r)1e9)
 
-#include "k_bond.inl"
+#define peri_s peri_r
+#define PERI_S_DIM PERI_D
+#define PERI_S_FN PERI_FN
+#include "../laws/gradient.inl"
+#undef peri_s
+#undef PERI_S_DIM
+#undef PERI_S_FN
+#include "rows.inl"
+#include "tangent.inl"
 
 /* Sums of vectors have the type of the compiler, which differs from that of intrinsics where it must choose. */
 #define PERI_IF(condition, a, b) ((condition) ? (PERI_VECTOR)(a) : (PERI_VECTOR)(b))
@@ -59,38 +67,16 @@
 #define PERI_LANES_TARGET PERI_VECTOR_CODE
 #define PERI_LANES_FN(name) PERI_FN(name##_base)
 #define PERI_V_ISA 0
-#include "k_vector.inl"
-#include "k_lanes.inl"
-#include "k_list.inl"
-#include "k_pointwise.inl"
-#undef PERI_LANES_FN
-#undef PERI_LANES_TARGET
+#include "lanes.inl"
 #ifdef PERI_ISA
 #define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX2
 #define PERI_LANES_FN(name) PERI_FN(name##_avx2)
 #define PERI_V_ISA 1
-#include "k_vector.inl"
-#include "k_lanes.inl"
-#include "k_list.inl"
-#include "k_pointwise.inl"
-#undef PERI_LANES_FN
-#undef PERI_LANES_TARGET
+#include "lanes.inl"
 #define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX512
 #define PERI_LANES_FN(name) PERI_FN(name##_avx512)
 #define PERI_V_ISA 2
-#include "k_vector.inl"
-#include "k_lanes.inl"
-#include "k_list.inl"
-#include "k_pointwise.inl"
-#undef PERI_LANES_FN
-#undef PERI_LANES_TARGET
-#endif
-
-#ifdef PERI_ISA
-#define PERI_ON_LANES(isa, name, arguments)                                                                            \
-    ((isa) == 2 ? PERI_FN(name##_avx512) arguments : (isa) == 1 ? PERI_FN(name##_avx2) arguments : PERI_FN(name##_base) arguments)
-#else
-#define PERI_ON_LANES(isa, name, arguments) PERI_FN(name##_base) arguments
+#include "lanes.inl"
 #endif
 
 #undef PERI_IF
@@ -99,19 +85,21 @@
 #undef PERI_PLAIN_loadu
 #undef PERI_PLAIN_storeu
 
-#include "k_force.inl"
-#include "k_state.inl"
-#include "k_march.inl"
-#include "k_solve.inl"
-
-PERI_SHARED const peri__ops PERI_FN(ops) = {
-    PERI_FN(pack), PERI_FN(pack_response), PERI_FN(force), PERI_FN(respond), PERI_FN(respond_rows), PERI_FN(share),
-    PERI_FN(exchange), PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic), PERI_FN(tangent_respond), PERI_FN(tangent_share),
-    PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force), PERI_FN(krylov_blocks), PERI_FN(krylov_norm),
-    PERI_FN(krylov_dot)
+/* by peri__isa */
+#define PERI_TABLE(set)                                                                                                \
+    { PERI_FN(pack_##set), PERI_FN(pack_response_##set), PERI_FN(gather_block_##set), PERI_FN(gather_rows), PERI_FN(force_block_##set), \
+      PERI_FN(exchange), PERI_FN(energy_##set), PERI_FN(kick_##set), PERI_FN(kinetic_##set), PERI_FN(tangent_gather),    \
+      PERI_FN(tangent_force), PERI_FN(krylov_step_##set), PERI_FN(krylov_turn_##set), PERI_FN(krylov_force_##set),       \
+      PERI_FN(krylov_blocks_##set), PERI_FN(krylov_norm_##set), PERI_FN(krylov_dot_##set) }
+PERI_SHARED const peri__ops PERI_FN(ops)[] = {
+    PERI_TABLE(base),
+#ifdef PERI_ISA
+    PERI_TABLE(avx2),
+    PERI_TABLE(avx512)
+#endif
 };
+#undef PERI_TABLE
 
-#undef PERI_ON_LANES
 #undef peri_r
 #undef peri_b
 #undef peri_i

@@ -10,13 +10,17 @@
 #include "src/base/compiler.h"
 #include "src/base/types.h"
 #include "src/base/inline.h"
+#include "src/laws/law.h"
 
 /* what kernels call of the parts above them */
 PERI_SHARED double  peri__add_up(double *part);
 PERI_SHARED double  peri__family_volume(const peri__model *m, int64_t i);
 PERI_SHARED void    peri__group_masks(const peri__model *m, int64_t g, uint32_t lanes, const uint32_t *flags, uint16_t *masks);
-PERI_SHARED void    peri__read_row(const peri_body *b, int64_t i, peri__row *row);
-PERI_SHARED double  peri__least_stretch(const peri_body *b, int64_t i);
+PERI_SHARED void    peri__row_of(const peri__model *m, int64_t i, peri__row *row);
+PERI_SHARED int64_t peri__bond_slot(const peri__model *m, int64_t i, const peri__row *row, int64_t k);
+PERI_SHARED int64_t peri__pull_slot(const peri__model *m, int64_t slot, int32_t d);
+PERI_SHARED double  peri__least_stretch(const peri__step *s, int64_t i);
+PERI_SHARED double  peri__least_node_energy(const peri__step *s, int64_t i);
 PERI_SHARED int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j);
 
 #include "src/kernels/kernels.inl"

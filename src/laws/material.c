@@ -25,12 +25,28 @@ static double peri__young(const peri_material *m, int32_t space) {
     return m->young > 0.0 ? m->young : 3.0 * (1.0 - 2.0 * peri__poisson(m, space)) * m->bulk;
 }
 
+/* What a law differs in. Where p is proportional to A and that vanishes nothing is gathered. */
+static void peri__set_traits(peri__law *law, int32_t model) {
+    law->model = model;
+    law->gather = law->gauge = law->pairwise = 0;
+    switch (model) {
+#define PERI_CASE(name, number)                                                                                        \
+    case number:                                                                                                       \
+        law->gather = PERI__BY_A_##name && law->a == 0.0 ? PERI__NO_GATHER : PERI__GATHER_##name;                      \
+        law->gauge = PERI__GAUGE_##name;                                                                               \
+        law->pairwise = PERI__PAIRWISE_##name;                                                                         \
+        break;
+        PERI_LAW_LIST(PERI_CASE)
+#undef PERI_CASE
+    default: break;
+    }
+}
+
 /* The elasticity of a material in units of stress. A vanishes to the last bit at the Poisson ratio of a bond-based material. */
 static peri__law peri__law_of(const peri_material *m, int32_t space, double stress) {
     peri__law law;
     int dim = space == PERI_SOLID ? 3 : 2;
     double nu = peri__poisson(m, space);
-    law.model = m->model;
     law.young = peri__young(m, space) / stress;
     law.mu = law.young / (2.0 * (1.0 + nu));
     law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / ((1.0 - nu) * (1.0 + nu)) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
@@ -41,6 +57,7 @@ static peri__law peri__law_of(const peri_material *m, int32_t space, double stre
     law.b = dim * (dim + 2) * law.mu;
     if (fabs(nu - peri__bond_poisson(space)) < 1e-9) law.a = 0.0;
     law.stabilization = m->stabilization;
+    peri__set_traits(&law, m->model);
     return law;
 }
 

@@ -28,6 +28,9 @@ static void peri__add_moments(peri__moments *sum, int32_t dim, const double *xi,
         }
 }
 
+/* Is m all that the law of all points is calibrated on? */
+static int peri__needs_no_more(const peri__model *m) { return !m->mixed && m->gauge && !(m->gathers & PERI__GRADIENT); }
+
 static peri__moments peri__family_moments(const peri_body *b, int64_t i, const peri__row *row, int live) {
     const peri__model *m = b->model;
     peri__moments sum;
@@ -35,7 +38,7 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, const p
     for (int64_t k = 0; k < row->count; ++k) {
         double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         if (live && !peri__is_alive(b, i, k)) continue;
-        if (m->ordinary == PERI_LPS) { /* which needs no more */
+        if (peri__needs_no_more(m)) {
             sum.m += weight * bond * bond;
             continue;
         }
@@ -43,6 +46,11 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, const p
         peri__add_moments(&sum, m->dim, xi, bond, weight);
     }
     return sum;
+}
+
+/* Planes of constants: those of a gradient only where there is one. */
+static int32_t peri__constant_planes(const peri__model *m) {
+    return m->gathers & PERI__GRADIENT ? PERI__INVERSE + PERI_PACKED(m->dim) : PERI__VECTOR;
 }
 
 static void peri__put_constant(peri_body *b, int64_t i, int plane, double value) {
@@ -57,45 +65,57 @@ typedef struct peri__response { /* see peri__constant                           
     double dilate, press, spring, vector, inverse[6];
 } peri__response;
 
-/* What a state-based law makes of a family, all zero where that has no bonds. 0 where a correspondence family spans too little: it acts by
+/* Strain and stress in double, for fields and the assembled matrix. */
+#define peri_s double
+#define PERI_S_DIM 3
+#define PERI_S_FN(name) peri__##name
+#include "gradient.inl"
+#undef peri_s
+#undef PERI_S_DIM
+#undef PERI_S_FN
+
+#define PERI_LAW_ROLE_CALIBRATION
+#include "bond_based.inl"
+#include "lps.inl"
+#include "oterkus.inl"
+#include "correspondence.inl"
+#undef PERI_LAW_ROLE_CALIBRATION
+
+/* What a law makes of a family, all zero where that has no bonds. 0 where a law with a gradient has a family that spans too little: it acts by
    springs, which are the caller's to give. */
 static int peri__respond(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
     memset(r, 0, sizeof *r);
     if (!(sum->m > 0.0)) return 1;
-    if (law->model == PERI_LPS) {
-        r->dilate = dim / sum->m;
-        r->press = law->a / dim * r->dilate;
-        r->spring = law->b / sum->m;
-    } else if (law->model == PERI_OTERKUS) {
-        /* b = mu/(2 S), a = (bulk - 2 b m/D^2)/2 ([C] 16, 17); a family without shear bonds to calibrate on takes that of LPS. The energy
-           is never negative while q + (bulk - q m/D^2) D^2 sum(w V)/(sum w |xi| V)^2 >= 0 (Cauchy-Schwarz): q stays within that. */
-        const double room = sum->m * sum->plain / (sum->length * sum->length) - 1.0, most = law->bulk * dim * dim * (1.0 + room);
-        r->dilate = dim / sum->length;
-        r->spring = dim * (dim + 2) * sum->shear > 0.2 * sum->m ? law->mu / sum->shear : law->b / sum->m;
-        if (r->spring * sum->m * room > most) r->spring = most / (room * sum->m);
-        r->press = (law->bulk - r->spring * sum->m / (dim * dim)) * r->dilate;
-    } else if (peri__invert(dim, sum->shape, PERI_SPAN, r->inverse) == dim) {
-        r->vector = law->stabilization * law->b / sum->m;
-    } else {
-        memset(r->inverse, 0, sizeof r->inverse);
-        return 0;
+    switch (law->model) {
+#define PERI_CASE(name, number) case number: return peri__calibrate_##name(law, dim, sum, r);
+    PERI_LAW_LIST(PERI_CASE)
+#undef PERI_CASE
+    default: return 1;
     }
-    return 1;
 }
 
 static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
-    if (law->model == PERI_BOND_BASED) return;
+    if (law->pairwise) return;
     peri__response r;
     peri__moments sum = peri__family_moments(b, i, row, 1);
     if (!peri__respond(law, m->dim, &sum, &r)) r.spring = law->b / peri__family_moments(b, i, row, 0).m;
     peri__put_constant(b, i, PERI__DILATE, r.dilate);
     peri__put_constant(b, i, PERI__PRESS, r.press);
     peri__put_constant(b, i, PERI__SPRING, r.spring);
-    if (!m->tensors) return;
+    if (!(m->gathers & PERI__GRADIENT)) return;
     peri__put_constant(b, i, PERI__VECTOR, r.vector);
     for (int k = 0; k < PERI_PACKED(m->dim); ++k) peri__put_constant(b, i, PERI__INVERSE + k, r.inverse[k]);
+}
+
+/* g of bonds at a point of a law, and q of its half of bond (i, j). */
+PERI_INLINE double peri__law_gauge(const peri__law *law, double bond) { return law->gauge ? bond : 1.0; }
+
+PERI_INLINE double peri__spring(const peri_body *b, int64_t i, int64_t j, double bond) {
+    const peri__model *m = b->model;
+    if (m->laws[m->material[i]].pairwise) return 0.5 * m->pairs[m->material[i] * m->materials + m->material[j]].c / bond;
+    return peri__get_constant(b, i, PERI__SPRING);
 }
 
 /* ---- stiffness ---------------------------------------------------------------------------------------------------- */
@@ -106,13 +126,10 @@ static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
 /* d g of a bond of point i, or |K^-1 xi|: the size of what the bond adds to theta or H. */
 PERI_INLINE double peri__gauge(const peri_body *b, int64_t i, const double *xi, double bond) {
     const peri__model *m = b->model;
+    const peri__law *law = &m->laws[m->material[i]];
     double square = 0.0;
-    switch (m->laws[m->material[i]].model) {
-    case PERI_LPS: return peri__get_constant(b, i, PERI__DILATE) * bond;
-    case PERI_OTERKUS: return peri__get_constant(b, i, PERI__DILATE);
-    case PERI_CORRESPONDENCE: break;
-    default: return 0.0;
-    }
+    if (law->pairwise) return 0.0;
+    if (!(law->gather & PERI__GRADIENT)) return peri__get_constant(b, i, PERI__DILATE) * peri__law_gauge(law, bond);
     for (int a = 0; a < m->dim; ++a) {
         double sum = 0.0;
         for (int c = 0; c < m->dim; ++c) sum += peri__get_constant(b, i, PERI__INVERSE + peri__packed(m->dim, a, c)) * xi[c];
@@ -125,15 +142,16 @@ PERI_INLINE double peri__gauge(const peri_body *b, int64_t i, const double *xi, 
 static double peri__lean(const peri_body *b, int64_t i, const peri__row *row, double *sum) {
     const peri__model *m = b->model;
     double x = 0.0, y = 0.0, z = 0.0;
-    const int tensor = m->laws[m->material[i]].model == PERI_CORRESPONDENCE, lps = m->laws[m->material[i]].model == PERI_LPS;
+    const peri__law *law = &m->laws[m->material[i]];
+    const int tensor = (law->gather & PERI__GRADIENT) != 0, by_length = law->gauge;
     const double dilate = peri__get_constant(b, i, PERI__DILATE);
     *sum = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
         double xi[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
-        *sum += fabs(w) * (lps ? dilate * bond : peri__gauge(b, i, xi, bond));
-        if (!tensor) w *= lps ? dilate : dilate / bond; /* of a tensor K^-1 sum w xi is the sum: its size is taken below */
+        *sum += fabs(w) * (by_length ? dilate * bond : peri__gauge(b, i, xi, bond));
+        if (!tensor) w *= by_length ? dilate : dilate / bond; /* of a tensor K^-1 sum w xi is the sum: its size is taken below */
         x += w * xi[0];
         y += w * xi[1];
         z += w * xi[2];
@@ -146,17 +164,15 @@ static void peri__set_wide(peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     double sum, dilate = peri__get_constant(b, i, PERI__DILATE), stiff = 0.0;
-    if (law->model == PERI_CORRESPONDENCE) stiff = law->lambda > 0.0 ? m->dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
+    if (law->gather & PERI__GRADIENT) stiff = law->lambda > 0.0 ? m->dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
     else if (dilate > 0.0) stiff = peri__get_constant(b, i, PERI__PRESS) / dilate;
     b->wide[i] = stiff > 0.0 ? stiff * (peri__lean(b, i, row, &sum) + sum) : 0.0;
 }
 
 /* Stiffness of the half of point i in bond (i, j), per weight. */
-PERI_INLINE double peri__half_stiffness(const peri_body *b, int64_t i, int64_t j, double bond) {
-    const peri__model *m = b->model;
-    if (m->laws[m->material[i]].model == PERI_BOND_BASED)
-        return 0.5 * m->pairs[m->material[i] * m->materials + m->material[j]].c / bond;
-    return peri__get_constant(b, i, PERI__SPRING) + (m->tensors ? peri__get_constant(b, i, PERI__VECTOR) : 0.0);
+static double peri__half_stiffness(const peri_body *b, int64_t i, int64_t j, double bond) {
+    const peri__law *law = &b->model->laws[b->model->material[i]];
+    return peri__spring(b, i, j, bond) + (law->gather & PERI__GRADIENT ? peri__get_constant(b, i, PERI__VECTOR) : 0.0);
 }
 
 static void peri__set_rate(peri_body *b, int64_t i) {
@@ -169,8 +185,8 @@ static void peri__set_rate(peri_body *b, int64_t i) {
         double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(row.bond, b->b32, k);
         double own = fabs(peri__get_real(row.weight, b->b32, k)), back = fabs(peri__get_real(row.back, b->b32, k));
         if (!peri__is_alive(b, i, k)) continue;
-        if (m->tensors) peri__bond_of(m, b->f32, i, j, xi);
-        if (m->tensors && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
+        if (m->gathers & PERI__GRADIENT) peri__bond_of(m, b->f32, i, j, xi);
+        if (m->gathers & PERI__GRADIENT && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
             b->central[i / PERI_LANES] = 1;
         sum += 2.0 * (own * peri__half_stiffness(b, i, j, bond) + back * peri__half_stiffness(b, j, i, bond));
         if (b->wide[j] > 0.0) sum += back * peri__gauge(b, j, xi, bond) * b->wide[j];
@@ -215,8 +231,8 @@ static void peri__group_rates(peri_body *b, int64_t g) {
     double spring[PERI_LANES], sum[PERI_LANES] = { 0.0 }, gauged[PERI_LANES] = { 0.0 };
     for (int64_t n = 0; n < count; ++n) spring[n] = peri__get_constant(b, first + n, PERI__SPRING);
     for (int64_t c = l->begin[g]; c < l->begin[g + 1]; ++c, ++column) {
-        const double *entry = &l->table[column->vector * PERI_TABLE_ROW], w = fabs(entry[4]);
-        const double gauge = w * (m->ordinary == PERI_OTERKUS ? 1.0 : entry[3]);
+        const peri__stencil_bond *entry = &l->table[column->vector];
+        const double w = fabs(entry->weight), gauge = w * (m->gauge ? entry->length : 1.0);
         for (int64_t n = 0, j = first + column->offset; n < count; ++n, ++j) {
             if (!(column->member >> n & 1)) continue;
             sum[n] += 2.0 * w * (spring[n] + peri__get_constant(b, j, PERI__SPRING))
@@ -255,7 +271,7 @@ static void peri__rates_block(void *context, int64_t begin, int64_t end, peri__s
     const peri__refresher *r = (const peri__refresher *)context;
     peri_body *b = r->body;
     (void)sums;
-    if (r->whole && b->model->ordinary)
+    if (r->whole && !b->model->mixed && !(b->model->gathers & PERI__GRADIENT))
         for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) peri__group_rates(b, g);
     else
         for (int64_t i = begin; i < end; ++i) peri__set_rate(b, i);
@@ -276,7 +292,7 @@ static void peri__refresh(peri_body *b) {
     if (r.whole) peri__find_models(b);
     if (b->central) memset(b->central, 0, (size_t)(b->model->points / PERI_LANES + 1));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &r, NULL);
-    if (r.whole) peri__copy_models(b, b->model->tensors ? PERI__INVERSE + PERI_PACKED(b->model->dim) : PERI__VECTOR);
+    if (r.whole) peri__copy_models(b, peri__constant_planes(b->model));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__rates_block, &r, NULL);
     peri__find_fastest(b);
     b->stale = 0;

@@ -27,12 +27,12 @@ static int32_t peri__take_solver(peri__solver *s) {
         s->load = peri__take_vector(s);
         ok = ok && s->from && s->load;
     }
-    if (m->states) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__bond_real(b))) != NULL;
+    if (!m->pairwise) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__bond_real(b))) != NULL;
     s->blocks = peri__take(s, PERI_PACKED(m->dim) * m->stride, peri__real(b));
     s->held = (uint8_t *)peri__take(s, m->points, 1);
     s->part_of = (int32_t *)peri__take(s, m->points, sizeof *s->part_of);
     s->queue = (int32_t *)peri__take(s, m->points, sizeof *s->queue);
-    s->k.body = b;
+    s->k.model = b->model;
     s->k.held = s->held;
     return ok && s->blocks && s->held && s->part_of && s->queue ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
 }

@@ -42,7 +42,7 @@ static int64_t peri__coupled(const peri_body *b, int64_t i, int32_t *mark, int32
             list[count++] = row.ids[k];
         }
     own = count;
-    for (int64_t n = 1; n < own && (m->dilates || m->tensors); ++n) {
+    for (int64_t n = 1; n < own && m->gathers; ++n) {
         peri__read_row(b, list[n], &row);
         for (int64_t k = 0; k < row.count; ++k)
             if (mark[row.ids[k]] != (int32_t)i + 1 && peri__is_alive(b, list[n], k)) {
@@ -55,30 +55,12 @@ static int64_t peri__coupled(const peri_body *b, int64_t i, int32_t *mark, int32
 }
 
 /* dP for a change d of H at the deformation f of a correspondence point. */
-static void peri__stress_change(const peri_body *b, int64_t i, const peri__deformation *f, double d[3][3], double out[3][3]) {
+static void peri__change_of_stress(const peri_body *b, int64_t i, const peri__deformation *f, double d[3][3], double out[3][3]) {
     const peri__law *law = &b->model->laws[b->model->material[i]];
-    const int dim = b->dim, linear = b->desc.geometry == PERI_LINEAR;
-    double s[3][3], ds[3][3], trace = 0.0, dtrace = 0.0;
-    peri__strain_of(b, f, s);
-    for (int p = 0; p < dim; ++p)
-        for (int q = 0; q < dim; ++q) {
-            ds[p][q] = 0.5 * (d[p][q] + d[q][p]);
-            for (int c = 0; !linear && c < dim; ++c) ds[p][q] += 0.5 * (d[c][p] * f->h[c][q] + f->h[c][p] * d[c][q]);
-        }
-    for (int p = 0; p < dim; ++p) {
-        trace += s[p][p];
-        dtrace += ds[p][p];
-    }
-    for (int p = 0; p < dim; ++p)
-        for (int q = 0; q < dim; ++q) {
-            s[p][q] = 2.0 * law->mu * s[p][q] + (p == q ? law->lambda * trace : 0.0);
-            ds[p][q] = 2.0 * law->mu * ds[p][q] + (p == q ? law->lambda * dtrace : 0.0);
-        }
-    for (int p = 0; p < dim; ++p)
-        for (int q = 0; q < dim; ++q) {
-            out[p][q] = ds[p][q];
-            for (int c = 0; !linear && c < dim; ++c) out[p][q] += d[p][c] * s[c][q] + f->h[p][c] * ds[c][q];
-        }
+    double e[3][3], h[3][3];
+    memcpy(h, f->h, sizeof h);
+    peri__strain_of(b, f, e);
+    peri__stress_change(law, b->dim, b->desc.geometry == PERI_LINEAR, h, e, d, out);
 }
 
 typedef struct peri__element { /* the stiffness of the energy of one point: of its live family and itself, ascending      */
@@ -91,7 +73,8 @@ typedef struct peri__element { /* the stiffness of the energy of one point: of i
 /* Fills the element of point o; returns what multiplies pull x pull of theta. tensor[a][d][c][e]: V dP_ad/dH_ce less the stabilisation. */
 static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e, double tensor[3][3][3][3], int *tensors) {
     const peri__model *m = b->model;
-    const int dim = m->dim, linear = b->desc.geometry == PERI_LINEAR, law = m->laws[m->material[o]].model;
+    const int dim = m->dim, linear = b->desc.geometry == PERI_LINEAR;
+    const peri__law *law = &m->laws[m->material[o]];
     const double volume = m->volume[o];
     double vector = 0.0, press = 0.0, dilate = 0.0, p = 0.0, self[3] = { 0.0 }, springs[9] = { 0.0 };
     peri__deformation f;
@@ -100,12 +83,12 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     e->count = 0;
     e->self = -1;
     *tensors = 0;
-    if (law != PERI_BOND_BASED) {
+    if (!law->pairwise) {
         press = peri__get_constant(b, o, PERI__PRESS);
         dilate = peri__get_constant(b, o, PERI__DILATE);
         if (press != 0.0) p = press * peri__dilatation(b, o, &row);
     }
-    if (law == PERI_CORRESPONDENCE) {
+    if (law->gather & PERI__GRADIENT) {
         vector = peri__get_constant(b, o, PERI__VECTOR);
         *tensors = peri__get_constant(b, o, PERI__INVERSE) != 0.0;
         peri__deform(b, o, &row, &f);
@@ -114,15 +97,13 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
         if (!peri__is_alive(b, o, k)) continue;
         if (row.ids[k] > o && e->self < 0) e->self = e->count++;
         double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->b32, k), bond = peri__get_real(row.bond, b->b32, k);
-        double gauge = law == PERI_OTERKUS ? 1.0 : bond, *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
-        double stretched = bond * peri__stretch(b, o, &row, k), q;
+        double gauge = peri__law_gauge(law, bond), *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
+        double stretched = bond * peri__stretch(b, o, &row, k);
         peri__pull_of(b, o, row.ids[k], xi, eta);
         for (int d = 0; d < dim; ++d) length += peri__square(n[d] = xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
         for (int d = 0; d < dim; ++d) n[d] /= length;
-        if (law == PERI_BOND_BASED) q = 0.5 * m->pairs[m->material[o] * m->materials + m->material[row.ids[k]]].c / bond;
-        else q = peri__get_constant(b, o, PERI__SPRING);
-        double along = volume * w * q, across = linear ? 0.0 : volume * w * (p * gauge + q * stretched) / length;
+        double q = peri__spring(b, o, row.ids[k], bond), along = volume * w * q, across = linear ? 0.0 : volume * w * (p * gauge + q * stretched) / length;
         for (int a = 0; a < dim; ++a) {
             pull[a] = w * gauge * n[a];
             for (int c = 0; c < dim; ++c)
@@ -144,11 +125,11 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
         for (int q = 0; q < dim; ++q) {
             double unit[3][3] = { { 0.0 } }, out[3][3];
             unit[c][q] = 1.0;
-            peri__stress_change(b, o, &f, unit, out);
+            peri__change_of_stress(b, o, &f, unit, out);
             for (int a = 0; a < dim; ++a)
                 for (int d = 0; d < dim; ++d) tensor[a][d][c][q] = volume * out[a][d];
         }
-    return *tensors || law == PERI_BOND_BASED ? 0.0 : volume * press * dilate;
+    return *tensors || law->pairwise ? 0.0 : volume * press * dilate;
 }
 
 /* K of the shape tensor of point o: what the stabilisation takes back. */

@@ -92,7 +92,7 @@ static int peri__lay_grid(peri__multilevel *l, const peri_body *b) {
    are calibrated on what is left), stiffer beside a stiffer material, whose half of the bonds reaches here. */
 static double peri__relative_stiffness(const peri_body *b, int64_t i) {
     const peri__model *m = b->model;
-    const int32_t own = m->material[i], springs = m->laws[own].model == PERI_BOND_BASED;
+    const int32_t own = m->material[i], springs = m->laws[own].pairwise;
     double all = 0.0, live = 0.0;
     peri__row row;
     if (m->materials == 1 && !(springs && b->alive)) return 1.0;
@@ -100,7 +100,7 @@ static double peri__relative_stiffness(const peri_body *b, int64_t i) {
     for (int64_t k = 0; k < row.count; ++k) {
         const int32_t other = m->material[row.ids[k]], alive = peri__is_alive(b, i, k);
         double share = fabs(peri__get_real(row.weight, b->b32, k)) * peri__get_real(row.bond, b->b32, k), ratio;
-        if (springs && m->laws[other].model == PERI_BOND_BASED)
+        if (springs && m->laws[other].pairwise)
             ratio = m->pairs[own * m->materials + other].c / m->pairs[own * m->materials + own].c;
         else
             ratio = 0.5 + 0.5 * m->laws[other].mu / m->laws[own].mu;

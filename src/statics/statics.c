@@ -59,7 +59,7 @@ static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, 
     if (pair->s0 < PERI_NEVER) excess = stretch / pair->s0;
     if (b->work && pair->bond_energy < PERI_NEVER) {
         double share = row->part ? (double)row->part[k] : m->volume[j];
-        excess = fmax(excess, peri__get_real(b->work, b->f32, row->first + k) / (pair->bond_energy * share));
+        excess = fmax(excess, peri__get_real(b->work, b->f32, peri__bond_slot(m, i, row, k)) / (pair->bond_energy * share));
     }
     if (b->node && pair->node_energy < PERI_NEVER) excess = fmax(excess, 0.5 * (b->node[i] + b->node[j]) / pair->node_energy);
     return excess;

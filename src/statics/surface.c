@@ -58,7 +58,7 @@ static void peri__frame(int dim, const double *n, double frame[3][3]) {
 /* For each axis t of the frame of n: the stress t n + n t (n n for n itself), and the share of a point in what holds it, along t. */
 static int32_t peri__fill_traction(peri_body *b, peri__surface *f, const peri__law *law) {
     const peri__model *m = b->model;
-    const int dim = m->dim, exact = law->model == PERI_CORRESPONDENCE;
+    const int dim = m->dim, exact = (law->gather & PERI__GRADIENT) != 0;
     double frame[3][3];
     const double *n = frame[0];
     peri__frame(dim, f->normal, frame);
@@ -124,9 +124,9 @@ static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double 
     f->t.body = b;
     f->t.p = p;
     f->t.q = peri__new_vector(b);
-    f->t.change = m->states ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
+    f->t.change = !m->pairwise ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
     f->spread = (double *)peri__new(&b->memory, count, sizeof *f->spread);
-    if (!p || !f->t.q || (m->states && !f->t.change) || !f->spread) status = peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    if (!p || !f->t.q || (!m->pairwise && !f->t.change) || !f->spread) status = peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     else if (f->normal) status = peri__fill_traction(b, f, &m->laws[material]);
     else peri__fill_pressure(b, f, &m->laws[material]);
     peri__delete_vector(b, p);

@@ -9,20 +9,23 @@
 static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     const peri_body *b = t->body;
     const peri__model *m = b->model;
+    peri__step step = peri__no_step(b);
+    void *change = t->change ? (char *)t->change + (size_t)m->margin * peri__bond_real(b) : NULL;
     if (at_rest || b->desc.geometry == PERI_LINEAR) {
-        peri_body other = *b; /* the same bonds with other displacements */
-        peri__step step = peri__no_step(&other);
-        other.u = (void *)t->p;
-        other.f = t->q;
-        other.response = t->change;
-        other.node = NULL;
-        other.desc.geometry = PERI_LINEAR;
+        step.u = t->p; /* the same bonds with other displacements */
+        step.f = t->q;
+        step.response = change;
+        step.node = NULL;
+        step.linear = 1;
         memset(t->q, 0, (size_t)(m->stride * m->dim) * peri__real(b));
-        peri__sum_bonds(&other, &step, NULL);
+        peri__sum_bonds(b, &step, NULL);
         return;
     }
-    if (m->dilates || m->tensors) peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_respond, (void *)t, NULL);
-    peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_share, (void *)t, NULL);
+    step.p = t->p;
+    step.q = t->q;
+    step.change = change;
+    if (m->gathers) peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_gather, &step, NULL);
+    peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_force, &step, NULL);
 }
 
 /* Is point i in an obstacle? normal: the unit vector along which that pushes. */
@@ -71,7 +74,8 @@ static void peri__add_dyad(int32_t dim, double scale, const double *v, double ro
    is never negative; correspondence as at rest. For a body at rest, or of linear geometry, exactly that of the tangent. */
 static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const peri__model *m = b->model;
-    const int32_t dim = m->dim, own_law = m->laws[m->material[i]].model;
+    const int32_t dim = m->dim;
+    const peri__law *own_law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
     double lean[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
     peri__row row;
@@ -79,7 +83,7 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
     for (int64_t k = 0; k < row.count; ++k) {
         const int64_t j = row.ids[k];
-        const int32_t law = m->laws[m->material[j]].model;
+        const peri__law *law = &m->laws[m->material[j]];
         double own = peri__get_real(row.weight, b->b32, k), back = peri__get_real(row.back, b->b32, k), xi[3] = { 0.0 }, n[3] = { 0.0 };
         double bond = peri__get_real(row.bond, b->b32, k), length = 0.0, spring = 0.0, round = 0.0, by = back * m->volume[i] / m->volume[j];
         if (!peri__is_alive(b, i, k)) continue;
@@ -91,34 +95,31 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
         }
         length = sqrt(length) + DBL_MIN;
         for (int32_t d = 0; d < dim; ++d) n[d] /= length;
-        if (own_law == PERI_BOND_BASED) spring += own * peri__half_stiffness(b, i, j, bond);
-        else spring += own * peri__get_constant(b, i, PERI__SPRING);
-        if (law == PERI_BOND_BASED) spring += back * peri__half_stiffness(b, j, i, bond);
-        else spring += back * peri__get_constant(b, j, PERI__SPRING);
-        if (own_law == PERI_LPS || own_law == PERI_OTERKUS)
-            for (int d = 0; d < dim; ++d) lean[d] += own * (own_law == PERI_LPS ? bond : 1.0) * n[d];
-        if (law == PERI_LPS || law == PERI_OTERKUS) { /* theta of j */
-            double gauge = law == PERI_LPS ? bond : 1.0;
+        spring += own * peri__spring(b, i, j, bond);
+        spring += back * peri__spring(b, j, i, bond);
+        for (int d = 0; own_law->gather == PERI__DILATATION && d < dim; ++d) lean[d] += own * peri__law_gauge(own_law, bond) * n[d];
+        if (law->gather == PERI__DILATATION) { /* theta of j */
+            double gauge = peri__law_gauge(law, bond);
             spring += peri__get_constant(b, j, PERI__PRESS) * peri__get_constant(b, j, PERI__DILATE) * back * by * gauge * gauge;
         }
-        if (law == PERI_CORRESPONDENCE) { /* F of j, and its distance from z = 0 */
+        if (law->gather & PERI__GRADIENT) { /* F of j, and its distance from z = 0 */
             double pulled[3], square = peri__by_inverse(b, j, xi, pulled), size = peri__dot(pulled, pulled, dim);
-            double lambda = m->laws[m->material[j]].lambda, mu = m->laws[m->material[j]].mu;
+            double lambda = law->lambda, mu = law->mu;
             peri__add_dyad(dim, m->volume[i] * back * by * (lambda + mu), pulled, m->volume[i] * back * by * mu * size, block);
             round += back * peri__get_constant(b, j, PERI__VECTOR) * (1.0 - by * square);
         }
-        if (own_law == PERI_CORRESPONDENCE) {
+        if (own_law->gather & PERI__GRADIENT) {
             whole += own;
             for (int d = 0; d < dim; ++d) lean[d] += own * xi[d];
         }
         peri__add_dyad(dim, m->volume[i] * spring, n, m->volume[i] * round, block);
     }
-    if (own_law == PERI_LPS || own_law == PERI_OTERKUS) {
+    if (own_law->gather == PERI__DILATATION) {
         const double stiff = peri__get_constant(b, i, PERI__PRESS) * peri__get_constant(b, i, PERI__DILATE);
         peri__add_dyad(dim, m->volume[i] * stiff, lean, 0.0, block);
     }
-    if (own_law == PERI_CORRESPONDENCE) {
-        double square = peri__by_inverse(b, i, lean, h), lambda = m->laws[m->material[i]].lambda, mu = m->laws[m->material[i]].mu;
+    if (own_law->gather & PERI__GRADIENT) {
+        double square = peri__by_inverse(b, i, lean, h), lambda = own_law->lambda, mu = own_law->mu;
         peri__add_dyad(dim, m->volume[i] * (lambda + mu), h,
                        m->volume[i] * (mu * peri__dot(h, h, dim) + peri__get_constant(b, i, PERI__VECTOR) * (whole - square)), block);
     }
@@ -214,8 +215,8 @@ static int peri__need_change(peri_body *b) {
     const peri__model *m = b->model;
     const int64_t vector = peri__vector_reals(m), response = peri__response_reals(m);
     if (b->change_f) return 1;
-    void *u = peri__new(&b->memory, vector, peri__real(b)), *r = m->states ? peri__new(&b->memory, response, peri__bond_real(b)) : NULL;
-    if (u && (r || !m->states)) b->change_f = peri__new(&b->memory, vector, peri__real(b));
+    void *u = peri__new(&b->memory, vector, peri__real(b)), *r = !m->pairwise ? peri__new(&b->memory, response, peri__bond_real(b)) : NULL;
+    if (u && (r || m->pairwise)) b->change_f = peri__new(&b->memory, vector, peri__real(b));
     if (b->change_f) {
         b->change_u = u;
         b->change_response = r;

@@ -1,12 +1,11 @@
-/* k_march.inl - the pointwise passes of time integration: kicks, drift, kinetic energy. */
+/* march.inl - the pointwise passes of time integration: kicks, drift, kinetic energy. */
 
 /* v = keep*v + kick*f/rho; then, where drift > 0: u += drift*v and f = 0, ready for the loads of the new time.
    sums: b work of damping over the kick, its impulse times the mean velocity: what it takes from the kinetic energy, exactly;
    bad the first point whose motion is not finite. At most PERI_BLOCK points. */
-static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_LANES_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
-    peri_body *b = step->body;
-    const peri__model *m = b->model;
+    const peri__model *m = step->model;
     const peri_r keep = (peri_r)step->keep;
     const int64_t count = end - begin;
     const int lossy = step->loss_old != 0.0 || step->loss_new != 0.0;
@@ -21,27 +20,26 @@ static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums 
     if (lossy) memset(work, 0, sizeof work);
     for (int d = 0; d < PERI_D; ++d) {
         const int64_t at = d * m->stride + begin;
-        peri_r *u = (peri_r *)b->u + at, *v = (peri_r *)b->v + at, *f = (peri_r *)b->f + at;
+        peri_r *u = (peri_r *)step->drifted + at, *v = (peri_r *)step->v + at, *f = (peri_r *)step->f + at;
         if (lossy) memcpy(old, v, (size_t)count * sizeof *v);
-        if (PERI_ON_LANES(m->lanes.isa, kick_some, (count, keep, kick, f, v)) > 0)
+        if (PERI_LANES_FN(kick_some)(count, keep, kick, f, v) > 0)
             for (int64_t k = 0; k < count; ++k)
                 if (!(v[k] > -PERI_SPEEDING && v[k] < PERI_SPEEDING) && (sums->bad < 0 || begin + k < sums->bad)) sums->bad = begin + k;
         for (int64_t k = 0; lossy && k < count; ++k)
             work[k] += (step->loss_old * (double)old[k] + step->loss_new * (double)v[k]) * 0.5 * ((double)old[k] + (double)v[k]);
         if (!(step->drift > 0.0)) continue;
-        PERI_ON_LANES(m->lanes.isa, drift_some, (count, (peri_r)step->drift, v, u));
+        PERI_LANES_FN(drift_some)(count, (peri_r)step->drift, v, u);
         memset(f, 0, (size_t)count * sizeof *f);
     }
     for (int64_t k = 0; lossy && k < count; ++k) sums->b += work[k] * m->rho[m->material[begin + k]] * m->volume[begin + k];
 }
 
-static void PERI_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_LANES_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
-    const peri_body *b = step->body;
-    const peri__model *m = b->model;
+    const peri__model *m = step->model;
     for (int64_t i = begin; i < end; ++i) {
         double square = 0.0;
-        for (int d = 0; d < PERI_D; ++d) square += peri__square((double)((const peri_r *)b->v)[d * m->stride + i]);
+        for (int d = 0; d < PERI_D; ++d) square += peri__square((double)((const peri_r *)step->v)[d * m->stride + i]);
         sums->a += 0.5 * m->rho[m->material[i]] * m->volume[i] * square;
     }
 }

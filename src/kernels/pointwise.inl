@@ -1,4 +1,4 @@
-/* k_pointwise.inl - what is done alike to one component of `count` points, PERI_BLOCK at most: plain loops, that the compiler turns into
+/* pointwise.inl - what is done alike to one component of `count` points, PERI_BLOCK at most: plain loops, that the compiler turns into
    the vectors of each instruction set. */
 
 /* v = keep v + kick f. Returns how many of v are not numbers of any use: a comparison that NaN fails; the bound is far beyond any speed in

@@ -1,5 +1,5 @@
-/* k_lanes.inl - the laws on columns (lanes.c): the equations of k_bond.inl and k_state.inl for PERI_LANES points at once, in pieces of
-   PERI_WIDTH by the operations of k_vector.inl, operation by operation in the same order as by rows, so with the same result. Included per
+/* columns.inl - the passes over families by columns (lanes.c): the equations of rows.inl for PERI_LANES points at once, in pieces of
+   PERI_WIDTH by the operations of vector.inl, operation by operation in the same order as by rows, so with the same result. Included per
    precision, dimension and instruction set; PERI_LANES_FN names it. `linear`, ... are constants where these are inlined.
 
    Points with a bond near its critical stretch are left to the rows. A dead lane may read anything, so its part is left out by a choice;
@@ -11,7 +11,7 @@
 typedef struct PERI_LANES_FN(group) { /* the columns of a group, the points of the group, and what they have now           */
     const peri__column *column, *end;
     const uint16_t     *alive; /* masks of the columns from the next on, or NULL                                         */
-    const double       *table;
+    const peri__stencil_bond *table;
     const peri_r       *u;     /* [dim][stride] from the first point on                                                  */
     int64_t             stride;
     int                 breaking;
@@ -22,18 +22,18 @@ typedef struct PERI_LANES_FN(bond) { /* a column: what its bonds have in common 
     PERI_VECTOR   xi[PERI_D], twice[PERI_D]; /* xi, 2 xi                                                                 */
     peri_b        length, inverse, weight;   /* |xi|, 1/|xi|, w beta V                                                   */
     peri_b        limit;                     /* critical stretch, with a margin                                          */
-    const double *row;                       /* of the table                                                             */
+    const peri__stencil_bond *row;           /* of the table                                                             */
     int64_t       offset;
     uint32_t      mask;
 } PERI_LANES_FN(bond);
 
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(enter)(PERI_LANES_FN(group) *s, const peri_body *b, int64_t g, int breaking) {
-    const peri__model *m = b->model;
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(enter)(PERI_LANES_FN(group) *s, const peri__step *o, int64_t g, int breaking) {
+    const peri__model *m = o->model;
     const peri__lanes *lanes = &m->lanes;
     s->column = &lanes->column[lanes->first[g]];
     s->end = s->column + (lanes->begin[g + 1] - lanes->begin[g]);
-    s->alive = b->lanes_alive ? &b->lanes_alive[lanes->begin[g]] : NULL;
-    s->u = (const peri_r *)b->u + g * PERI_LANES;
+    s->alive = o->masks ? &o->masks[lanes->begin[g]] : NULL;
+    s->u = (const peri_r *)o->u + g * PERI_LANES;
     s->table = lanes->table;
     s->stride = m->stride;
     s->breaking = breaking;
@@ -48,17 +48,17 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(next)(PERI_LANES_FN(group) *s, P
         if (s->column == s->end) return 0;
         bond->mask = s->alive ? *s->alive++ : s->column->member;
         bond->offset = s->column->offset;
-        bond->row = &s->table[s->column->vector * PERI_TABLE_ROW];
+        bond->row = &s->table[s->column->vector];
         s->column++;
     } while (bond->mask == 0);
     for (int d = 0; d < PERI_D; ++d) {
-        bond->xi[d] = PERI_V(set1)((peri_b)bond->row[d]);
+        bond->xi[d] = PERI_V(set1)((peri_b)bond->row->xi[d]);
         bond->twice[d] = bond->xi[d] + bond->xi[d];
     }
-    bond->length = (peri_b)bond->row[3];
-    bond->weight = (peri_b)bond->row[4];
-    bond->inverse = (peri_b)bond->row[6];
-    bond->limit = (peri_b)(s->breaking ? bond->row[8] * (1.0 - PERI_NEAR) : PERI_NEVER);
+    bond->length = (peri_b)bond->row->length;
+    bond->weight = (peri_b)bond->row->weight;
+    bond->inverse = (peri_b)bond->row->inverse;
+    bond->limit = (peri_b)(s->breaking ? bond->row->s0 * (1.0 - PERI_NEAR) : PERI_NEVER);
     return 1;
 }
 
@@ -84,14 +84,19 @@ PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(extend)(const PERI_LANES
     return PERI_IF(linear, PERI_V(set1)(bond->length), PERI_V(sqrt)(square));
 }
 
+/* What the ends of a column are. */
+PERI_INLINE const peri__stencil_ends *PERI_LANES_FN(ends)(const peri__step *o, const PERI_LANES_FN(bond) *bond) {
+    return &o->model->lanes.ends[bond->row - o->model->lanes.table];
+}
+
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(leave)(PERI_STATE sum[PERI_D][PERI_PIECES], peri_r f[PERI_D][PERI_LANES]) {
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&f[d][n * PERI_WIDTH], &sum[d][n]);
 }
 
-/* One column of bond-based bonds; c: the micromodulus times w beta V, where linear over |xi|^3. Returns a bit for each point with
+/* One column of bonds of pairwise laws; c: the micromodulus times w beta V, where linear over |xi|^3. Returns a bit for each point with
    a live bond beyond its limit. */
-PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond, const peri_b c,
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond, const peri_b c,
                                                              PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear,
                                                              const int breaking) {
     PERI_NO_CONTRACTION
@@ -114,28 +119,28 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(column)(const PERI_LANES_FN
 
 /* Adds the force of all live bonds of group g to f[PERI_D][PERI_LANES]. Returns a bit for each point with a live bond so near its critical
    stretch that the row must decide. */
-PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(lanes_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_of)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES],
                                                                const int linear, const int breaking) {
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
     uint32_t hit = 0;
-    PERI_LANES_FN(enter)(&s, step->body, g, step->breaking);
+    PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
-        peri_b c = (peri_b)bond.row[7] * bond.weight;
+        peri_b c = (peri_b)bond.row->c * bond.weight;
         if (linear) c *= bond.inverse * bond.inverse * bond.inverse;
-        if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 1, linear, breaking);
-        else hit |= PERI_LANES_FN(column)(&s, &bond, c, sum, 0, linear, breaking);
+        if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE) hit |= PERI_LANES_FN(pairwise_column)(&s, &bond, c, sum, 1, linear, breaking);
+        else hit |= PERI_LANES_FN(pairwise_column)(&s, &bond, c, sum, 0, linear, breaking);
     }
     PERI_LANES_FN(leave)(sum, f);
     return hit;
 }
 
-PERI_LANES_TARGET static uint32_t PERI_LANES_FN(lanes)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
-    if (step->body->desc.geometry != PERI_LINEAR) return PERI_LANES_FN(lanes_of)(step, g, f, 0, 1);
-    return step->breaking ? PERI_LANES_FN(lanes_of)(step, g, f, 1, 1) : PERI_LANES_FN(lanes_of)(step, g, f, 1, 0);
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(pairwise)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    if (!o->linear) return PERI_LANES_FN(pairwise_of)(o, g, f, 0, 1);
+    return o->breaking ? PERI_LANES_FN(pairwise_of)(o, g, f, 1, 1) : PERI_LANES_FN(pairwise_of)(o, g, f, 1, 0);
 }
 
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
@@ -153,38 +158,40 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_column)(const PERI_LA
     }
 }
 
-/* sum w g e V of the points of group g to out; g = gauged ? |xi| : 1. */
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_of)(const peri_body *b, int64_t g, const int gauged, peri_r out[PERI_LANES],
+/* sum w g e V of the points of group g to out; g of each column, 0 where its points gather nothing. */
+PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_of)(const peri__step *o, int64_t g, peri_r out[PERI_LANES],
                                                                const int linear) {
+    const int by_length = o->model->gauge;
     const peri_r none[PERI_LANES] = { 0 };
     PERI_STATE sum[PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
-    PERI_LANES_FN(enter)(&s, b, g, 0);
+    PERI_LANES_FN(enter)(&s, o, g, 0);
     for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
     while (PERI_LANES_FN(next)(&s, &bond)) {
-        const peri_b weight = bond.weight * (linear ? (gauged ? 1 : bond.inverse) : gauged ? bond.length : 1);
+        peri_b weight = bond.weight * (linear ? (by_length ? 1 : bond.inverse) : by_length ? bond.length : 1);
+        if (o->model->mixed) weight = bond.weight * (peri_b)PERI_LANES_FN(ends)(o, &bond)->gauge * (linear ? bond.inverse : 1);
         if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE) PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 1, linear);
         else PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 0, linear);
     }
     for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(out + n * PERI_WIDTH, &sum[n]);
 }
 
-PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri_body *b, int64_t g, const int gauged, peri_r sum[PERI_LANES]) {
-    if (b->desc.geometry == PERI_LINEAR) PERI_LANES_FN(stretched_of)(b, g, gauged, sum, 1);
-    else PERI_LANES_FN(stretched_of)(b, g, gauged, sum, 0);
+PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri__step *o, int64_t g, peri_r sum[PERI_LANES]) {
+    if (o->linear) PERI_LANES_FN(stretched_of)(o, g, sum, 1);
+    else PERI_LANES_FN(stretched_of)(o, g, sum, 0);
 }
 
-/* sum w e^2 V of the points of group g to out, in bond-based bodies times c/|xi|: in double whatever the precision. */
-PERI_LANES_TARGET static void PERI_LANES_FN(squares)(const peri_body *b, int64_t g, double out[PERI_LANES]) {
+/* sum w e^2 V of the points of group g to out, with pairwise laws times c/|xi|: in double whatever the precision. */
+PERI_LANES_TARGET static void PERI_LANES_FN(squares)(const peri__step *o, int64_t g, double out[PERI_LANES]) {
     PERI_NO_CONTRACTION
-    const int linear = b->desc.geometry == PERI_LINEAR, states = b->model->states;
+    const int linear = o->linear, pairwise = o->model->pairwise;
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
-    PERI_LANES_FN(enter)(&s, b, g, 0);
+    PERI_LANES_FN(enter)(&s, o, g, 0);
     for (int l = 0; l < PERI_LANES; ++l) out[l] = 0.0;
     while (PERI_LANES_FN(next)(&s, &bond)) {
-        const double weight = states ? (double)bond.weight : bond.row[7] * (double)bond.weight / (double)bond.length;
+        const double weight = pairwise ? bond.row->c * (double)bond.weight / (double)bond.length : (double)bond.weight;
         const PERI_VECTOR length = PERI_V(set1)(bond.length);
         peri_b e[PERI_LANES];
         for (int n = 0; n < PERI_PIECES; ++n) {
@@ -197,9 +204,9 @@ PERI_LANES_TARGET static void PERI_LANES_FN(squares)(const peri_body *b, int64_t
     }
 }
 
-/* One column of ordinary state-based bonds; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2; gauged = |xi|,
+/* One column of bonds of ordinary laws that are alike; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2; gauged = |xi|,
    or 1. */
-PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(ordinary_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
                                                                    const peri_b *p, const peri_b *q, peri_b weighed, peri_b gauged,
                                                                    PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear,
                                                                    const int breaking) {
@@ -224,44 +231,43 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_column)(const PERI_LA
     return hit;
 }
 
-/* Adds the force of all live ordinary state-based bonds of group g to f. Returns as `lanes`. */
-PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(share_of)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES],
+/* Adds the force of all live bonds of ordinary laws of group g to f. Returns as `pairwise`. */
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(ordinary_of)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES],
                                                                const int linear, const int breaking) {
-    const peri_body *b = step->body;
-    const peri__model *m = b->model;
-    const peri_b *p = (const peri_b *)b->response + m->margin + g * PERI_LANES;
-    const peri_b *q = (const peri_b *)b->constant + m->margin + PERI__SPRING * m->stride + g * PERI_LANES;
+    const peri__model *m = o->model;
+    const peri_b *p = (const peri_b *)o->response + g * PERI_LANES;
+    const peri_b *q = (const peri_b *)o->constant + PERI__SPRING * m->stride + g * PERI_LANES;
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
     uint32_t hit = 0;
-    PERI_LANES_FN(enter)(&s, b, g, step->breaking);
+    PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
-        const peri_b gauge = m->ordinary == PERI_OTERKUS ? 1 : bond.length;
+        const peri_b gauge = m->gauge ? bond.length : 1;
         const peri_b weight = linear ? bond.weight * (bond.inverse * bond.inverse) : bond.weight;
         if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE)
-            hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 1, linear, breaking);
-        else hit |= PERI_LANES_FN(share_column)(&s, &bond, p, q, weight, gauge, sum, 0, linear, breaking);
+            hit |= PERI_LANES_FN(ordinary_column)(&s, &bond, p, q, weight, gauge, sum, 1, linear, breaking);
+        else hit |= PERI_LANES_FN(ordinary_column)(&s, &bond, p, q, weight, gauge, sum, 0, linear, breaking);
     }
     PERI_LANES_FN(leave)(sum, f);
     return hit;
 }
 
-PERI_LANES_TARGET static uint32_t PERI_LANES_FN(share)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
-    if (step->body->desc.geometry != PERI_LINEAR) return PERI_LANES_FN(share_of)(step, g, f, 0, 1);
-    return step->breaking ? PERI_LANES_FN(share_of)(step, g, f, 1, 1) : PERI_LANES_FN(share_of)(step, g, f, 1, 0);
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(ordinary)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    if (!o->linear) return PERI_LANES_FN(ordinary_of)(o, g, f, 0, 1);
+    return o->breaking ? PERI_LANES_FN(ordinary_of)(o, g, f, 1, 1) : PERI_LANES_FN(ordinary_of)(o, g, f, 1, 0);
 }
 
-/* sum w eta xi V of correspondence points. */
-PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g, peri_r out[PERI_D][PERI_D][PERI_LANES]) {
+/* sum w eta xi V. */
+PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri__step *o, int64_t g, peri_r out[PERI_D][PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
     const peri_r none[PERI_LANES] = { 0 };
     PERI_STATE sum[PERI_D][PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
-    PERI_LANES_FN(enter)(&s, b, g, 0);
+    PERI_LANES_FN(enter)(&s, o, g, 0);
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
             for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
@@ -282,20 +288,18 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri_body *b, int64_t g
             for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&out[a][d][n * PERI_WIDTH], &sum[a][d][n]);
 }
 
-/* Adds the force of all live bonds of a group of correspondence points to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta); no central bonds.
-   Returns as `lanes`; critical are (2 xi + eta).eta > s0 (2 + s0) |xi|^2, or xi.eta > s0 |xi|^2. */
-PERI_LANES_TARGET static uint32_t PERI_LANES_FN(tensor)(const peri__step *step, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+/* Adds what gradients give of the force of all live bonds of a group to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta). Returns as `pairwise`; critical are (2 xi + eta).eta > s0 (2 + s0) |xi|^2, or xi.eta > s0 |xi|^2. */
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(tensor)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
-    const peri_body *b = step->body;
-    const peri__model *m = b->model;
-    const peri_b *q = (const peri_b *)b->response + m->margin + m->stride + g * PERI_LANES;
-    const peri_b *k = (const peri_b *)b->constant + m->margin + PERI__VECTOR * m->stride + g * PERI_LANES;
-    const int linear = b->desc.geometry == PERI_LINEAR;
+    const peri__model *m = o->model;
+    const peri_b *q = (const peri_b *)o->response + m->stride + g * PERI_LANES;
+    const peri_b *k = (const peri_b *)o->constant + PERI__VECTOR * m->stride + g * PERI_LANES;
+    const int linear = o->linear;
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
     uint32_t hit = 0;
-    PERI_LANES_FN(enter)(&s, b, g, step->breaking);
+    PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
@@ -322,6 +326,98 @@ PERI_LANES_TARGET static uint32_t PERI_LANES_FN(tensor)(const peri__step *step, 
     }
     PERI_LANES_FN(leave)(sum, f);
     return hit;
+}
+
+/* ---- laws that differ, energy criteria --------------------------------------------------------------------------- */
+
+/* The work of the forces of a column along the way since they were last worked out, by the trapezoidal rule. Returns a bit for each point
+   with a bond whose work comes near its limit. */
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(work)(const peri__step *o, int64_t g, const PERI_LANES_FN(group) *s,
+                                                           const PERI_LANES_FN(bond) *bond, int64_t column,
+                                                           peri_b force[PERI_D][PERI_LANES]) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const int64_t at = (m->lanes.begin[g] + column) * PERI_LANES;
+    const peri_r *worked = (const peri_r *)o->worked + g * PERI_LANES;
+    peri_r *work = (peri_r *)o->work + at, *pull = (peri_r *)o->pull + at * PERI_D;
+    const peri_r limit = (peri_r)(o->breaking ? PERI_LANES_FN(ends)(o, bond)->energy * (1.0 - PERI_NEAR) : PERI_NEVER);
+    const peri_r *here = s->u;
+    peri_r done[PERI_LANES] = { 0 };
+    uint32_t hit = 0;
+    for (int d = 0; d < PERI_D; ++d)
+        for (int l = 0; l < PERI_LANES; ++l) {
+            const int64_t own = d * m->stride + l, other = own + bond->offset;
+            const peri_b eta = (peri_b)(here[other] - here[own]);
+            const peri_r way = (peri_r)eta - (worked[other] - worked[own]), now = force[d][l];
+            done[l] += (peri_r)0.5 * (pull[d * PERI_LANES + l] + now) * way;
+            pull[d * PERI_LANES + l] = now;
+        }
+    for (int l = 0; l < PERI_LANES; ++l) {
+        work[l] = bond->mask >> l & 1 ? work[l] + done[l] : work[l];
+        hit |= (uint32_t)(work[l] > limit && bond->mask >> l & 1) << l;
+    }
+    return hit;
+}
+
+/* Adds the force of all live bonds of group g to f, whatever the laws of their ends, and counts the work on them where that is asked for.
+   Returns as `pairwise`, with a bit for points whose bonds may meet an energy criterion, too. */
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(mixed_of)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES],
+                                                               const int tensors) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const peri_b *p = (const peri_b *)o->response + g * PERI_LANES;
+    const peri_b *q = (const peri_b *)o->constant + PERI__SPRING * m->stride + g * PERI_LANES;
+    const peri_b *tensor = (const peri_b *)o->response + m->stride + g * PERI_LANES;
+    const peri_b *k = (const peri_b *)o->constant + PERI__VECTOR * m->stride + g * PERI_LANES;
+    const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
+    const int linear = o->linear;
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    PERI_LANES_FN(group) s;
+    PERI_LANES_FN(bond) bond;
+    uint32_t hit = 0;
+    PERI_LANES_FN(enter)(&s, o, g, o->breaking);
+    const peri__column *const first = s.column;
+    for (int d = 0; d < PERI_D; ++d)
+        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+    while (PERI_LANES_FN(next)(&s, &bond)) {
+        const peri__stencil_ends *ends = PERI_LANES_FN(ends)(o, &bond);
+        const PERI_VECTOR length = PERI_V(set1)(bond.length), weight = PERI_V(set1)(bond.weight);
+        const PERI_VECTOR gauge = PERI_V(set1)((peri_b)ends->gauge), other = PERI_V(set1)((peri_b)ends->other_gauge);
+        const PERI_VECTOR spring = PERI_V(set1)((peri_b)ends->spring), most = PERI_V(set1)(bond.limit * bond.length);
+        peri_b force[PERI_D][PERI_LANES];
+        for (int n = 0; n < PERI_PIECES; ++n) {
+            const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
+            const PERI_VECTOR both_p = gauge * PERI_V(loadu)(p + n * PERI_WIDTH) + other * PERI_V(loadu)(p + bond.offset + n * PERI_WIDTH);
+            const PERI_VECTOR both_q = PERI_V(loadu)(q + n * PERI_WIDTH) + PERI_V(loadu)(q + bond.offset + n * PERI_WIDTH) + spring;
+            PERI_VECTOR eta[PERI_D], y[PERI_D], along;
+            PERI_LANES_FN(moved)(&s, &bond, n, eta);
+            const PERI_VECTOR now = PERI_LANES_FN(extend)(&bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
+            const PERI_VECTOR scale = weight * (both_q * along + both_p * reach) / (reach * (now + tiny));
+            hit |= (uint32_t)PERI_ABOVE(along, most * reach, live) << (n * PERI_WIDTH);
+            for (int a = 0; a < PERI_D; ++a) {
+                PERI_VECTOR all = scale * y[a];
+                if (tensors) {
+                    const int64_t there = bond.offset + n * PERI_WIDTH;
+                    PERI_VECTOR t = (PERI_V(loadu)(k + n * PERI_WIDTH) + PERI_V(loadu)(k + there)) * eta[a];
+                    for (int d = 0; d < PERI_D; ++d) {
+                        const peri_b *plane = tensor + (a * PERI_D + d) * m->stride;
+                        t += (PERI_V(loadu)(plane + n * PERI_WIDTH) + PERI_V(loadu)(plane + there)) * bond.xi[d];
+                    }
+                    all += weight * t;
+                }
+                const PERI_VECTOR part = PERI_KEEP(live, all);
+                if (o->working) PERI_V(storeu)(&force[a][n * PERI_WIDTH], part);
+                PERI_LANES_FN(gather)(&sum[a][n], part);
+            }
+        }
+        if (o->working) hit |= PERI_LANES_FN(work)(o, g, &s, &bond, s.column - first - 1, force);
+    }
+    PERI_LANES_FN(leave)(sum, f);
+    return hit;
+}
+
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(mixed)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    return o->model->gathers & PERI__GRADIENT ? PERI_LANES_FN(mixed_of)(o, g, f, 1) : PERI_LANES_FN(mixed_of)(o, g, f, 0);
 }
 
 #undef PERI_PIECES

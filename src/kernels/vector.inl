@@ -1,4 +1,4 @@
-/* k_vector.inl - the operations of k_lanes.inl and k_list.inl per instruction set: PERI_V_ISA 0 SSE2, which every x86-64 has; elsewhere the
+/* vector.inl - the operations of columns.inl and list.inl per instruction set: PERI_V_ISA 0 SSE2, which every x86-64 has; elsewhere the
    vectors of gcc and clang, or plain text, one lane at a time; 1 AVX2; 2 AVX-512.
 
    PERI_VECTOR     PERI_WIDTH reals of bonds. + - * / are the compiler's own, each rounded; PERI_V(set1), PERI_V(loadu), PERI_V(sqrt)

@@ -1,16 +1,15 @@
-/* k_list.inl - bond-based and ordinary state-based force on the list: the equations of k_bond.inl and k_state.inl for PERI_CHUNK bonds of a
-   row at once, in pieces of PERI_WIDTH lanes by the operations of k_vector.inl. Bond k of a row is added in lane k % PERI_CHUNK, and lanes
-   are added up in halves: the same bits from every instruction set and any number of threads. Bonds that come near their critical stretch
-   are left to the rows. Included per real type, dimension and instruction set.
+/* list.inl - the passes over the list: the equations of rows.inl for PERI_CHUNK bonds of a row at once, in pieces of PERI_WIDTH lanes by the
+   operations of vector.inl. Bond k of a row is added in lane k % PERI_CHUNK, and lanes are added up in halves: the same bits from every
+   instruction set and any number of threads. Bonds that come near their critical stretch are left to the rows. Included per precision,
+   dimension and instruction set.
 
-   What is needed of a neighbour lies side by side in its record, body->pack, m->slots reals: x, u, then p and q, or Q and k, or the
-   material. */
+   What is needed of a neighbour lies side by side in its record, ->pack, m->slots reals: x, u, then p and q, or Q and k, or the material. */
 
 #define PERI_PIECES (PERI_CHUNK / PERI_WIDTH)
 
 typedef struct PERI_LANES_FN(piece) { /* PERI_WIDTH bonds                                                                 */
     PERI_VECTOR got[8];               /* the records of the neighbours, less x and u of the point                        */
-    PERI_VECTOR y[PERI_D], along;     /* as in k_lanes.inl                                                               */
+    PERI_VECTOR y[PERI_D], along;     /* as in columns.inl                                                               */
     PERI_VECTOR rest, now;            /* |xi|^2, |y|^2                                                                   */
 } PERI_LANES_FN(piece);
 
@@ -32,21 +31,21 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(span)(PERI_LANES_FN(piece) *s, 
     if (linear) s->now = s->rest;
 }
 
-/* product: |xi| |y|; returns R = |xi| (|y| + |xi|). Then |xi| e = |xi|^2 along/R, and LPS, whose gauge is |xi|, needs no square root but
-   that of |xi|^2 |y|^2: `bond` is |xi|^2 with LPS, and |xi| else. */
+/* product: |xi| |y|; returns R = |xi| (|y| + |xi|). Then |xi| e = |xi|^2 along/R, and laws whose gauge is |xi| (`by_length`) need no square
+   root but that of |xi|^2 |y|^2: `bond` is |xi|^2 with these, and |xi| else. */
 PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(roots)(const PERI_LANES_FN(piece) *s, PERI_VECTOR *bond, PERI_VECTOR *product,
-                                                               const int model, const int linear) {
+                                                               const int by_length, const int linear) {
     PERI_NO_CONTRACTION
-    *bond = PERI_IF(model == PERI_LPS, s->rest, PERI_V(sqrt)(s->rest));
+    *bond = PERI_IF(by_length, s->rest, PERI_V(sqrt)(s->rest));
     if (linear) *product = s->rest;
-    else if (model == PERI_LPS) *product = PERI_V(sqrt)(s->rest * s->now);
+    else if (by_length) *product = PERI_V(sqrt)(s->rest * s->now);
     else *product = *bond * PERI_V(sqrt)(s->now);
     return PERI_IF(linear, s->rest, *product + s->rest);
 }
 
 /* Flags of the PERI_CHUNK bonds of row i from bond k on. */
-PERI_INLINE uint32_t PERI_LANES_FN(live)(const peri_body *b, int64_t i, int64_t k, int64_t count) {
-    const uint32_t flags = b->alive ? b->alive[i * b->model->words + k / 32] >> (k % 32) : ~(uint32_t)0;
+PERI_INLINE uint32_t PERI_LANES_FN(live)(const peri__step *o, int64_t i, int64_t k, int64_t count) {
+    const uint32_t flags = o->alive ? o->alive[i * o->model->words + k / 32] >> (k % 32) : ~(uint32_t)0;
     return flags & (((uint32_t)1 << (count - k < PERI_CHUNK ? count - k : PERI_CHUNK)) - 1);
 }
 
@@ -57,21 +56,21 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(PERI_STATE *sum) {
     return PERI_LANES_FN(fold)(sum);
 }
 
-/* Adds the force of all live bonds of the point at a place to f, all points being of one model. Returns nonzero where a bond comes near its
-   critical stretch; f is then void. `model` and `slots` are constants where this is inlined, and `linear` where speed matters. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step, int64_t place, peri_r *f, const int model,
-                                                          const int32_t slots, const int linear) {
+/* Adds the force of all live bonds of the point at a place to f, all points being of laws alike: pairwise, or ordinary. Returns nonzero
+   where a bond comes near its critical stretch; f is then void. `pairwise`, `by_length` and `slots` are constants where this is inlined, and
+   `linear` where speed matters. */
+PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, int64_t place, peri_r *f, const int pairwise,
+                                                          const int by_length, const int32_t slots, const int linear) {
     PERI_NO_CONTRACTION
-    const peri_body *b = step->body;
-    const peri__model *m = b->model;
+    const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const int states = model != PERI_BOND_BASED, mixed = PERI_D == 2 ? slots > 4 : m->materials > 1;
-    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + place * slots;
+    const int several = PERI_D == 2 ? slots > 4 : m->materials > 1;
+    const peri_r *pack = (const peri_r *)o->pack, *mine = pack + place * slots;
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
-    const PERI_VECTOR limit = PERI_V(set1)((peri_b)(step->breaking ? peri__least_stretch(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER));
+    const PERI_VECTOR limit = PERI_V(set1)((peri_b)(o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER));
     const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
-    const PERI_VECTOR pi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D] : 0);
-    const PERI_VECTOR qi = PERI_V(set1)(states ? (peri_b)mine[2 * PERI_D + 1] : 0);
+    const PERI_VECTOR pi = PERI_V(set1)(!pairwise ? (peri_b)mine[2 * PERI_D] : 0);
+    const PERI_VECTOR qi = PERI_V(set1)(!pairwise ? (peri_b)mine[2 * PERI_D + 1] : 0);
     const int32_t *ids = &m->ids[first];
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_VECTOR c = PERI_V(set1)((peri_b)m->pairs->c);
@@ -79,13 +78,13 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     peri_r own[8] = { 0 };
     const peri_r none[PERI_WIDTH] = { 0 };
     int hit = 0;
-    for (int32_t k = 0; !states && mixed && k < m->materials; ++k)
+    for (int32_t k = 0; pairwise && several && k < m->materials; ++k)
         table[k] = (peri_b)m->pairs[m->material[i] * m->materials + k].c;
     for (int n = 0; n < PERI_PIECES; ++n)
         for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
+        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
         for (int n = 0; n < PERI_PIECES; ++n) {
             const int64_t at = k + n * PERI_WIDTH;
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
@@ -93,15 +92,15 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
             PERI_LANES_FN(piece) s;
             PERI_LANES_FN(span)(&s, pack, slots, ids + at, own, linear);
             PERI_VECTOR scale, bond, product, reach;
-            reach = PERI_LANES_FN(roots)(&s, &bond, &product, model, linear);
-            if (states) { /* w (p g + q e)/|y| */
+            reach = PERI_LANES_FN(roots)(&s, &bond, &product, by_length, linear);
+            if (!pairwise) { /* w (p g + q e)/|y| */
                 const PERI_VECTOR back = PERI_V(loadu)(backs + at);
                 const PERI_VECTOR p = weight * pi + back * s.got[2 * PERI_D], q = weight * qi + back * s.got[2 * PERI_D + 1];
                 scale = q * s.along;
-                if (model == PERI_OTERKUS) scale = scale * bond;
+                if (!by_length) scale = scale * bond;
                 scale = bond * (scale + p * reach);
             } else { /* c w e/(|xi| |y|) */
-                if (mixed) {
+                if (several) {
                     PERI_V(storeu)(pick, s.got[2 * PERI_D]);
                     for (int l = 0; l < PERI_WIDTH; ++l) pick[l] = table[(int)pick[l]];
                     c = PERI_V(loadu)(pick);
@@ -118,28 +117,24 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *step
     return hit;
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_force)(const peri__step *step, int64_t place, peri_r *f) {
-    const int linear = step->body->desc.geometry == PERI_LINEAR;
-    if (PERI_D == 3 || step->body->model->slots > 4)
-        return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 8, 1)
-                      : PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 8, 0);
-    return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 4, 1)
-                  : PERI_LANES_FN(list_row)(step, place, f, PERI_BOND_BASED, 4, 0);
+PERI_LANES_TARGET static int PERI_LANES_FN(list_pairwise)(const peri__step *o, int64_t place, peri_r *f) {
+    if (PERI_D == 3 || o->model->slots > 4)
+        return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 0);
+    return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 0);
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_share)(const peri__step *step, int64_t place, peri_r *f) {
-    const int linear = step->body->desc.geometry == PERI_LINEAR;
-    if (step->body->model->ordinary == PERI_LPS)
-        return linear ? PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 8, 1) : PERI_LANES_FN(list_row)(step, place, f, PERI_LPS, 8, 0);
-    return PERI_LANES_FN(list_row)(step, place, f, PERI_OTERKUS, 8, linear);
+PERI_LANES_TARGET static int PERI_LANES_FN(list_ordinary)(const peri__step *o, int64_t place, peri_r *f) {
+    if (o->model->gauge)
+        return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, 1) : PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, 0);
+    return PERI_LANES_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
 }
 
 /* sum w g e V of the point at a place. */
-PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b, int64_t place, const int model, const int linear) {
+PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri__step *o, int64_t place, const int by_length, const int linear) {
     PERI_NO_CONTRACTION
-    const peri__model *m = b->model;
+    const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const peri_r *pack = (const peri_r *)b->pack;
+    const peri_r *pack = (const peri_r *)o->pack;
     const peri_b *weights = (const peri_b *)m->weight + first;
     const int32_t *ids = &m->ids[first];
     PERI_STATE sum[PERI_PIECES];
@@ -148,14 +143,14 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * 8 + d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
+        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
         for (int n = 0; n < PERI_PIECES; ++n) {
             PERI_VECTOR part = PERI_V(loadu)(weights + k + n * PERI_WIDTH), bond, product, reach;
             PERI_LANES_FN(piece) s;
             PERI_LANES_FN(span)(&s, pack, 8, ids + k + n * PERI_WIDTH, own, linear);
             part = part * s.along;
-            if (!linear || model != PERI_LPS) {
-                reach = PERI_LANES_FN(roots)(&s, &bond, &product, model, linear);
+            if (!linear || !by_length) {
+                reach = PERI_LANES_FN(roots)(&s, &bond, &product, by_length, linear);
                 part = part * bond / reach;
             }
             PERI_LANES_FN(gather)(&sum[n], PERI_KEEP(PERI_TO_LIVE(flags >> (n * PERI_WIDTH)), part));
@@ -164,23 +159,21 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri_body *b,
     return PERI_LANES_FN(added)(sum);
 }
 
-PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri_body *b, int64_t place) {
-    const int linear = b->desc.geometry == PERI_LINEAR;
-    if (b->model->ordinary == PERI_LPS)
-        return linear ? PERI_LANES_FN(list_sum)(b, place, PERI_LPS, 1) : PERI_LANES_FN(list_sum)(b, place, PERI_LPS, 0);
-    return PERI_LANES_FN(list_sum)(b, place, PERI_OTERKUS, linear);
+PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri__step *o, int64_t place) {
+    if (o->model->gauge) return o->linear ? PERI_LANES_FN(list_sum)(o, place, 1, 1) : PERI_LANES_FN(list_sum)(o, place, 1, 0);
+    return PERI_LANES_FN(list_sum)(o, place, 0, o->linear);
 }
 
-/* ---- correspondence ----------------------------------------------------------------------------------------------- */
+/* ---- gradients ---------------------------------------------------------------------------------------------------- */
 
 #define PERI_TENSOR_SLOTS (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                              */
 
 /* sum w eta xi V of the point at a place. */
-PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int64_t place, peri_r shape[PERI_D][PERI_D]) {
+PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri__step *o, int64_t place, peri_r shape[PERI_D][PERI_D]) {
     PERI_NO_CONTRACTION
-    const peri__model *m = b->model;
+    const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const peri_r *pack = (const peri_r *)b->pack, none[PERI_WIDTH] = { 0 };
+    const peri_r *pack = (const peri_r *)o->pack, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first;
     peri_r own[8] = { 0 };
     PERI_STATE sum[PERI_D][PERI_D][PERI_PIECES];
@@ -190,7 +183,7 @@ PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int6
         for (int d = 0; d < PERI_D; ++d)
             for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
+        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
         for (int n = 0; n < PERI_PIECES; ++n) {
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
@@ -207,17 +200,16 @@ PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri_body *b, int6
         for (int d = 0; d < PERI_D; ++d) shape[a][d] = PERI_LANES_FN(added)(sum[a][d]);
 }
 
-/* Adds the force of all live bonds of the correspondence point i at a place to f, (w_ij Q_i + w_ji Q_j) xi + (w_ij k_i + w_ji k_j) eta; no
-   central bonds. Returns nonzero where a bond comes near its critical stretch; f is then void. */
-PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *step, int64_t place, peri_r *f) {
+/* Adds the force of all live bonds of the point i at a place to f, (w_ij Q_i + w_ji Q_j) xi + (w_ij k_i + w_ji k_j) eta; no central bonds.
+   Returns nonzero where a bond comes near its critical stretch; f is then void. */
+PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *o, int64_t place, peri_r *f) {
     PERI_NO_CONTRACTION
-    const peri_body *b = step->body;
-    const peri__model *m = b->model;
+    const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const int linear = b->desc.geometry == PERI_LINEAR;
-    const peri_r *pack = (const peri_r *)b->pack, *mine = pack + place * PERI_TENSOR_SLOTS, none[PERI_WIDTH] = { 0 };
+    const int linear = o->linear;
+    const peri_r *pack = (const peri_r *)o->pack, *mine = pack + place * PERI_TENSOR_SLOTS, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
-    const peri_b s0 = (peri_b)(step->breaking ? peri__least_stretch(b, i) * (1.0 - PERI_NEAR) : PERI_NEVER);
+    const peri_b s0 = (peri_b)(o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER);
     const PERI_VECTOR limit = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
     peri_r own[PERI_TENSOR_SLOTS] = { 0 };
     PERI_STATE sum[PERI_D][PERI_PIECES];
@@ -227,7 +219,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *step, 
     for (int d = 0; d < PERI_D; ++d)
         for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(none);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(b, i, k, count);
+        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
         for (int n = 0; n < PERI_PIECES; ++n) {
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));

@@ -1,0 +1,392 @@
+/* rows.inl - the passes over a row of Ibond, one bond at a time, for any mixture of laws, criteria and quadratures ([T] 1.20-1.23, 1.80;
+   [P] 1, 9, 10; [C] 1-21). It is the reference, and what decides about bonds that are near breaking.
+
+       e = |xi+eta| - |xi|,    M = (xi+eta)/|xi+eta|,    f_i = sum_j (T_i + T_j),    T_i = w [(p_i g + q_i e) M + Q_i xi + k_i eta]
+
+   w includes beta V_j: `weight` is w_ij beta V_j, of the own half, `back` w_ji beta V_j, of that of j. Seen from j the same sum has the
+   opposite sign, term by term: momentum is conserved whatever the laws of the two ends are.
+   The extension is taken as e = (2 xi + eta).eta/(|xi+eta| + |xi|): the difference of two lengths loses every digit at strains of 1e-7 in
+   single precision, this form none. Each row adds its own bonds in the order of the list and writes only to its own point. Both ends of a
+   bond compute the same e to the last bit (only signs differ), so both find it broken in the same step without telling each other. */
+
+typedef struct PERI_FN(bond) { /* bond (i, j), deformed                                                                    */
+    peri_b xi[PERI_D], eta[PERI_D];
+    peri_b y[PERI_D];           /* along which its force acts: xi + eta, or xi where the geometry is linear              */
+    peri_b length, now;         /* |xi|, |y|                                                                             */
+    peri_b along, reach;        /* e = along/reach                                                                       */
+} PERI_FN(bond);
+
+/* Component d of xi of bond k of a row, where the places of its ends are `apart`. Points decide about the bonds that they share each for
+   itself: they must take the same xi, and so must columns and rows. */
+PERI_INLINE peri_b PERI_FN(xi_of)(const peri__row *row, int64_t k, int d, peri_r apart) {
+    return row->vector ? (peri_b)row->table[row->vector[k]].xi[d] : (peri_b)apart;
+}
+
+PERI_INLINE int PERI_FN(is_live)(const peri__step *s, int64_t i, int64_t k) {
+    return !s->alive || (s->alive[i * s->model->words + k / 32] >> (k % 32) & 1);
+}
+
+/* xi and eta of bond k of row i. */
+PERI_INLINE void PERI_FN(bond_vectors)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, peri_b *xi, peri_b *eta) {
+    const peri__model *m = s->model;
+    const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)s->u;
+    const int64_t j = row->ids[k];
+    for (int d = 0; d < PERI_D; ++d) {
+        const peri_r *xd = x + d * m->stride, *ud = u + d * m->stride;
+        xi[d] = m->centroid ? ((const peri_b *)m->centroid)[(row->first + k) * PERI_D + d] : PERI_FN(xi_of)(row, k, d, xd[j] - xd[i]);
+        eta[d] = (peri_b)(ud[j] - ud[i]);
+    }
+}
+
+PERI_INLINE void PERI_FN(deform)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
+    peri_b along = 0, square = 0;
+    PERI_FN(bond_vectors)(s, i, row, k, bond->xi, bond->eta);
+    for (int d = 0; d < PERI_D; ++d) {
+        const peri_b xi = bond->xi[d], eta = bond->eta[d];
+        bond->y[d] = s->linear ? xi : xi + eta;
+        along += (s->linear ? xi : 2 * xi + eta) * eta;
+        square += bond->y[d] * bond->y[d];
+    }
+    bond->along = along;
+    bond->length = ((const peri_b *)row->bond)[k];
+    bond->now = s->linear ? bond->length : PERI_SQRT(square);
+    bond->reach = s->linear ? bond->length : bond->now + bond->length;
+}
+
+PERI_INLINE const peri__pair *PERI_FN(pair)(const peri__step *s, int64_t i, int64_t j) {
+    return s->cls ? &s->pairs[s->cls[i] * s->classes + s->cls[j]] : s->pairs;
+}
+
+PERI_INLINE peri_b PERI_FN(constant)(const peri__step *s, int plane, int64_t i) {
+    return ((const peri_b *)s->constant)[plane * s->model->stride + i];
+}
+
+PERI_INLINE peri_b PERI_FN(response)(const peri__step *s, int plane, int64_t i) {
+    return ((const peri_b *)s->response)[plane * s->model->stride + i];
+}
+
+/* g of bonds at a point of a law. */
+PERI_INLINE peri_b PERI_FN(gauge)(const peri__law *law, peri_b length) { return law->gauge ? length : 1; }
+
+/* ---- criteria ------------------------------------------------------------------------------------------------------ */
+
+/* Is bond (i, j) beyond its critical stretch as point j sees it? With centroid bonds the two ends differ; the end of lower id decides for
+   both. */
+static int PERI_FN(is_over_for_other)(const peri__step *s, int64_t i, int64_t j, peri_b s0) {
+    PERI_FN(bond) bond;
+    peri__row row;
+    peri__row_of(s->model, j, &row);
+    PERI_FN(deform)(s, j, &row, peri__find_bond(s->model, j, i), &bond);
+    return bond.along > s0 * bond.length * bond.reach;
+}
+
+/* Does bond k of row i, entry `slot` of the arrays of bonds, meet a criterion? */
+PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const peri__model *m = s->model;
+    const int64_t j = row->ids[k];
+    const peri__pair *pair = PERI_FN(pair)(s, i, j);
+    int over;
+    if (m->centroid && j < i) over = PERI_FN(is_over_for_other)(s, i, j, (peri_b)pair->s0);
+    else over = bond->along > (peri_b)pair->s0 * bond->length * bond->reach;
+    if (!(bond->along > 0)) return over;
+    if (s->work) {
+        const double share = row->part ? (double)row->part[k] : m->volume[j];
+        over |= (double)((const peri_r *)s->work)[peri__bond_slot(m, i, row, k)] > pair->bond_energy * share;
+    }
+    if (s->node) over |= 0.5 * (s->node[i] + s->node[j]) > pair->node_energy;
+    return over;
+}
+
+/* ---- the force ------------------------------------------------------------------------------------------------------ */
+
+/* Both halves of a bond of laws that differ: adds the tensor parts to t and returns the force along y over |y|. */
+static peri_b PERI_FN(mixed_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond, peri_b *t) {
+    const peri__model *m = s->model;
+    const int64_t ends[2] = { i, row->ids[k] };
+    const peri_b weights[2] = { ((const peri_b *)row->weight)[k], ((const peri_b *)row->back)[k] };
+    peri_b p[2] = { 0, 0 }, q[2], pull; /* rounded before they are added: both ends must come to the same sum on the x87, too */
+    for (int n = 0; n < 2; ++n) {
+        const peri__law *law = &m->laws[m->material[ends[n]]];
+        if (law->pairwise) q[n] = (peri_b)(0.5 * PERI_FN(pair)(s, ends[n], ends[1 - n])->c) / bond->length;
+        else {
+            q[n] = PERI_FN(constant)(s, PERI__SPRING, ends[n]);
+            p[n] = PERI_FN(response)(s, 0, ends[n]) * PERI_FN(gauge)(law, bond->length);
+        }
+    }
+    if (m->back == m->weight) pull = weights[0] * ((q[0] + q[1]) * bond->along + (p[0] + p[1]) * bond->reach);
+    else
+        pull = (weights[0] * q[0] + weights[1] * q[1]) * bond->along + (weights[0] * p[0] + weights[1] * p[1]) * bond->reach;
+    for (int n = 0; n < 2; ++n) {
+        if (!(m->laws[m->material[ends[n]]].gather & PERI__GRADIENT)) continue;
+        for (int a = 0; a < PERI_D; ++a) {
+            peri_b half = PERI_FN(constant)(s, PERI__VECTOR, ends[n]) * bond->eta[a];
+            for (int d = 0; d < PERI_D; ++d) half += PERI_FN(response)(s, 1 + a * PERI_D + d, ends[n]) * bond->xi[d];
+            half = weights[n] * half;
+            t[a] += half;
+        }
+    }
+    return pull / (bond->reach * (bond->now + PERI_TINY));
+}
+
+/* The same of one ordinary law. */
+PERI_INLINE peri_b PERI_FN(ordinary_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const peri__model *m = s->model;
+    const int64_t j = row->ids[k];
+    const peri_b qi = PERI_FN(constant)(s, PERI__SPRING, i), qj = PERI_FN(constant)(s, PERI__SPRING, j);
+    const peri_b pi = PERI_FN(response)(s, 0, i), pj = PERI_FN(response)(s, 0, j);
+    const peri_b gauge = m->gauge ? bond->length : 1;
+    peri_b weight = ((const peri_b *)row->weight)[k], back = ((const peri_b *)row->back)[k], pull;
+    if (s->linear) { /* over |xi|^2 here */
+        const peri_b inverse = 1 / bond->length;
+        weight *= inverse * inverse;
+        back *= inverse * inverse;
+    }
+    if (m->back == m->weight) pull = weight * ((qi + qj) * bond->along + (pi + pj) * gauge * bond->reach);
+    else pull = (weight * qi + back * qj) * bond->along + (weight * pi + back * pj) * gauge * bond->reach;
+    return s->linear ? pull : pull / (bond->reach * (bond->now + PERI_TINY));
+}
+
+/* The same of pairwise laws: c w s M. */
+PERI_INLINE peri_b PERI_FN(pairwise_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const peri_b c = (peri_b)PERI_FN(pair)(s, i, row->ids[k])->c, weight = ((const peri_b *)row->weight)[k];
+    if (s->linear) {
+        const peri_b inverse = 1 / bond->length;
+        return c * weight * (inverse * inverse * inverse) * bond->along;
+    }
+    return c * weight * bond->along / (bond->reach * bond->length * (bond->now + PERI_TINY));
+}
+
+/* The work of the force t along the way of bond k since it was last worked out, by the trapezoidal rule. */
+static void PERI_FN(count_work)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const peri_b *eta, const peri_r *t) {
+    const peri__model *m = s->model;
+    const int64_t j = row->ids[k], at = peri__bond_slot(m, i, row, k);
+    const peri_r *worked = (const peri_r *)s->worked;
+    for (int d = 0; d < PERI_D; ++d) {
+        const peri_r *w = worked + d * m->stride;
+        peri_r *pull = (peri_r *)s->pull + peri__pull_slot(m, at, d);
+        ((peri_r *)s->work)[at] += (peri_r)0.5 * (*pull + t[d]) * (eta[d] - (w[j] - w[i]));
+        *pull = t[d];
+    }
+}
+
+/* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, their force going to
+   `impulse` and their energy to *lost (per volume of the body); else they are noted in `dying`, and still act. Returns their number.
+   `pairwise` and `mixed` are constants where this is inlined. */
+PERI_INLINE int32_t PERI_FN(row_force)(const peri__step *s, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse, double *lost,
+                                       const int pairwise, const int mixed) {
+    const peri__model *m = s->model;
+    const int breaking = s->breaking && s->alive;
+    const int32_t count = (int32_t)row->count;
+    int32_t over = 0;
+    for (int32_t first = 0; first < count; first += 32) {
+        const uint32_t live = s->alive ? s->alive[i * m->words + first / 32] : ~(uint32_t)0;
+        const int32_t chunk = count - first < 32 ? count - first : 32;
+        uint32_t dead = 0;
+        for (int32_t n = 0; n < chunk; ++n) {
+            const int64_t k = first + n;
+            PERI_FN(bond) bond;
+            peri_b t[PERI_D] = { 0 }, pull;
+            peri_r force[PERI_D];
+            if (!(live >> n & 1)) continue;
+            PERI_FN(deform)(s, i, row, k, &bond);
+            if (pairwise) pull = PERI_FN(pairwise_pull)(s, i, row, k, &bond);
+            else if (mixed) pull = PERI_FN(mixed_pull)(s, i, row, k, &bond, t);
+            else pull = PERI_FN(ordinary_pull)(s, i, row, k, &bond);
+            for (int d = 0; d < PERI_D; ++d) force[d] = mixed ? t[d] + pull * bond.y[d] : pull * bond.y[d];
+            if (!pairwise && s->working) PERI_FN(count_work)(s, i, row, k, bond.eta, force);
+            if (breaking && PERI_FN(is_over)(s, i, row, k, &bond)) {
+                dead |= (uint32_t)1 << n;
+                over++;
+                if (pairwise) {
+                    const double c = PERI_FN(pair)(s, i, row->ids[k])->c, weight = (double)((const peri_b *)row->weight)[k];
+                    const double stretch = (double)bond.along / ((double)bond.reach * (double)bond.length);
+                    *lost += 0.25 * (double)(peri_b)c * weight * stretch * stretch * (double)bond.length * m->volume[i];
+                    for (int d = 0; d < PERI_D; ++d) impulse[d] += force[d];
+                    continue;
+                }
+            }
+            for (int d = 0; d < PERI_D; ++d) f[d] += force[d];
+        }
+        if (pairwise && dead) s->alive[i * m->words + first / 32] = live & ~dead;
+        if (!pairwise && breaking) s->dying[i * m->words + first / 32] = dead;
+    }
+    return over;
+}
+
+/* The force density of the bonds of point i is added to f. sums: a energy of bonds that broke, n the (directed) number of those that broke
+   or are to. */
+static void PERI_FN(point_force)(const peri__step *s, int64_t i, peri_r *f, peri__sums *sums) {
+    const peri__model *m = s->model;
+    peri_r impulse[PERI_D] = { 0 };
+    peri__row row;
+    peri__row_of(m, i, &row);
+    if (!m->pairwise) {
+        sums->n += m->mixed || m->gathers & PERI__GRADIENT ? PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1)
+                                                           : PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0);
+        return;
+    }
+    const int32_t broke = PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0);
+    if (broke) {
+        const peri_r kick = (peri_r)(s->impulse / m->rho[m->material[i]]);
+        for (int d = 0; d < PERI_D; ++d) ((peri_r *)s->v)[d * m->stride + i] += kick * impulse[d];
+        sums->n += broke;
+    }
+}
+
+/* Points [begin, end), one by one. */
+static void PERI_FN(force_rows)(const peri__step *s, int64_t begin, int64_t end, peri__sums *sums) {
+    const int64_t stride = s->model->stride;
+    peri_r *force = (peri_r *)s->f;
+    for (int64_t i = begin; i < end; ++i) {
+        peri_r f[PERI_D];
+        for (int d = 0; d < PERI_D; ++d) f[d] = force[d * stride + i];
+        PERI_FN(point_force)(s, i, f, sums);
+        for (int d = 0; d < PERI_D; ++d) force[d * stride + i] = f[d];
+    }
+}
+
+/* For the points of a list: takes the force that their bonds give out of f (sign -1), or puts it in (1), and gives the opposite of it for
+   the time s->impulse to v. */
+static void PERI_FN(exchange)(const peri__step *s, const int32_t *points, int64_t count, int sign) {
+    const peri__model *m = s->model;
+    for (int64_t k = 0; k < count; ++k) {
+        const int64_t i = points[k];
+        const peri_r kick = (peri_r)(s->impulse / m->rho[m->material[i]]);
+        peri_r f[PERI_D] = { 0 };
+        peri__sums sums = { 0.0, 0.0, 0, -1 };
+        PERI_FN(point_force)(s, i, f, &sums);
+        for (int d = 0; d < PERI_D; ++d) {
+            ((peri_r *)s->f)[d * m->stride + i] += (peri_r)sign * f[d];
+            ((peri_r *)s->v)[d * m->stride + i] -= (peri_r)sign * kick * f[d];
+        }
+    }
+}
+
+/* ---- gathering ------------------------------------------------------------------------------------------------------ */
+
+/* sum w g e V. */
+static peri_r PERI_FN(row_stretched)(const peri__step *s, int64_t i, const peri__row *row) {
+    const int by_length = s->model->laws[s->model->material[i]].gauge;
+    peri_r sum = 0;
+    for (int64_t k = 0; k < row->count; ++k) {
+        const peri_b length = ((const peri_b *)row->bond)[k], weight = ((const peri_b *)row->weight)[k];
+        const peri_b gauge = s->linear ? (by_length ? 1 : 1 / length) : by_length ? length : 1, gauged = weight * gauge;
+        PERI_FN(bond) bond;
+        if (!PERI_FN(is_live)(s, i, k)) continue;
+        PERI_FN(deform)(s, i, row, k, &bond);
+        sum += s->linear ? gauged * bond.along : gauged * (bond.along / bond.reach);
+    }
+    return sum;
+}
+
+/* sum w eta xi V. */
+static void PERI_FN(row_shape)(const peri__step *s, int64_t i, const peri__row *row, peri_r n[PERI_D][PERI_D]) {
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) n[a][d] = 0;
+    for (int64_t k = 0; k < row->count; ++k) {
+        const peri_b weight = ((const peri_b *)row->weight)[k];
+        peri_b xi[PERI_D], eta[PERI_D];
+        if (!PERI_FN(is_live)(s, i, k)) continue;
+        PERI_FN(bond_vectors)(s, i, row, k, xi, eta);
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
+    }
+}
+
+PERI_INLINE peri_b PERI_FN(inverse)(const peri__step *s, int64_t i, int c, int d) {
+    return PERI_FN(constant)(s, PERI__INVERSE + peri__packed(PERI_D, c, d), i);
+}
+
+/* H = (sum w eta xi V) K^-1. */
+static void PERI_FN(gradient)(const peri__step *s, int64_t i, peri_r n[PERI_D][PERI_D], peri_r h[PERI_D][PERI_D]) {
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) {
+            h[a][d] = 0;
+            for (int c = 0; c < PERI_D; ++c) h[a][d] += n[a][c] * PERI_FN(inverse)(s, i, c, d);
+        }
+}
+
+/* p of the sum w g e V. The product of the two constants alone can leave the range of float. */
+PERI_INLINE void PERI_FN(put_pressure)(const peri__step *s, int64_t i, peri_r sum) {
+    const peri_b press = PERI_FN(constant)(s, PERI__PRESS, i);
+    ((peri_b *)s->response)[i] = press == 0 ? 0 : (peri_b)(press * (PERI_FN(constant)(s, PERI__DILATE, i) * sum));
+}
+
+/* Q = P K^-1 - k H of n = sum w eta xi V. */
+static void PERI_FN(put_tensor)(const peri__step *s, int64_t i, peri_r n[PERI_D][PERI_D]) {
+    const peri__model *m = s->model;
+    const peri__law *law = &m->laws[m->material[i]];
+    peri_b *response = (peri_b *)s->response + i;
+    peri_r h[PERI_D][PERI_D], e[PERI_D][PERI_D], p[PERI_D][PERI_D];
+    PERI_FN(gradient)(s, i, n, h);
+    PERI_FN(strain)(PERI_D, s->linear, h, e);
+    PERI_FN(stress)(law, PERI_D, s->linear, h, e, p);
+    response[0] = 0;
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) {
+            peri_r q = -PERI_FN(constant)(s, PERI__VECTOR, i) * h[a][d];
+            for (int c = 0; c < PERI_D; ++c) q += p[a][c] * PERI_FN(inverse)(s, i, c, d);
+            response[(1 + a * PERI_D + d) * m->stride] = (peri_b)q;
+        }
+}
+
+/* ---- energy --------------------------------------------------------------------------------------------------------- */
+
+/* Energy density of point i: half of that of its bonds, w q e^2/2 each, and what it gathers. */
+static double PERI_FN(point_energy)(const peri__step *s, int64_t i, const peri__row *row) {
+    const peri__model *m = s->model;
+    const peri__law *law = &m->laws[m->material[i]];
+    double density = 0.0, squares = 0.0, apart = 0.0;
+    peri_r sum = 0;
+    for (int64_t k = 0; k < row->count; ++k) {
+        const peri_b weight = ((const peri_b *)row->weight)[k];
+        PERI_FN(bond) bond;
+        if (!PERI_FN(is_live)(s, i, k)) continue;
+        PERI_FN(deform)(s, i, row, k, &bond);
+        const peri_b e = bond.along / bond.reach;
+        if (law->pairwise)
+            density += 0.25 * PERI_FN(pair)(s, i, row->ids[k])->c * (double)weight * (double)e * (double)e / (double)bond.length;
+        sum += weight * PERI_FN(gauge)(law, bond.length) * e;
+        squares += (double)weight * (double)e * (double)e;
+    }
+    if (law->pairwise) return density;
+    const double dilate = (double)PERI_FN(constant)(s, PERI__DILATE, i), stretched = (double)sum;
+    density = 0.5 * (double)PERI_FN(constant)(s, PERI__SPRING, i) * squares;
+    if (!(law->gather & PERI__GRADIENT))
+        return density + 0.5 * (double)PERI_FN(constant)(s, PERI__PRESS, i) * dilate * stretched * stretched;
+
+    peri_r n[PERI_D][PERI_D], h[PERI_D][PERI_D], strain[PERI_D][PERI_D];
+    PERI_FN(row_shape)(s, i, row, n);
+    PERI_FN(gradient)(s, i, n, h);
+    PERI_FN(strain)(PERI_D, s->linear, h, strain);
+    for (int64_t k = 0; k < row->count; ++k) { /* sum w |eta - H xi|^2 V */
+        peri_b xi[PERI_D], eta[PERI_D];
+        if (!PERI_FN(is_live)(s, i, k)) continue;
+        PERI_FN(bond_vectors)(s, i, row, k, xi, eta);
+        for (int a = 0; a < PERI_D; ++a) {
+            peri_r z = eta[a];
+            for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * xi[d];
+            apart += (double)((const peri_b *)row->weight)[k] * peri__square((double)z);
+        }
+    }
+    return density + PERI_FN(strain_energy)(law, PERI_D, strain) + 0.5 * (double)PERI_FN(constant)(s, PERI__VECTOR, i) * apart;
+}
+
+/* What points make of their families: p, Q, and where a criterion asks for it the energy of the node. */
+static void PERI_FN(gather_rows)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__step *s = (const peri__step *)context;
+    const peri__model *m = s->model;
+    peri__row row;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        const peri__law *law = &m->laws[m->material[i]];
+        peri_r n[PERI_D][PERI_D];
+        peri__row_of(m, i, &row);
+        if (law->gather & PERI__GRADIENT) {
+            PERI_FN(row_shape)(s, i, &row, n);
+            PERI_FN(put_tensor)(s, i, n);
+        } else if (!law->pairwise)
+            PERI_FN(put_pressure)(s, i, law->gather & PERI__DILATATION ? PERI_FN(row_stretched)(s, i, &row) : 0);
+        if (s->node) s->node[i] = 2.0 * PERI_FN(point_energy)(s, i, &row) / peri__family_volume(m, i);
+    }
+}

@@ -1,0 +1,37 @@
+/* law.h - what laws differ in, and the list of them.
+
+   The half of a bond that its end i gives is a force density, per weight w,
+       (p g + q e) M            along the bond M; e its extension, g its gauge: |xi| or 1
+     + Q xi + k eta             of laws with a gradient
+   p and Q are what the point makes of its family: of the dilatation theta = d sum w g e V, or of the displacement gradient
+   H = (sum w eta xi V) K^-1. The constants d, p/theta, q, k and K^-1 are calibrated on the live family (calibration.c). A pairwise law has
+   none: its q is c/(2 |xi|), c of the pair of materials.
+
+   A law is one file, included in three roles: its traits (here), its calibration, and of laws with a gradient its stress. */
+#ifndef PERI_LAW_H
+#define PERI_LAW_H
+
+typedef enum peri__gather { /* what a point makes of its family before forces can be had                                  */
+    PERI__NO_GATHER = 0,
+    PERI__DILATATION = 1,
+    PERI__GRADIENT = 2
+} peri__gather;
+
+#define PERI_LAW_ROLE_TRAITS
+#include "bond_based.inl"
+#include "lps.inl"
+#include "oterkus.inl"
+#include "correspondence.inl"
+#undef PERI_LAW_ROLE_TRAITS
+
+/* X(name, number) for every law */
+#define PERI_LAW_LIST(X)            \
+    X(bond_based, PERI_BOND_BASED)  \
+    X(lps, PERI_LPS)                \
+    X(oterkus, PERI_OTERKUS)        \
+    PERI_GRADIENT_LAW_LIST(X)
+
+/* and for those with a gradient */
+#define PERI_GRADIENT_LAW_LIST(X) X(correspondence, PERI_CORRESPONDENCE)
+
+#endif

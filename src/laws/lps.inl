@@ -1,0 +1,17 @@
+/* lps.inl - linear peridynamic solid ([T] 1.54, 1.67, 1.72):
+
+       theta = D/m sum w |xi| e V,    half = (A theta/m |xi| + B/m e) M
+
+   A and B by space: material.c. Where A is 0 (Poisson's ratio of the bond-based law) nothing is gathered. */
+#ifdef PERI_LAW_ROLE_TRAITS
+enum { PERI__GATHER_lps = PERI__DILATATION, PERI__GAUGE_lps = 1, PERI__PAIRWISE_lps = 0, PERI__BY_A_lps = 1 };
+#endif
+
+#ifdef PERI_LAW_ROLE_CALIBRATION
+static int peri__calibrate_lps(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
+    r->dilate = dim / sum->m;
+    r->press = law->a / dim * r->dilate;
+    r->spring = law->b / sum->m;
+    return 1;
+}
+#endif
