@@ -27,30 +27,36 @@ PERI_INLINE int PERI_FN(is_live)(const peri__step *s, int64_t i, int64_t k) {
 }
 
 /* xi and eta of bond k of row i. */
-PERI_INLINE void PERI_FN(bond_vectors)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, peri_b *xi, peri_b *eta) {
+PERI_INLINE void PERI_FN(bond_vectors)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, peri_b *xi, peri_b *eta,
+                                       const int centred) {
     const peri__model *m = s->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)s->u;
     const int64_t j = row->ids[k];
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *xd = x + d * m->stride, *ud = u + d * m->stride;
-        xi[d] = m->centroid ? ((const peri_b *)m->centroid)[(row->first + k) * PERI_D + d] : PERI_FN(xi_of)(row, k, d, xd[j] - xd[i]);
+        xi[d] = centred ? ((const peri_b *)m->centroid)[(row->first + k) * PERI_D + d] : PERI_FN(xi_of)(row, k, d, xd[j] - xd[i]);
         eta[d] = (peri_b)(ud[j] - ud[i]);
     }
 }
 
-PERI_INLINE void PERI_FN(deform)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
+PERI_INLINE void PERI_FN(deform_as)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond, const int linear,
+                                    const int centred) {
     peri_b along = 0, square = 0;
-    PERI_FN(bond_vectors)(s, i, row, k, bond->xi, bond->eta);
+    PERI_FN(bond_vectors)(s, i, row, k, bond->xi, bond->eta, centred);
     for (int d = 0; d < PERI_D; ++d) {
         const peri_b xi = bond->xi[d], eta = bond->eta[d];
-        bond->y[d] = s->linear ? xi : xi + eta;
-        along += (s->linear ? xi : 2 * xi + eta) * eta;
+        bond->y[d] = linear ? xi : xi + eta;
+        along += (linear ? xi : 2 * xi + eta) * eta;
         square += bond->y[d] * bond->y[d];
     }
     bond->along = along;
     bond->length = ((const peri_b *)row->bond)[k];
-    bond->now = s->linear ? bond->length : PERI_SQRT(square);
-    bond->reach = s->linear ? bond->length : bond->now + bond->length;
+    bond->now = linear ? bond->length : PERI_SQRT(square);
+    bond->reach = linear ? bond->length : bond->now + bond->length;
+}
+
+PERI_INLINE void PERI_FN(deform)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
+    PERI_FN(deform_as)(s, i, row, k, bond, s->linear, s->model->centroid != NULL);
 }
 
 PERI_INLINE const peri__pair *PERI_FN(pair)(const peri__step *s, int64_t i, int64_t j) {
@@ -80,12 +86,13 @@ static int PERI_FN(is_over_for_other)(const peri__step *s, int64_t i, int64_t j,
     return bond.along > s0 * bond.length * bond.reach;
 }
 
-/* Does bond k of row i, entry `slot` of the arrays of bonds, meet a criterion? */
-PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+/* Does bond k of row i meet a criterion? `plain`: there is only the critical stretch. */
+PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond, const int plain) {
     const peri__model *m = s->model;
     const int64_t j = row->ids[k];
     const peri__pair *pair = PERI_FN(pair)(s, i, j);
     int over;
+    if (plain) return bond->along > (peri_b)pair->s0 * bond->length * bond->reach;
     if (m->centroid && j < i) over = PERI_FN(is_over_for_other)(s, i, j, (peri_b)pair->s0);
     else over = bond->along > (peri_b)pair->s0 * bond->length * bond->reach;
     if (!(bond->along > 0)) return over;
@@ -129,27 +136,29 @@ static peri_b PERI_FN(mixed_pull)(const peri__step *s, int64_t i, const peri__ro
 }
 
 /* The same of one ordinary law. */
-PERI_INLINE peri_b PERI_FN(ordinary_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+PERI_INLINE peri_b PERI_FN(ordinary_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
+                                          const int linear) {
     const peri__model *m = s->model;
     const int64_t j = row->ids[k];
     const peri_b qi = PERI_FN(constant)(s, PERI__SPRING, i), qj = PERI_FN(constant)(s, PERI__SPRING, j);
     const peri_b pi = PERI_FN(response)(s, 0, i), pj = PERI_FN(response)(s, 0, j);
     const peri_b gauge = m->gauge ? bond->length : 1;
     peri_b weight = ((const peri_b *)row->weight)[k], back = ((const peri_b *)row->back)[k], pull;
-    if (s->linear) { /* over |xi|^2 here */
+    if (linear) { /* over |xi|^2 here */
         const peri_b inverse = 1 / bond->length;
         weight *= inverse * inverse;
         back *= inverse * inverse;
     }
     if (m->back == m->weight) pull = weight * ((qi + qj) * bond->along + (pi + pj) * gauge * bond->reach);
     else pull = (weight * qi + back * qj) * bond->along + (weight * pi + back * pj) * gauge * bond->reach;
-    return s->linear ? pull : pull / (bond->reach * (bond->now + PERI_TINY));
+    return linear ? pull : pull / (bond->reach * (bond->now + PERI_TINY));
 }
 
 /* The same of pairwise laws: c w s M. */
-PERI_INLINE peri_b PERI_FN(pairwise_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+PERI_INLINE peri_b PERI_FN(pairwise_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
+                                          const int linear) {
     const peri_b c = (peri_b)PERI_FN(pair)(s, i, row->ids[k])->c, weight = ((const peri_b *)row->weight)[k];
-    if (s->linear) {
+    if (linear) {
         const peri_b inverse = 1 / bond->length;
         return c * weight * (inverse * inverse * inverse) * bond->along;
     }
@@ -171,13 +180,15 @@ static void PERI_FN(count_work)(const peri__step *s, int64_t i, const peri__row 
 
 /* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, their force going to
    `impulse` and their energy to *lost (per volume of the body); else they are noted in `dying`, and still act. Returns their number.
-   `pairwise` and `mixed` are constants where this is inlined. */
+   `pairwise`, `mixed` and `plain` (neither linear nor centred, only critical stretches) are constants where this is inlined. */
 PERI_INLINE int32_t PERI_FN(row_force)(const peri__step *s, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse, double *lost,
-                                       const int pairwise, const int mixed) {
+                                       const int pairwise, const int mixed, const int plain) {
     const peri__model *m = s->model;
     const int breaking = s->breaking && s->alive;
     const int32_t count = (int32_t)row->count;
     int32_t over = 0;
+    peri_r sum[PERI_D];
+    for (int d = 0; d < PERI_D; ++d) sum[d] = f[d];
     for (int32_t first = 0; first < count; first += 32) {
         const uint32_t live = s->alive ? s->alive[i * m->words + first / 32] : ~(uint32_t)0;
         const int32_t chunk = count - first < 32 ? count - first : 32;
@@ -188,13 +199,14 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__step *s, int64_t i, const per
             peri_b t[PERI_D] = { 0 }, pull;
             peri_r force[PERI_D];
             if (!(live >> n & 1)) continue;
-            PERI_FN(deform)(s, i, row, k, &bond);
-            if (pairwise) pull = PERI_FN(pairwise_pull)(s, i, row, k, &bond);
+            if (plain) PERI_FN(deform_as)(s, i, row, k, &bond, 0, 0);
+            else PERI_FN(deform)(s, i, row, k, &bond);
+            if (pairwise) pull = PERI_FN(pairwise_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
             else if (mixed) pull = PERI_FN(mixed_pull)(s, i, row, k, &bond, t);
-            else pull = PERI_FN(ordinary_pull)(s, i, row, k, &bond);
+            else pull = PERI_FN(ordinary_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
             for (int d = 0; d < PERI_D; ++d) force[d] = mixed ? t[d] + pull * bond.y[d] : pull * bond.y[d];
-            if (!pairwise && s->working) PERI_FN(count_work)(s, i, row, k, bond.eta, force);
-            if (breaking && PERI_FN(is_over)(s, i, row, k, &bond)) {
+            if (!pairwise && !plain && s->working) PERI_FN(count_work)(s, i, row, k, bond.eta, force);
+            if (breaking && PERI_FN(is_over)(s, i, row, k, &bond, plain)) {
                 dead |= (uint32_t)1 << n;
                 over++;
                 if (pairwise) {
@@ -205,11 +217,12 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__step *s, int64_t i, const per
                     continue;
                 }
             }
-            for (int d = 0; d < PERI_D; ++d) f[d] += force[d];
+            for (int d = 0; d < PERI_D; ++d) sum[d] += force[d];
         }
         if (pairwise && dead) s->alive[i * m->words + first / 32] = live & ~dead;
         if (!pairwise && breaking) s->dying[i * m->words + first / 32] = dead;
     }
+    for (int d = 0; d < PERI_D; ++d) f[d] = sum[d];
     return over;
 }
 
@@ -220,12 +233,15 @@ static void PERI_FN(point_force)(const peri__step *s, int64_t i, peri_r *f, peri
     peri_r impulse[PERI_D] = { 0 };
     peri__row row;
     peri__row_of(m, i, &row);
+    const int plain = !s->linear && !m->centroid && !s->work && !s->node;
     if (!m->pairwise) {
-        sums->n += m->mixed || m->gathers & PERI__GRADIENT ? PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1)
-                                                           : PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0);
+        if (m->mixed || m->gathers & PERI__GRADIENT) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1, 0);
+        else if (plain) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 1);
+        else sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 0);
         return;
     }
-    const int32_t broke = PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0);
+    const int32_t broke = plain ? PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0, 1)
+                                : PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0, 0);
     if (broke) {
         const peri_r kick = (peri_r)(s->impulse / m->rho[m->material[i]]);
         for (int d = 0; d < PERI_D; ++d) ((peri_r *)s->v)[d * m->stride + i] += kick * impulse[d];
@@ -287,7 +303,7 @@ static void PERI_FN(row_shape)(const peri__step *s, int64_t i, const peri__row *
         const peri_b weight = ((const peri_b *)row->weight)[k];
         peri_b xi[PERI_D], eta[PERI_D];
         if (!PERI_FN(is_live)(s, i, k)) continue;
-        PERI_FN(bond_vectors)(s, i, row, k, xi, eta);
+        PERI_FN(bond_vectors)(s, i, row, k, xi, eta, 0);
         for (int a = 0; a < PERI_D; ++a)
             for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
     }
@@ -362,7 +378,7 @@ static double PERI_FN(point_energy)(const peri__step *s, int64_t i, const peri__
     for (int64_t k = 0; k < row->count; ++k) { /* sum w |eta - H xi|^2 V */
         peri_b xi[PERI_D], eta[PERI_D];
         if (!PERI_FN(is_live)(s, i, k)) continue;
-        PERI_FN(bond_vectors)(s, i, row, k, xi, eta);
+        PERI_FN(bond_vectors)(s, i, row, k, xi, eta, 0);
         for (int a = 0; a < PERI_D; ++a) {
             peri_r z = eta[a];
             for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * xi[d];
