@@ -1,7 +1,7 @@
-# wings.awk - no arrow upwards between the folders of src/: `awk -f tools/wings.awk peri_impl.c src/*/*`. The order of the folders is the
-# order in which peri_impl.c includes them. A function, variable, macro, type or constant that a folder defines may be used in that folder
-# and in those after it. A name that several folders define belongs to the first of them, prototypes aside: they define nothing. Names that
-# macros make (PERI_FN of the kernels) are not followed.
+# wings.awk - no arrow upwards between the folders of src/: `awk -f tools/wings.awk peri_impl.c src/*/*`. The order of the folders is that
+# of their first parts in peri_impl.c, headers aside, which may be read earlier. A function, variable, macro, type or constant that a
+# folder defines may be used in that folder and in those after it. A name that several folders define belongs to the first of them,
+# prototypes aside: they define nothing. Names that macros make (PERI_FN of the kernels) are not followed.
 # Also counts where laws are told apart by name or flag outside src/laws; -v laws=refuse names each place and fails.
 
 # The line without comments and without the insides of strings; in_comment goes on from line to line.
@@ -62,7 +62,7 @@ FILENAME == "peri_impl.c" {
         home[$2] = "peri_impl.c"
         rank["peri_impl.c"] = 0
     }
-    if (!match($0, /^#include "src\/[a-z]+\//)) next
+    if (!match($0, /^#include "src\/[a-z]+\//) || /\.h"/) next
     name = substr($0, RSTART + 10, RLENGTH - 11)
     if (!(name in rank)) rank[name] = ++folders
     next
