@@ -46,6 +46,7 @@
               (functions on a const body only return the code).
               A call that fails has changed nothing, unless its text says otherwise. An id that came from a failed call is
               negative and is refused by the next call, so a chain of set-up calls cannot go silently wrong.
+     Enums    end in a PERI_..._COUNT_, one beyond the last number, which is not for you: it grows with the enum.
      Owner    You own what you pass in: descriptors and arrays are copied. The body owns what views point to.
      Callbacks may read the body (within a step, forces and velocities are those under way). on_frame may also cut, select,
               set no-fail zones and break callbacks, and add or remove loads and obstacles. Any other change to the body
@@ -96,44 +97,43 @@ extern "C" {
 
 /* ---- status ------------------------------------------------------------------------------------------------------- */
 
-/* X(name, value, text). One list: the enum below and peri_status_text are made from it. */
-#define PERI_STATUS_LIST(X)                                                                                            \
-    X(STOPPED, 1, "a callback asked to stop; the body is at a whole step and may go on")                               \
-    X(OK, 0, "success")                                                                                                \
-    X(ERROR_ARGUMENT, -1, "a required pointer is NULL, or a count or a choice is not one of the allowed values")       \
-    X(ERROR_DESCRIPTOR, -2, "the descriptor was not filled by its init function, or is of another version")           \
-    X(ERROR_MEMORY, -3, "the allocator returned NULL")                                                                 \
-    X(ERROR_RANGE, -4, "a number is not finite or lies outside the range of its field")                                \
-    X(ERROR_ORDER, -5, "this call comes too early or too late: points before peri_build, all else after it")           \
-    X(ERROR_MATERIAL, -6, "no such material, or a material that contradicts itself")                                   \
-    X(ERROR_POISSON, -7, "a bond-based material has a fixed Poisson ratio (1/4 in 3D and plane strain, 1/3 in plane stress); it must be") \
-    X(ERROR_INFLUENCE, -8, "the influence function is not finite here, or has no finite moments to calibrate with")    \
-    X(ERROR_POINT, -9, "a point has a position that is not finite, or a volume that is not positive and finite")       \
-    X(ERROR_COINCIDENT, -10, "two points are at the same place")                                                       \
-    X(ERROR_NO_POINTS, -11, "the body, or the shape just added, has no point")                                         \
-    X(ERROR_HORIZON, -12, "the horizon is smaller than the spacing of the points")                                     \
-    X(ERROR_FAMILY, -13, "a point has no neighbour within its horizon, or none with a weight")                         \
-    X(ERROR_IBOND, -14, "the given families are not valid: id out of range, given twice, or not mutual")               \
-    X(ERROR_TOO_LARGE, -15, "more points or bonds than 32-bit ids can number, or more than the memory can address")    \
-    X(ERROR_SET, -16, "no such set, a name that is taken, or a selection that holds no point")                         \
-    X(ERROR_ID, -17, "no such point, load or obstacle")                                                                \
-    X(ERROR_CRACK, -18, "the crack has no extent, or is of a kind that this space does not have")                      \
-    X(ERROR_PAIR, -19, "the two points share no bond")                                                                 \
-    X(ERROR_STEP, -20, "the time step is larger than the stable step, which is the value")                               \
-    X(ERROR_UNSTABLE, -21, "a point is faster than 1e9 speeds of sound or not finite: unstable step, load or start")    \
-    X(ERROR_CALLBACK, -22, "a callback wrote a number that is not finite")                                             \
-    X(ERROR_FIELD, -23, "the field cannot be used in this way: not stored, or not writable")                           \
-    X(ERROR_CAPACITY, -24, "the buffer has the wrong size; it needs the value")                                          \
-    X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")                       \
-    X(ERROR_CRITERION, -26, "the failure criterion cannot act on this model, or lacks its fracture energy")            \
-    X(ERROR_MODEL, -27, "this model has no such constant, or cannot take this quadrature, interface or load")                    \
-    X(ERROR_LOOSE, -28, "no support holds this part of the body against some motion")                                  \
-    X(ERROR_INDEFINITE, -29, "the tangent stiffness is not positive: buckling, softening or compression")              \
-    X(ERROR_CONVERGENCE, -30, "no equilibrium within the iterations allowed; the value is the residual over its scale")
-
-#define PERI_STATUS_ENUM_(name, value, text) PERI_##name = value,
-typedef enum peri_status { PERI_STATUS_LIST(PERI_STATUS_ENUM_) PERI_STATUS_END_ = 1000 } peri_status;
-#undef PERI_STATUS_ENUM_
+/* peri_status_text says the same. */
+typedef enum peri_status {
+    PERI_STOPPED           =   1, /* a callback asked to stop; the body is at a whole step and may go on */
+    PERI_OK                =   0, /* success */
+    PERI_ERROR_ARGUMENT    =  -1, /* a required pointer is NULL, or a count or a choice is not one of the allowed values */
+    PERI_ERROR_DESCRIPTOR  =  -2, /* the descriptor was not filled by its init function, or is of another version */
+    PERI_ERROR_MEMORY      =  -3, /* the allocator returned NULL */
+    PERI_ERROR_RANGE       =  -4, /* a number is not finite or lies outside the range of its field */
+    PERI_ERROR_ORDER       =  -5, /* this call comes too early or too late: points before peri_build, all else after it */
+    PERI_ERROR_MATERIAL    =  -6, /* no such material, or a material that contradicts itself */
+    PERI_ERROR_POISSON     =  -7, /* a bond-based material has a fixed Poisson ratio (1/4 in 3D and plane strain, 1/3
+                                     in plane stress); it must be */
+    PERI_ERROR_INFLUENCE   =  -8, /* the influence function is not finite here, or has no finite moments to calibrate with */
+    PERI_ERROR_POINT       =  -9, /* a point has a position that is not finite, or a volume that is not positive and finite */
+    PERI_ERROR_COINCIDENT  = -10, /* two points are at the same place */
+    PERI_ERROR_NO_POINTS   = -11, /* the body, or the shape just added, has no point */
+    PERI_ERROR_HORIZON     = -12, /* the horizon is smaller than the spacing of the points */
+    PERI_ERROR_FAMILY      = -13, /* a point has no neighbour within its horizon, or none with a weight */
+    PERI_ERROR_IBOND       = -14, /* the given families are not valid: id out of range, given twice, or not mutual */
+    PERI_ERROR_TOO_LARGE   = -15, /* more points or bonds than 32-bit ids can number, or more than the memory can address */
+    PERI_ERROR_SET         = -16, /* no such set, a name that is taken, or a selection that holds no point */
+    PERI_ERROR_ID          = -17, /* no such point, load or obstacle */
+    PERI_ERROR_CRACK       = -18, /* the crack has no extent, or is of a kind that this space does not have */
+    PERI_ERROR_PAIR        = -19, /* the two points share no bond */
+    PERI_ERROR_STEP        = -20, /* the time step is larger than the stable step, which is the value */
+    PERI_ERROR_UNSTABLE    = -21, /* a point is faster than 1e9 speeds of sound or not finite: unstable step, load or start */
+    PERI_ERROR_CALLBACK    = -22, /* a callback wrote a number that is not finite */
+    PERI_ERROR_FIELD       = -23, /* the field cannot be used in this way: not stored, or not writable */
+    PERI_ERROR_CAPACITY    = -24, /* the buffer has the wrong size; it needs the value */
+    PERI_ERROR_WRITE       = -25, /* the file could not be opened or written, or the write callback failed */
+    PERI_ERROR_CRITERION   = -26, /* the failure criterion cannot act on this model, or lacks its fracture energy */
+    PERI_ERROR_MODEL       = -27, /* this model has no such constant, or cannot take this quadrature, interface or load */
+    PERI_ERROR_LOOSE       = -28, /* no support holds this part of the body against some motion */
+    PERI_ERROR_INDEFINITE  = -29, /* the tangent stiffness is not positive: buckling, softening or compression */
+    PERI_ERROR_CONVERGENCE = -30, /* no equilibrium within the iterations allowed; the value is the residual over its scale */
+    PERI_STATUS_COUNT_     =  32  /* how many there are */
+} peri_status;
 
 typedef struct peri_error {
     int32_t     code;     /* a peri_status                                                                              */
@@ -197,14 +197,22 @@ typedef struct peri_body peri_body; /* opaque: points, families, materials, stat
 typedef enum peri_space {
     PERI_PLANE_STRESS = 1, /* 2D, thin plate, Poisson ratio 1/3 when bond-based                                         */
     PERI_PLANE_STRAIN = 2, /* 2D, long prism, Poisson ratio 1/4 when bond-based                                         */
-    PERI_SOLID        = 3  /* 3D, Poisson ratio 1/4 when bond-based                                                     */
+    PERI_SOLID        = 3, /* 3D, Poisson ratio 1/4 when bond-based                                                     */
+    PERI_SPACE_COUNT_
 } peri_space;
 
-typedef enum peri_type { PERI_F64 = 1, PERI_F32 = 2, PERI_I32 = 3, PERI_MIXED = 4 } peri_type; /* I32: of views; MIXED: of bodies */
+typedef enum peri_type {
+    PERI_F64   = 1,
+    PERI_F32   = 2,
+    PERI_I32   = 3, /* of views                                                                                         */
+    PERI_MIXED = 4, /* of bodies                                                                                        */
+    PERI_TYPE_COUNT_
+} peri_type;
 
 typedef enum peri_geometry {
     PERI_NONLINEAR = 1, /* extension e = |xi+eta| - |xi|, force along xi+eta: any rotation, any stretch  ([T] 1.23)     */
-    PERI_LINEAR    = 2  /* e = xi.eta/|xi|, force along xi: small displacements, no square root           ([T] 1.37)     */
+    PERI_LINEAR    = 2, /* e = xi.eta/|xi|, force along xi: small displacements, no square root           ([T] 1.37)     */
+    PERI_GEOMETRY_COUNT_
 } peri_geometry;
 
 /* Influence functions w(q), q = |xi|/horizon. The first column of values counts for |xi| <= horizon; `beyond` is the value
@@ -225,7 +233,8 @@ typedef enum peri_influence {
     PERI_INFLUENCE_POLE_EDGE    = 13, /* 1/(1 + spacing/(2 horizon) - q)         [T] asymptote at horizon + spacing/2    */
     PERI_INFLUENCE_POLE_HALF    = 14, /* 1/(2q - 1), also beyond                 [T] asymptote at horizon/2              */
     PERI_INFLUENCE_POLE_QUARTER = 15, /* exp(1/(q - 1/4)), also beyond           [T] asymptote at horizon/4              */
-    PERI_INFLUENCE_USER         = 16  /* influence_fn of the descriptor                                                  */
+    PERI_INFLUENCE_USER         = 16, /* influence_fn of the descriptor                                                  */
+    PERI_INFLUENCE_COUNT_
 } peri_influence;                     /* 12, 14, 15 are taken as having no finite moments: no bond-based constants, no s0 from G0       */
 
 /* Quadrature: how much of a neighbour's cell counts, and from where. Cells are boxes or moved quadrilaterals where the
@@ -238,14 +247,16 @@ typedef enum peri_quadrature {
                                   exact areas of slices, Gauss-Legendre across them, to 1e-10 of a cell                  */
     PERI_PARTIAL_CENTROID = 4, /* 2D: same part, but bond to the centroid of the part, moved with the cell's displacement:
                                   [P] IPA-AC as printed. Not objective and not exact for affine fields: for comparison    */
-    PERI_PARTIAL_MOMENT   = 5  /* 2D: same part, bond to the centre, weight scaled by |centroid bond|/|centre bond| and w taken
+    PERI_PARTIAL_MOMENT   = 5, /* 2D: same part, bond to the centre, weight scaled by |centroid bond|/|centre bond| and w taken
                                   at the centroid: the centroid rule's isotropic energy, objective                        */
+    PERI_QUADRATURE_COUNT_
 } peri_quadrature;
 
 typedef enum peri_break_timing {
     PERI_BREAK_AT_STEP_END = 1, /* a bond acts to the end of the step in which it passes the critical stretch: the energy
                                    ledger closes to O(dt^2) through fracture                                             */
-    PERI_BREAK_AFTER_DRIFT = 2  /* it no longer acts in that step's second half kick, as in [P]; ledger error O(dt)       */
+    PERI_BREAK_AFTER_DRIFT = 2, /* it no longer acts in that step's second half kick, as in [P]; ledger error O(dt)       */
+    PERI_BREAK_TIMING_COUNT_
 } peri_break_timing;
 
 /* What makes good for the part of a family that is missing at a surface, and for the coarseness of a sum over few points.
@@ -268,26 +279,29 @@ typedef enum peri_correction {
     PERI_ENERGY_CORRECTION = 3, /* bond-based: c of each point such that its own family has the energy of isotropic strain, and of
                                    shear on the mean over its directions (Madenci, Oterkus 2014); bonds take the mean of both ends.
                                    State-based: none, see above                                                          */
-    PERI_MOMENT_CORRECTION = 4  /* the weights of each family changed as little as can be so that every uniform strain has the
+    PERI_MOMENT_CORRECTION = 4, /* the weights of each family changed as little as can be so that every uniform strain has the
                                    energy of the solid (after Trask et al. 2019), bond-based moduli calibrated as above: exact to
                                    rounding in the bulk; near surfaces as far as weights that are not negative allow. Where it would
                                    take factors above 10 (edges; m near 1; steep poles) it is a compromise, and the log says so;
                                    families with negative w keep their shape. Oterkus's theta has a moment of its own: exact in
                                    the bulk of lattices, to 1 % at faces                                                 */
+    PERI_CORRECTION_COUNT_
 } peri_correction;
 
 /* How bonds are worked on; results agree to the rounding of sums. To check one by another, and to measure what each is worth. */
 typedef enum peri_kernel {
     PERI_KERNEL_BEST      = 0, /* families of lattices packed by columns of 16 points, where that serves; else as a list */
     PERI_KERNEL_REFERENCE = 1, /* every quantity by its formula, bond by bond: slow                                      */
-    PERI_KERNEL_LIST      = 2  /* the list of families, as clouds have it                                                */
+    PERI_KERNEL_LIST      = 2, /* the list of families, as clouds have it                                                */
+    PERI_KERNEL_COUNT_
 } peri_kernel;
 
 /* Vector instructions of x86-64, the same bits from each; elsewhere kernels are plain loops, and this has no effect. */
 typedef enum peri_instructions {
     PERI_BASELINE = 1, /* SSE2                                                                                           */
     PERI_AVX2     = 2,
-    PERI_AVX512   = 3  /* F, VL, DQ and BW                                                                               */
+    PERI_AVX512   = 3, /* F, VL, DQ and BW                                                                               */
+    PERI_INSTRUCTIONS_COUNT_
 } peri_instructions;
 
 typedef struct peri_body_desc {
@@ -359,8 +373,9 @@ typedef enum peri_model {
     PERI_BOND_BASED     = 1, /* generalised prototype microelastic brittle (GPMB)                        ([P] A, [T] 1.23) */
     PERI_LPS            = 2, /* linear peridynamic solid, ordinary state-based      ([T] 1.54, 1.67, 1.72, [C] eqs. 2-7) */
     PERI_OTERKUS        = 3, /* ordinary state-based, discrete calibration                              ([C] eqs. 8-17) */
-    PERI_CORRESPONDENCE = 4  /* deformation gradient: sigma = lambda tr(eps) + 2 mu eps where the geometry is linear ([C] 18-21), else
+    PERI_CORRESPONDENCE = 4, /* deformation gradient: sigma = lambda tr(eps) + 2 mu eps where the geometry is linear ([C] 18-21), else
                                 Saint Venant-Kirchhoff, S = lambda tr(E) + 2 mu E, objective                             */
+    PERI_MODEL_COUNT_
 } peri_model;
 
 /* When a bond breaks. Only bonds that are longer than at rest break. A bond between two materials breaks when the criterion of
@@ -370,8 +385,9 @@ typedef enum peri_criterion {
     PERI_CRITERION_BOND_ENERGY = 2, /* state-based: the work done on the bond, int (T_i + T_j).d eta, passes w0 = 4 G0/(pi h^4) in
                                        3D, 3 G0/(2 h^3 thickness) in 2D ([T] 1.100, 1.101), h the horizon; keeps dim + 1 numbers per
                                        bond                                                                              */
-    PERI_CRITERION_NODE_ENERGY = 3  /* state-based: the mean over both ends of 2 W/(sum of beta V_j over the whole family) passes w0
+    PERI_CRITERION_NODE_ENERGY = 3, /* state-based: the mean over both ends of 2 W/(sum of beta V_j over the whole family) passes w0
                                        ([T] 1.102, made consistent in its units). Spreads damage, as the thesis finds    */
+    PERI_CRITERION_COUNT_
 } peri_criterion;
 
 typedef struct peri_material {
@@ -579,8 +595,9 @@ PERI_API int32_t peri_read_obstacle_force(peri_body *body, int32_t obstacle, dou
 
 typedef enum peri_integrator {
     PERI_VELOCITY_VERLET    = 1, /* [T] 2.2: half kick, drift, force, half kick                                          */
-    PERI_CENTRAL_DIFFERENCE = 2  /* [L], [T] 2.10: u(t+dt) = 2u(t) - u(t-dt) + dt^2 a, summed as velocities at half steps
+    PERI_CENTRAL_DIFFERENCE = 2, /* [L], [T] 2.10: u(t+dt) = 2u(t) - u(t-dt) + dt^2 a, summed as velocities at half steps
                                     so that no digits cancel: one kick per step, same motion                             */
+    PERI_INTEGRATOR_COUNT_
 } peri_integrator;
 
 /* Called every frame_steps steps and at the end of the run. Nonzero stops: peri_advance returns PERI_STOPPED. It may read the
@@ -628,8 +645,9 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_run *run);
 typedef enum peri_method {
     PERI_NEWTON     = 1, /* Newton with conjugate gradients: the default                                                 */
     PERI_BICGSTAB   = 2, /* Newton with BiCGSTAB on the assembled tangent ([T] 3.2, 3.3): small bodies, for comparison   */
-    PERI_RELAXATION = 3  /* adaptive dynamic relaxation (Kilic, Madenci 2010): slow, asks for forces only; goes on where a tangent
+    PERI_RELAXATION = 3, /* adaptive dynamic relaxation (Kilic, Madenci 2010): slow, asks for forces only; goes on where a tangent
                             is not positive                                                                              */
+    PERI_METHOD_COUNT_
 } peri_method;
 
 typedef enum peri_preconditioner {
@@ -637,7 +655,8 @@ typedef enum peri_preconditioner {
                                    coarser grids: iterations hardly grow with the number of points, by about 1.4 per halving of the
                                    spacing where there are long cracks. The default                                      */
     PERI_BLOCK_JACOBI      = 2, /* the dim x dim blocks of the diagonal                                                  */
-    PERI_NO_PRECONDITIONER = 3
+    PERI_NO_PRECONDITIONER = 3,
+    PERI_PRECONDITIONER_COUNT_
 } peri_preconditioner;
 
 /* What becomes of parts that no support holds against some rigid motion, and of points whose bonds resist only in some directions. */
@@ -645,8 +664,9 @@ typedef enum peri_loose {
     PERI_LOOSE_REFUSED  = 1, /* PERI_ERROR_LOOSE, index = the first point. The default. Hinges (parts joined at one point) are found by
                                 the solver, whatever is chosen here; index is then a point that they let move            */
     PERI_LOOSE_PINNED   = 2, /* just enough components of points are held to stop the rigid motions; exact where loads balance */
-    PERI_LOOSE_BALANCED = 3  /* the part of the loads that would drive the motion is left out (spread by mass, as inertia would); the
+    PERI_LOOSE_BALANCED = 3, /* the part of the loads that would drive the motion is left out (spread by mass, as inertia would); the
                                 motion itself stays as it was                                                            */
+    PERI_LOOSE_COUNT_
 } peri_loose; /* points whose bonds span less than the space: the force on what is not resisted is left out by the last two */
 
 /* Called after each iteration of the linear solver with the residual over its scale; nonzero stops: PERI_STOPPED, on the way to an
@@ -771,7 +791,8 @@ PERI_API int32_t peri_read_memory(const peri_body *body, peri_memory *memory);
 typedef enum peri_source {
     PERI_SOURCE_BOX       = 1, /* peri_add_box; or points of yours that lie on a lattice, in its order                   */
     PERI_SOURCE_PERTURBED = 2, /* peri_add_perturbed_box, by amount                                                      */
-    PERI_SOURCE_POINTS    = 3  /* peri_add_points: a cloud, in any order, that fills the box with about one point to a cell */
+    PERI_SOURCE_POINTS    = 3, /* peri_add_points: a cloud, in any order, that fills the box with about one point to a cell */
+    PERI_SOURCE_COUNT_
 } peri_source;
 
 /* A body that is only described: one material in a box. A shape cut from the box mostly costs less than the box. */
@@ -821,7 +842,8 @@ typedef enum peri_quantity {
     PERI_FOR_DEFORMATION = 1, /* displacements, stiffness, elastic energy. feature: the least thickness of a part that carries     */
     PERI_FOR_STRESS      = 2, /* stress around holes and notches, from 0.3 radii of the rim on. feature: the radius       */
     PERI_FOR_WAVES       = 3, /* the way of waves. feature: the shortest wavelength that matters                         */
-    PERI_FOR_FRACTURE    = 4  /* when cracks grow: energy release rate. feature: the length of the crack, 8 spacings or more */
+    PERI_FOR_FRACTURE    = 4, /* when cracks grow: energy release rate. feature: the length of the crack, 8 spacings or more */
+    PERI_QUANTITY_COUNT_
 } peri_quantity;
 
 /* Named errors, each for a use. */
@@ -829,7 +851,8 @@ typedef enum peri_preset {
     PERI_PRESET_GAME        = 1, /* 20 %: looks right                                                                    */
     PERI_PRESET_TEACHING    = 2, /* 10 %: what is taught is there                                                        */
     PERI_PRESET_ENGINEERING = 3, /* 5 %: as good as the data of most materials                                           */
-    PERI_PRESET_REFERENCE   = 4  /* to compare others with: deformation 1 %, stress 2 %, waves and fracture 3 %         */
+    PERI_PRESET_REFERENCE   = 4, /* to compare others with: deformation 1 %, stress 2 %, waves and fracture 3 %         */
+    PERI_PRESET_COUNT_
 } peri_preset;
 
 /* A preset or an error to reach at least cost; or a budget, or both of its kinds, to be as right as can be in. With both an error and a
@@ -890,8 +913,9 @@ typedef enum peri_field {
                                  thickness taken as it was                                                      derived  */
     PERI_FORCE_STRESS   = 15, /* [tensor] collapsed peridynamic stress sum T xi V ([T] 4.10), as Cauchy stress (4.13),
                                  symmetric part: what the bonds carry                                           derived  */
-    PERI_REACTION       = 16  /* [dim] force density of the supports on each point, mean of the last step
+    PERI_REACTION       = 16, /* [dim] force density of the supports on each point, mean of the last step
                                  [M L^-2 T^-2]; 0 where not supported                                           derived  */
+    PERI_FIELD_COUNT_
 } peri_field; /* [tensor]: xx yy xy in 2D, xx yy zz xy yz xz in 3D. Where live bonds do not span the space, F is what they do span */
 
 /* Entries that peri_read needs for a field: points*components. */

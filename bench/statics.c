@@ -81,7 +81,7 @@ static void plates(FILE *csv) {
     static const char *const names[] = { "", "multilevel", "blocks", "none" };
     const double pull[2] = { 1e-3, 0 };
     for (int64_t edge = 100; edge <= 800; edge *= 2)
-        for (int32_t p = PERI_MULTILEVEL; p <= PERI_NO_PRECONDITIONER; ++p) {
+        for (int32_t p = PERI_MULTILEVEL; p < PERI_PRECONDITIONER_COUNT_; ++p) {
             char scene[32];
             peri_statics statics;
             peri_body *body;

@@ -47,7 +47,7 @@ static uint64_t run(int32_t model, int32_t precision, int32_t kernel, int cloud,
 
 int main(void) {
     static const int32_t precisions[3] = {PERI_F64, PERI_MIXED, PERI_F32};
-    for (int32_t model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (int32_t model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (int p = 0; p < 3; ++p)
             for (int way = 0; way < 6; ++way) {
                 const int32_t kernel = way / 2 == 2 ? PERI_KERNEL_LIST : PERI_KERNEL_BEST;

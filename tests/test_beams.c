@@ -368,8 +368,8 @@ static void table_of_laws(void) {
     static const char *const names[] = {"constant", "linear", "power 3", "inverse 4"};
     int32_t model, correction;
     int f, k;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
             for (f = 0; f < 4; ++f) {
                 const int spring = model != PERI_BOND_BASED, stable = model == PERI_CORRESPONDENCE;
                 const int moment = correction == PERI_MOMENT_CORRECTION;

@@ -283,7 +283,7 @@ static void fracture_energy(void) {
 /* Truth: a bond is one thing: it is broken for both its points or for neither, told once and counted once, by every rule. The
    centroid rule's two directions see different stretches where cells differ; the bond must not care. */
 static void both_directions(void) {
-    for (quadrature_now = PERI_FULL_VOLUME; quadrature_now <= PERI_PARTIAL_MOMENT; ++quadrature_now) {
+    for (quadrature_now = PERI_FULL_VOLUME; quadrature_now < PERI_QUADRATURE_COUNT_; ++quadrature_now) {
         peri_body *body = shaken(PERI_F64, PERI_INFLUENCE_CONSTANT, PERI_BREAK_AT_STEP_END);
         static int32_t rows[N_MAX * 128];
         const int32_t width = peri_family_width(body), n = (int32_t)peri_point_count(body);

@@ -373,7 +373,7 @@ static void keeps(const char *name, problem_fn problem, int32_t space, int32_t q
 
 static void deformation(void) {
     int32_t preset;
-    for (preset = PERI_PRESET_GAME; preset <= PERI_PRESET_REFERENCE; ++preset) {
+    for (preset = PERI_PRESET_GAME; preset < PERI_PRESET_COUNT_; ++preset) {
         keeps("beam", beam, PERI_PLANE_STRESS, PERI_FOR_DEFORMATION, 0, preset);
         keeps("beam", beam, PERI_PLANE_STRESS, PERI_FOR_DEFORMATION, 0.2, preset);
         keeps("beam", beam, PERI_PLANE_STRAIN, PERI_FOR_DEFORMATION, 0.4, preset);
@@ -384,7 +384,7 @@ static void deformation(void) {
 }
 static void stress(void) {
     int32_t preset;
-    for (preset = PERI_PRESET_GAME; preset <= PERI_PRESET_REFERENCE; ++preset) {
+    for (preset = PERI_PRESET_GAME; preset < PERI_PRESET_COUNT_; ++preset) {
         keeps("hole", hole, PERI_PLANE_STRESS, PERI_FOR_STRESS, 0, preset);
         keeps("hole", hole, PERI_PLANE_STRAIN, PERI_FOR_STRESS, 0.2, preset);
         keeps("hole", hole, PERI_PLANE_STRESS, PERI_FOR_STRESS, 0.4, preset);
@@ -392,7 +392,7 @@ static void stress(void) {
 }
 static void waves(void) {
     int32_t preset;
-    for (preset = PERI_PRESET_GAME; preset <= PERI_PRESET_REFERENCE; ++preset) {
+    for (preset = PERI_PRESET_GAME; preset < PERI_PRESET_COUNT_; ++preset) {
         keeps("S wave", wave, PERI_PLANE_STRAIN, PERI_FOR_WAVES, 0, preset);
         keeps("S wave", wave, PERI_PLANE_STRESS, PERI_FOR_WAVES, 0.2, preset);
         if (preset >= PERI_PRESET_ENGINEERING && !test_long) continue;
@@ -402,7 +402,7 @@ static void waves(void) {
 }
 static void fracture(void) {
     int32_t preset;
-    for (preset = PERI_PRESET_GAME; preset <= PERI_PRESET_REFERENCE; ++preset) {
+    for (preset = PERI_PRESET_GAME; preset < PERI_PRESET_COUNT_; ++preset) {
         keeps("crack", crack, PERI_PLANE_STRESS, PERI_FOR_FRACTURE, 0, preset);
         keeps("crack", crack, PERI_PLANE_STRAIN, PERI_FOR_FRACTURE, 0.2, preset);
         keeps("crack", crack, PERI_PLANE_STRESS, PERI_FOR_FRACTURE, 0.4, preset);
@@ -503,8 +503,8 @@ static void wrong_goals(void) {
    chosen stay. */
 static void goals_are_kept(void) {
     int32_t space, quantity;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (quantity = PERI_FOR_DEFORMATION; quantity <= PERI_FOR_FRACTURE; ++quantity) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (quantity = PERI_FOR_DEFORMATION; quantity < PERI_QUANTITY_COUNT_; ++quantity) {
             question q = pose(space, quantity), least, roomy;
             const double hi[3] = {0.1, 0.1, 0.1}, lo[3] = {0, 0, 0};
             peri_body *b = NULL;

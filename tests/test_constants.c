@@ -221,7 +221,7 @@ static void no_moments(void) {
     static const double lo[3] = {0, 0, 0}, hi[3] = {4, 4, 4};
     int n, space;
     for (n = 0; n < 4; ++n)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space) {
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
             peri_body_desc desc = describe(space, 2.2, 1.0, bad[n], PERI_FULL_VOLUME);
             peri_body *body = NULL;
             peri_error error;
@@ -432,7 +432,7 @@ static void appendix_f(void) {
     int32_t rule, geometry;
     make_band(6.0);
     for (n = 0; n < PAPER; ++n)
-        for (rule = PERI_FULL_VOLUME; rule <= PERI_PARTIAL_MOMENT; ++rule)
+        for (rule = PERI_FULL_VOLUME; rule < PERI_QUADRATURE_COUNT_; ++rule)
             for (strain = 0; strain < 2; ++strain)
                 for (geometry = PERI_LINEAR; geometry >= PERI_NONLINEAR; --geometry) {
                     peri_body_desc desc = describe(strain ? PERI_PLANE_STRAIN : PERI_PLANE_STRESS, 0.2, thick, kernels[n].id, rule);
@@ -460,7 +460,7 @@ static void appendix_f(void) {
                k / 2 ? "strain" : "stress");
         for (n = 0; n < PAPER; ++n) {
             printf("    %-5s", kernels[n].name);
-            for (rule = PERI_FULL_VOLUME; rule <= PERI_PARTIAL_MOMENT; ++rule)
+            for (rule = PERI_FULL_VOLUME; rule < PERI_QUADRATURE_COUNT_; ++rule)
                 printf("  %s %.4f", rule_name[rule], ratio[k / 2][k % 2][n][rule]);
             printf("\n");
         }
@@ -472,7 +472,7 @@ static void appendix_f(void) {
 static void published_extension(void) {
     static const double want[6] = {0, 1.041, 0, 1.014, 1.049, 0.982};
     int32_t rule;
-    for (rule = PERI_FULL_VOLUME; rule <= PERI_PARTIAL_MOMENT; ++rule) {
+    for (rule = PERI_FULL_VOLUME; rule < PERI_QUADRATURE_COUNT_; ++rule) {
         const peri_body_desc desc = describe(PERI_PLANE_STRESS, 3.0 / 11, 1.0, PERI_INFLUENCE_CONSTANT, rule);
         double x[2], w, f[2];
         peri_body *body;
@@ -501,7 +501,7 @@ static void appendix_g(void) {
     printf("    G / G0, horizon 1, spacing 1/6\n");
     for (n = 0; n < PAPER; ++n) {
         printf("    %-5s", kernels[n].name);
-        for (rule = PERI_FULL_VOLUME; rule <= PERI_PARTIAL_MOMENT; ++rule)
+        for (rule = PERI_FULL_VOLUME; rule < PERI_QUADRATURE_COUNT_; ++rule)
             for (strain = 0; strain < 2 && rule != PERI_PARTIAL_CENTROID; ++strain) {
                 const peri_body_desc desc = describe(strain ? PERI_PLANE_STRAIN : PERI_PLANE_STRESS, 1.0, thick, kernels[n].id, rule);
                 peri_body *body = create(&desc);

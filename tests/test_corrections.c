@@ -85,10 +85,10 @@ static void print_errors(const solid *s, const errors *e) {
 static void uniform_strains(int32_t space, double ratio, int cells) {
     int32_t model, correction;
     int k;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
         errors plain;
         memset(&plain, 0, sizeof plain);
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
             solid s = solid_of(space, model, correction);
             errors e;
             int ordinary = model == PERI_LPS || model == PERI_OTERKUS, moment = correction == PERI_MOMENT_CORRECTION;
@@ -126,7 +126,7 @@ static void shear_is_right_on_the_mean(void) {
     static const double plane[2][6] = {{1, -1}, {0, 0, 1}};
     static const double solids[5][6] = {{1, -1}, {1, 1, -2}, {0, 0, 0, 1}, {0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 1}};
     int32_t space;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
         solid s = solid_of(space, PERI_BOND_BASED, PERI_ENERGY_CORRECTION);
         int dim = dim_of(space), states = dim == 3 ? 5 : 2, cells = dim == 3 ? 9 : 13, k, seen = 0;
         double h[9], *sum, *x, off = 0;
@@ -245,9 +245,9 @@ static void derivative(peri_body *b, const solid *s) {
 static void clouds_conserve(int32_t space) {
     int32_t model, correction, geometry, quadrature;
     int kind;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction)
-            for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
+            for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
                 for (quadrature = PERI_FULL_VOLUME; quadrature <= PERI_PARTIAL_VOLUME; ++quadrature)
                     for (kind = BOX; kind < CLOUDS; ++kind) {
                         solid s = solid_of(space, model, correction);
@@ -273,9 +273,9 @@ static void clouds_conserve_in_solids(void) { clouds_conserve(PERI_SOLID); }
 static void no_bond_pushes_when_pulled(void) {
     int32_t space, model, correction;
     int kind, way;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (model = PERI_BOND_BASED; model <= PERI_LPS; ++model)
-            for (correction = PERI_VOLUME_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction)
+            for (correction = PERI_VOLUME_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
                 for (kind = BOX; kind < CLOUDS; ++kind) {
                     solid s = solid_of(space, model, correction);
                     int dim = dim_of(space), a, parts = parts_of(dim), pulls = 0;
@@ -412,8 +412,8 @@ static void beams(void) {
     double plain[2] = {0, 0};
     int32_t model, correction;
     int k;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
             solid s = solid_of(PERI_PLANE_STRESS, model, correction);
             double ratio[2], times;
             if (skipped(model, correction)) continue;
@@ -435,8 +435,8 @@ static void beams(void) {
 static void beams_converge(void) {
     int32_t model, correction;
     int thick;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
             solid s = solid_of(PERI_PLANE_STRESS, model, correction);
             int sound = (correction == PERI_MOMENT_CORRECTION) == (model != PERI_CORRESPONDENCE);
             double last = 0, error;

@@ -64,14 +64,14 @@ static double read_s0(kind k, int32_t influence, peri_influence_fn fn, int by_bu
 static void critical_stretch_from_g0(void) {
     const double g0 = 0.07, h = 3 * H;
     int32_t space, influence, model, refused;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (influence = PERI_INFLUENCE_CONSTANT; influence <= PERI_INFLUENCE_USER; ++influence) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (influence = PERI_INFLUENCE_CONSTANT; influence < PERI_INFLUENCE_COUNT_; ++influence) {
             const int solid = space == PERI_SOLID;
             double c, want, got;
             if (influence > PERI_INFLUENCE_INVERSE && influence < PERI_INFLUENCE_USER) continue;
             c = (solid ? 3 : space == PERI_PLANE_STRESS ? 3 : 3.2) * YOUNG / (PI * moment(influence, solid ? 4 : 3));
             want = sqrt((solid ? 2 / PI : 1) * g0 / (c * h * moment(influence, solid ? 5 : 4)));
-            for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model) {
+            for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model) {
                 kind k = {0, 0, PERI_CRITERION_STRETCH, 0, 0};
                 k.space = space;
                 k.model = model;
@@ -96,9 +96,9 @@ static void critical_stretch_from_g0(void) {
 static void critical_energy(void) {
     const double h = 3 * H;
     int32_t space, model, criterion;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model)
-            for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
+            for (criterion = PERI_CRITERION_STRETCH; criterion < PERI_CRITERION_COUNT_; ++criterion) {
                 kind k = kind_of(space, model, criterion, 0.2);
                 peri_body_desc d = plan(space);
                 peri_material m = stuff(k);
@@ -327,8 +327,8 @@ static void a_pair_breaks_at_its_energy(void) {
     const int32_t laws[5][2] = {{2, 2}, {3, 3}, {4, 4}, {2, 4}, {3, 2}};
     int32_t space, criterion;
     int l, n;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (criterion = PERI_CRITERION_BOND_ENERGY; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (criterion = PERI_CRITERION_BOND_ENERGY; criterion < PERI_CRITERION_COUNT_; ++criterion)
             for (l = 0; l < 5; ++l)
                 for (n = 0; n < 3; ++n) {
                     pair_breaks(space, laws[l], criterion, nus[n], PERI_NONLINEAR, 0);
@@ -435,8 +435,8 @@ static void isotropic(int32_t space, int32_t model, int32_t criterion) {
 }
 static void uniform_strain_breaks_what_it_must(void) {
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model) {
             isotropic(space, model, PERI_CRITERION_NODE_ENERGY);
             if (model == PERI_LPS) isotropic(space, model, PERI_CRITERION_BOND_ENERGY);
         }
@@ -447,8 +447,8 @@ static void uniform_strain_breaks_what_it_must(void) {
 static void compression_breaks_nothing(void) {
     const double s[3] = {0.4, -0.4, -0.4};
     int32_t space, model, criterion;
-    for (space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space)
-        for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
             for (criterion = 1; criterion <= 3; ++criterion) {
                 const int dim = dim_of(space);
                 kind k = kind_of(space, model, criterion, 0.3);

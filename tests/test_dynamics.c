@@ -436,7 +436,7 @@ static void damping_decays(void) {
 static void runs_in_parts(void) {
     const double b2[2] = {0.1, -0.05};
     int k, i;
-    for (k = PERI_VELOCITY_VERLET; k <= PERI_CENTRAL_DIFFERENCE; ++k) {
+    for (k = PERI_VELOCITY_VERLET; k < PERI_INTEGRATOR_COUNT_; ++k) {
         double *u[2], *v = random_field(70, 0.02, 21);
         int part;
         for (part = 0; part < 2; ++part) {

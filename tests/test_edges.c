@@ -255,7 +255,7 @@ static void damping_of_rigid_motion(void) {
     int32_t integrator;
     int k;
     for (k = 0; k < 5; ++k)
-        for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+        for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
             peri_body *b = plate(0);
             peri_energy e;
             peri_run run;

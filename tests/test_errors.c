@@ -1,6 +1,6 @@
 /* test_errors.c - every status, every bad input: refused with the right code and record, and the body none the worse for it.
 
-   SOURCE OF TRUTH: peri.h: the texts of PERI_STATUS_LIST and of each function ("a call that fails has changed nothing").
+   SOURCE OF TRUTH: peri.h: the texts of peri_status and of each function ("a call that fails has changed nothing").
    One story (build a body, load it, run it) is told twice, once with every wrong call in between; the bits must agree. */
 #include "test_refuse.h"
 
@@ -558,19 +558,13 @@ static void errors_format(void) {
     peri_body_destroy(b);
 }
 
-#define TEXT_IS(name, value, words) \
-    CHECK(strcmp(peri_status_text(value), words) == 0 && PERI_##name == (value));
-#define WAS_REACHED(name, value, words)                                                                                \
-    if (!reached[(value) + 32]) {                                                                                      \
-        test_bad++;                                                                                                    \
-        printf("    never reached: PERI_" #name "\n");                                                                 \
-    }
-
-static void status_texts(void) {
-    PERI_STATUS_LIST(TEXT_IS)
-    CHECK(strcmp(peri_status_text(2), "unknown status") == 0 && strcmp(peri_status_text(-1000), "unknown status") == 0);
+static void every_status_was_reached(void) {
+    for (int32_t code = PERI_STOPPED; code > PERI_STOPPED - PERI_STATUS_COUNT_; --code)
+        if (!reached[code + 32]) {
+            test_bad++;
+            printf("    never reached: %d, %s\n", (int)code, peri_status_text(code));
+        }
 }
-static void every_status_was_reached(void) { PERI_STATUS_LIST(WAS_REACHED) }
 
 int main(int argc, char **argv) {
     test_begin(argc, argv);
@@ -581,7 +575,6 @@ int main(int argc, char **argv) {
     RUN(found_while_running);
     RUN(found_by_the_solver);
     RUN(errors_format);
-    RUN(status_texts);
     if (!test_filter) RUN(every_status_was_reached); /* by the cases above */
     return test_end("test_errors");
 }

@@ -78,9 +78,9 @@ static double off(peri_body *b, const solid *s, int32_t field, const double *wan
 static void affine_strain_is_exact(void) {
     int32_t space, model, geometry, precision;
     int what;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-            for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+            for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
                 for (precision = PERI_F64; precision <= PERI_F32; ++precision) {
                     solid s = solid_of(space, model, PERI_NO_CORRECTION);
                     int dim = dim_of(space), cells = dim == 3 ? 6 : 9, k;
@@ -115,9 +115,9 @@ static void affine_strain_is_exact(void) {
    gives its trace where the second moment of the family is isotropic: on a lattice in the bulk. */
 static void dilatation_is_the_trace(void) {
     int32_t space, model, geometry;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (model = PERI_BOND_BASED; model <= PERI_OTERKUS; ++model)
-            for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry) {
+            for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry) {
                 solid s = solid_of(space, model, PERI_NO_CORRECTION);
                 int dim = dim_of(space), cells = dim == 3 ? 6 : 9, k;
                 double h[9] = {0}, theta = 0.2 * dim;
@@ -143,8 +143,8 @@ static void dilatation_is_the_trace(void) {
    times a few. Without correction: the lattice's error, printed. */
 static void force_stress_is_the_stress(void) {
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             solid s = solid_of(space, model, PERI_MOMENT_CORRECTION);
             int dim = dim_of(space), cells = dim == 3 ? 9 : 13, k;
             double h[9], strain[6], stress[6], size = 0;
@@ -185,7 +185,7 @@ static void force_stress_is_the_stress(void) {
 static void units_do_not_matter(void) {
     const double lo[2] = {0, 0}, hi[2] = {0.8, 0.8}, lo_mm[2] = {0, 0}, hi_mm[2] = {800, 800};
     int32_t model;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
         solid s = solid_of(PERI_PLANE_STRAIN, model, PERI_MOMENT_CORRECTION), mm = s;
         peri_body *a = solid_new(&s), *b = NULL;
         peri_body_desc d;
@@ -239,8 +239,8 @@ static int32_t across(void *user, int32_t i, int32_t j, const double *xi, const 
    that has lost every bond has no strain and no stress. */
 static void strain_of_live_bonds(void) {
     int32_t model, space;
-    for (space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             solid s = solid_of(space, model, PERI_NO_CORRECTION);
             int dim = dim_of(space), cells = dim == 3 ? 6 : 10, parts = parts_of(dim), a;
             double h[9], strain[6], stress[6], level, *u, *x, *eps;
@@ -290,10 +290,10 @@ static void strain_of_live_bonds(void) {
    nothing is NaN, whatever the law and the correction. */
 static void collinear_points(void) {
     int32_t space, model, correction, geometry;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-            for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction)
-                for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+            for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
+                for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry) {
                     static const double t3[3] = {2 / 7.0, 3 / 7.0, 6 / 7.0};
                     solid s = solid_of(space, model, correction);
                     int dim = dim_of(space), i, a, c, field;
@@ -324,7 +324,7 @@ static void collinear_points(void) {
                     }
                     free(eps);
                     (void)go(b, PERI_VELOCITY_VERLET, 3, 0, 0);
-                    for (field = PERI_POSITION; field <= PERI_REACTION; ++field) {
+                    for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
                         int64_t k, n = peri_field_size(b, field);
                         eps = get(b, field);
                         for (k = 0; k < n; ++k) CHECK(isfinite(eps[k]));
@@ -367,8 +367,8 @@ static int32_t keep(void *user, const void *bytes, int64_t count) {
    balance. Over a support reactions times volumes add up to its reaction; elsewhere, and along y, they are 0. */
 static void static_pull(void) {
     int32_t model, correction;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
             solid s = solid_of(PERI_PLANE_STRESS, model, correction);
             const double lo[2] = {0, 0}, hi[2] = {6 * H, 8 * H}, lo2[2] = {24 * H, 0}, hi2[2] = {30 * H, 8 * H};
             double h[4] = {PULL, 0, 0, 0}, force[2][2], sum[2] = {0, 0}, *x, *v, *r, want = YOUNG * PULL * 8 * H * THICK, bulk;

@@ -141,8 +141,8 @@ static void law(int32_t model) {
     scene s;
     s.model = model;
     s.quadrature = PERI_FULL_VOLUME;
-    for (s.space = PERI_PLANE_STRESS; s.space <= PERI_SOLID; s.space += 2)
-        for (s.geometry = PERI_NONLINEAR; s.geometry <= PERI_LINEAR; ++s.geometry)
+    for (s.space = PERI_PLANE_STRESS; s.space < PERI_SPACE_COUNT_; s.space += 2)
+        for (s.geometry = PERI_NONLINEAR; s.geometry < PERI_GEOMETRY_COUNT_; ++s.geometry)
             for (int p = 0; p < 3; ++p)
                 for (s.shape = 0; s.shape < (p == 0 ? 5 : 1); s.shape += s.space == PERI_SOLID ? 2 : 1) {
                     s.precision = precisions[p];
@@ -276,8 +276,8 @@ static void compare_clouds(int32_t model, int32_t space, int32_t precision, int3
 
 static void clouds(void) {
     int32_t model, space, precision, materials;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space)
             for (int p = 0; p < 3; ++p)
                 for (precision = precisions[p], materials = 1; materials <= 2; ++materials) {
                     compare_clouds(model, space, precision, materials, PERI_NO_CORRECTION);
@@ -325,7 +325,7 @@ static void instruction_sets(void) {
 /* Mixed precision is what it says: 7 digits of the force of any strain, where single precision has lost them in the rounding of places, and
    momentum as in double. Truth: the same scene in double, and conservation. */
 static void mixed_precision(void) {
-    for (int32_t model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (int32_t model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (int kernel = TEXTBOOK; kernel < KERNELS; ++kernel) {
             double error[3] = {0, 0, 0}, largest = 0, shift[3] = {1e3, -2e3, 0}, drift, total[3];
             double *f[3];

@@ -216,7 +216,7 @@ static void bulk_sweep(int32_t space, int influences, const int32_t *functions, 
     int k;
     for (k = 0; k < influences; ++k) {
         scene s = scene_of(space, PERI_LINEAR, functions[k], PERI_NO_CORRECTION, reach);
-        for (; s.correction <= PERI_MOMENT_CORRECTION; ++s.correction) {
+        for (; s.correction < PERI_CORRECTION_COUNT_; ++s.correction) {
             int same = s.correction == PERI_VOLUME_CORRECTION || s.correction == PERI_ENERGY_CORRECTION, large = space == PERI_SOLID;
             if (!(same && large && k > 0)) bulk_of_mixture(&s);
             if (!(large && k > 0 && (same || reach > 3))) bulk_of(&s, PERI_BOND_BASED, 0);
@@ -231,9 +231,9 @@ static const int32_t some[5] = {PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_LINEAR, 
 static void print_table(int32_t space, double reach) {
     static const char *const names[] = {"", "none", "volume", "energy", "moment"};
     int model, correction;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
         printf("    %-13s m = %.0f  %-15s", space_names[space], reach, model_names[model]);
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
             printf("  %s %.1e", names[correction], table[space][model][correction][(int)(reach + 0.5)]);
         printf("\n");
     }
@@ -248,7 +248,7 @@ static void bulk_long(void) {
     double reach;
     memset(table, 0, sizeof table);
     for (reach = 3; reach < 7; reach += 3)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space) {
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
             int few = space == PERI_SOLID && reach > 3;
             bulk_sweep(space, few ? 2 : 15, few ? some : every, reach);
             print_table(space, reach);
@@ -259,12 +259,12 @@ static void bulk_long(void) {
 static void pure(int32_t space, int32_t correction) {
     scene s = scene_of(space, PERI_LINEAR, PERI_INFLUENCE_CUBIC, correction, 3);
     int k;
-    for (s.geometry = PERI_NONLINEAR; s.geometry <= PERI_LINEAR; ++s.geometry)
+    for (s.geometry = PERI_NONLINEAR; s.geometry < PERI_GEOMETRY_COUNT_; ++s.geometry)
         for (k = 0; k < LAWS; ++k) bulk_of(&s, models[k], k % 2 ? 0.4 : 0.1);
 }
 static void bulk_pure_plane(void) {
     int32_t correction;
-    for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+    for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
         pure(PERI_PLANE_STRESS, correction);
         pure(PERI_PLANE_STRAIN, correction);
     }
@@ -279,7 +279,7 @@ static void bulk_pure_solid(void) {
 static void correspondence_everywhere(void) {
     int32_t space;
     int k, which;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (k = 0; k < NUS; ++k) {
             scene s = small_scene(space, PERI_LINEAR, PERI_NO_CORRECTION);
             peri_body *b = small_body(&s, PERI_CORRESPONDENCE, nus[k], -1, 0);
@@ -365,8 +365,8 @@ static void same_law(int32_t space, int32_t geometry, int32_t bonds, int32_t sta
 
 static void lps_is_bond_based(void) {
     int32_t space, geometry;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry) {
             same_law(space, geometry, PERI_NO_CORRECTION, PERI_NO_CORRECTION, 1e-14);
             same_law(space, geometry, PERI_ENERGY_CORRECTION, PERI_NO_CORRECTION, 1e-12);
             same_law(space, geometry, PERI_MOMENT_CORRECTION, PERI_MOMENT_CORRECTION, 1e-11);
@@ -383,7 +383,7 @@ static void checkerboard(void) {
     const double a = 0.01 * H;
     int32_t space;
     int k;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (k = 0; k < 5; ++k) {
             static const double stable[5] = {0, 0.25, 0.5, 1, -1};
             scene s = scene_of(space, PERI_LINEAR, PERI_INFLUENCE_LINEAR, PERI_NO_CORRECTION, space == PERI_SOLID ? 2 : 3);

@@ -186,7 +186,7 @@ static watch run_ledger(int what, int integrator, int64_t n) {
    the error by 4. Order 2.0 +- 0.1 over three halvings, from 64 steps (dt about 0.3 of the stable step). */
 static void order(const char *name, int what) {
     int integrator;
-    for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+    for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
         double last = 0;
         int64_t n;
         printf("    %-20s %s", name, integrator == PERI_VELOCITY_VERLET ? "verlet " : "central");

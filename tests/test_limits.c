@@ -49,7 +49,7 @@ static void without_bonds(void) {
     const double x[4] = {0, 0, 1, 0}, v[2] = {1, 1}, speed[2] = {0.01, -0.02};
     double u[4];
     int32_t model;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
         peri_body_desc desc;
         peri_run run;
         peri_body *b;
@@ -77,8 +77,8 @@ static void without_bonds(void) {
 static void energy_is_never_negative(void) {
     int32_t space, model;
     int cloud, trial, k;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
             for (cloud = 0; cloud < 40; ++cloud) {
                 int dim = space == PERI_SOLID ? 3 : 2;
                 uint64_t seed = (uint64_t)(1000 * cloud + space);
@@ -112,9 +112,9 @@ static void factors_of_w_cancel(void) {
     static const double factors[5] = {1, 1e-15, 1e-22, 1e15, 1e20};
     int32_t model, precision, correction;
     int k;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (precision = PERI_F64; precision <= PERI_F32; ++precision)
-            for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+            for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
                 double first = 0;
                 for (k = 0; k < 5; ++k) {
                     double factor = factors[k], now;
@@ -143,7 +143,7 @@ static void factors_of_w_cancel(void) {
    however small s0 is. */
 static void small_critical_stretch(void) {
     int32_t model, precision, reference;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
         int64_t want = 0;
         for (precision = PERI_F64; precision <= PERI_F32; ++precision)
             for (reference = 1; reference >= 0; --reference) {

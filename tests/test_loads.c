@@ -76,7 +76,7 @@ static void load_totals(void) {
 static void free_fall_is_a_parabola(void) {
     const double g[3] = {0.3, -2, 0.7}, v0[3] = {-1, 0.5, 0.25};
     int integrator;
-    for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+    for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
         peri_body *b = block(PERI_SOLID, PERI_F64, PERI_NONLINEAR, 4, 3, 3);
         int64_t n = 3 * peri_point_count(b), i;
         int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, g, NULL, NULL));

@@ -157,7 +157,7 @@ static int32_t stop_after(void *user, int64_t iteration, double residual) {
 static void a_solve_that_was_stopped_goes_on(void) {
     int32_t geometry;
     int how;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry) {
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry) {
         double *whole = NULL;
         for (how = 0; how < 6; ++how) {
             plate p = plate_of(geometry, PERI_F64);
@@ -287,7 +287,7 @@ static void callbacks_may_and_may_not(void) {
    displacements. The state before had velocities: they are gone, and the ledger has them as damped. */
 static void at_rest_afterwards(void) {
     int32_t geometry;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry) {
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry) {
         plate p = plate_of(geometry, PERI_F64);
         const double fast[2] = {1e-3, 2e-3};
         peri_statics st = statics_of(1e-11);
@@ -394,8 +394,8 @@ static void reset_and_clone(void) {
 
 static void no_load_and_nothing_free(void) {
     int32_t method, geometry;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-        for (method = PERI_NEWTON; method <= PERI_RELAXATION; ++method) {
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+        for (method = PERI_NEWTON; method < PERI_METHOD_COUNT_; ++method) {
             const double moved[2] = {0.01, -0.02};
             solid s = solid_of(PERI_PLANE_STRAIN, PERI_OTERKUS, PERI_NO_CORRECTION);
             peri_statics st = statics_of(0);
@@ -496,7 +496,7 @@ static void wander(void *user, double time, double *place) {
 static void nan_from_callbacks(void) {
     int32_t geometry;
     int who;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
         for (who = 0; who < 3; ++who) {
             plate p = plate_of(geometry, PERI_F64), q = plate_of(geometry, PERI_F64);
             const double at[2] = {0, -3}, up[2] = {0, 1};
@@ -543,7 +543,7 @@ static void nan_from_callbacks(void) {
 static void a_failed_step_goes_back(void) {
     int32_t geometry;
     int64_t halvings;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
         for (halvings = 0; halvings <= 2; halvings += 2) {
             solid s = solid_of(PERI_PLANE_STRESS, PERI_LPS, PERI_NO_CORRECTION);
             peri_body *b;

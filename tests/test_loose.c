@@ -110,8 +110,8 @@ static double drift(peri_body *b, const double *start) {
    without what drives it: the same strain. */
 static void free_bodies(void) {
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             solid s = solid_of(space, model, PERI_NO_CORRECTION);
             int dim = dim_of(space), k, motions = dim == 3 ? 6 : 3;
             const double start[3] = {3e-3, -2e-3, 1e-3};
@@ -168,7 +168,7 @@ static void free_fall(void) {
 }
 static void turned_bodies_strain_alike(void) {
     int32_t model;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
         double *strain[2];
         int turned;
         int64_t n = 0;
@@ -356,7 +356,7 @@ static void a_chain(int32_t space, int count) {
 static void chains_of_points(void) {
     int32_t space;
     int count;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (count = 1; count <= 11; count += count == 1 ? 1 : 9) a_chain(space, count);
 }
 
@@ -371,8 +371,8 @@ static int32_t all_but_one(void *user, int32_t i, int32_t j, const double *xi, c
 static void a_point_on_one_bond(void) {
     int32_t space, model;
     int way, d;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (way = 0; way <= 2; ++way) {
                 solid s = solid_of(space, model, PERI_NO_CORRECTION);
                 const double density[3] = {2e-3, -0.5e-3, 1e-3}; /* along (1, 1, 0)/sqrt 2: 1.5e-3/sqrt 2 */
@@ -478,8 +478,8 @@ static void indefinite(double factor, int32_t geometry, int32_t method, int32_t 
 }
 static void indefinite_stiffness_is_told(void) {
     int32_t geometry, method, loose;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-        for (method = PERI_NEWTON; method <= PERI_RELAXATION; ++method)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+        for (method = PERI_NEWTON; method < PERI_METHOD_COUNT_; ++method)
             for (loose = PERI_LOOSE_REFUSED; loose <= PERI_LOOSE_PINNED; ++loose) {
                 indefinite(13, geometry, method, loose);
                 indefinite(20, geometry, method, loose);

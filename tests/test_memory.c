@@ -127,7 +127,7 @@ static int64_t create(life *l) {
 }
 static int64_t all_views(life *l) {
     int32_t f, r;
-    for (f = PERI_POSITION; f <= PERI_CURRENT; ++f) {
+    for (f = PERI_POSITION; f < PERI_FIELD_COUNT_; ++f) {
         peri_view v;
         r = peri_view_field(l->body, f, &v);
         if (r != PERI_OK) return r;
@@ -142,7 +142,7 @@ static int64_t readings(life *l) {
     if ((r = peri_read_energy(l->body, &e)) < 0) return r;
     if ((r = peri_read_momentum(l->body, p, q)) < 0) return r;
     if ((r = peri_read_reaction(l->body, l->support, f)) < 0) return r;
-    for (field = PERI_POSITION; field <= PERI_CURRENT; ++field) {
+    for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
         int64_t n = peri_field_size(l->body, field), i;
         x = (double *)calloc((size_t)n, sizeof *x);
         r = peri_read(l->body, field, x, n);

@@ -34,10 +34,10 @@ static peri_body *pair_of(const solid *a, const solid *z, int n, void (*touch)(p
 static void pairs_of_laws_in_uniform_strain(void) {
     static const double plane_strain[3] = {1e-3, -7e-4, 5e-4}, solid_strain[6] = {1e-3, -7e-4, 4e-4, 5e-4, 2e-4, -3e-4};
     int32_t space, first, second, correction;
-    for (space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space)
-        for (first = PERI_BOND_BASED; first <= PERI_CORRESPONDENCE; ++first)
-            for (second = PERI_BOND_BASED; second <= PERI_CORRESPONDENCE; ++second)
-                for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; correction += 3) {
+    for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space)
+        for (first = PERI_BOND_BASED; first < PERI_MODEL_COUNT_; ++first)
+            for (second = PERI_BOND_BASED; second < PERI_MODEL_COUNT_; ++second)
+                for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3) {
                     solid a = solid_of(space, first, correction), z = solid_of(space, second, correction);
                     int dim = dim_of(space), springs = first == PERI_BOND_BASED && second == first, k, seen = 0;
                     int n = dim == 2 ? 13 : springs ? 9 : 6;
@@ -93,8 +93,8 @@ static void pairs_of_laws_in_motion(void) {
     int32_t first, second, space;
     int k;
     for (space = PERI_PLANE_STRESS; space <= (test_long ? PERI_SOLID : PERI_PLANE_STRESS); ++space)
-        for (first = PERI_BOND_BASED; first <= PERI_CORRESPONDENCE; ++first)
-            for (second = first; second <= PERI_CORRESPONDENCE; ++second) {
+        for (first = PERI_BOND_BASED; first < PERI_MODEL_COUNT_; ++first)
+            for (second = first; second < PERI_MODEL_COUNT_; ++second) {
                 solid a = solid_of(space, first, PERI_MOMENT_CORRECTION), z = solid_of(space, second, PERI_MOMENT_CORRECTION);
                 double error[2], dt = 0;
                 int dim = dim_of(space), d;
@@ -228,8 +228,8 @@ static void interface_breaks_by_either_criterion(void) {
     static const double never[2] = {HUGE_VAL, HUGE_VAL}, s[2] = {S_LEFT, S_RIGHT}, g[2] = {G_LEFT, G_RIGHT};
     static const double left[2] = {S_RIGHT, HUGE_VAL}, right[2] = {HUGE_VAL, G_RIGHT};
     int32_t first, second;
-    for (first = PERI_BOND_BASED; first <= PERI_CORRESPONDENCE; ++first)
-        for (second = PERI_BOND_BASED; second <= PERI_CORRESPONDENCE; ++second) breaks_as_told(first, second, two_stretches, s, never);
+    for (first = PERI_BOND_BASED; first < PERI_MODEL_COUNT_; ++first)
+        for (second = PERI_BOND_BASED; second < PERI_MODEL_COUNT_; ++second) breaks_as_told(first, second, two_stretches, s, never);
     breaks_as_told(PERI_LPS, PERI_LPS, two_energies, never, g);
     breaks_as_told(PERI_LPS, PERI_LPS, stretch_and_energy, left, right);
 }

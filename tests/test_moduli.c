@@ -333,7 +333,7 @@ static void below_one_percent(void) {
     int32_t model;
     int k;
     printf("    %s\n", head);
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (k = 0; k < 5; ++k) {
             plate p = plate_of(model, model == PERI_CORRESPONDENCE ? PERI_NO_CORRECTION : PERI_MOMENT_CORRECTION, nus[k]);
             moduli m;
@@ -389,7 +389,7 @@ static void table_of_ratios(void) {
 static void convergence_with_the_horizon(void) {
     int32_t correction;
     printf("    %s\n", head);
-    for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; correction += 3) {
+    for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3) {
         double last = HUGE_VAL;
         int k;
         for (k = 0; k < 4; ++k) {

@@ -64,8 +64,8 @@ static void derivative(const scene *s, int32_t model, double nu, int broken, int
 static void derivatives(int32_t space) {
     int32_t geometry, correction;
     int k, broken;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
             for (k = 0; k <= LAWS; ++k)
                 for (broken = 0; broken < 2; ++broken) {
                     scene s = small_scene(space, geometry, correction);
@@ -306,8 +306,8 @@ static void rigid_rotation(void) {
     static const double up[3] = {0, 0, 1}, skew[3] = {1, -2, 0.5};
     int k, broken;
     int32_t space, correction;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; correction += 3)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3)
             for (k = 0; k <= LAWS; ++k)
                 for (broken = 0; broken < 2; ++broken) {
                     scene s = small_scene(space, PERI_NONLINEAR, correction);
@@ -392,8 +392,8 @@ static void finite_of(int32_t space, int32_t model, int32_t correction) {
 static void finite_strain(void) {
     int32_t space, correction;
     int k;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; correction += 3)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3)
             for (k = 0; k < LAWS; ++k) finite_of(space, models[k], correction);
 }
 
@@ -406,7 +406,7 @@ static void chain(void) {
     const int32_t pair[2] = {1, 3};
     int32_t space;
     int i, j, d;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
         scene s = scene_of(space, PERI_LINEAR, PERI_INFLUENCE_LINEAR, PERI_NO_CORRECTION, 2.5);
         int dim = dim_of(space);
         const double *line = n[dim - 2];
@@ -452,9 +452,9 @@ static void chain(void) {
 static void single_precision(void) {
     int32_t space, geometry, correction;
     int k;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-            for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; correction += 3)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+            for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3)
                 for (k = 0; k <= LAWS; ++k) {
                     double *f[2];
                     int64_t n = 0, i;

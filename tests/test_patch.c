@@ -225,7 +225,7 @@ static void exact(const solid *s, int cloud, int nx, int ny, int nz) {
 static void exact_for_every_influence_function(void) {
     int32_t space, w;
     int cloud;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (w = PERI_INFLUENCE_CONSTANT; w <= PERI_INFLUENCE_POLE_EDGE; ++w)
             for (cloud = BOX; cloud <= (space == PERI_SOLID ? BOX : PERTURBED); ++cloud) {
                 solid s = solid_of(space, PERI_CORRESPONDENCE, PERI_NO_CORRECTION);
@@ -331,7 +331,7 @@ static void pressed(const solid *s, int cloud, int n, int way) {
 static void pressure_is_uniform_beside_a_crack(void) {
     int32_t space;
     int cloud, k;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (cloud = BOX; cloud <= TURNED; ++cloud)
             for (k = 0; k < 3; ++k) {
                 solid s = solid_of(space, PERI_CORRESPONDENCE, PERI_NO_CORRECTION);
@@ -370,7 +370,7 @@ static void converge_inside(int32_t space) {
     int k;
     printf("    largest error of strain in the inner half in %%: tension x, y, biaxial, shear; | twice as fine; horizon %d\n",
            space == PERI_SOLID ? 2 : 3);
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
         solid s = solid_of(space, model, model == PERI_CORRESPONDENCE ? PERI_NO_CORRECTION : PERI_MOMENT_CORRECTION);
         double surface[4], layer[4];
         int count;
@@ -392,8 +392,8 @@ static void other_laws_converge_in_solids(void) { converge_inside(PERI_SOLID); }
 static void totals_are_value_times_area(void) {
     int32_t space, model, precision;
     int d;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (precision = PERI_F64; precision <= PERI_F32; ++precision) {
                 solid s = solid_of(space, model, model == PERI_LPS ? PERI_MOMENT_CORRECTION : PERI_NO_CORRECTION);
                 const double value[3] = {0.3, -0.2, 0.5}, normal[3] = {7, 0, 0};
@@ -421,7 +421,7 @@ static void totals_are_value_times_area(void) {
    between two rows, so that just one bond of each cell is up to 1.2 spacings long. */
 static void bond_pressure_pushes_neighbours_apart(void) {
     int32_t space;
-    for (space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space) {
+    for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space) {
         solid s = solid_of(space, PERI_LPS, PERI_NO_CORRECTION);
         int dim = dim_of(space), d;
         patch p = patch_of(&s, BOX, 8, 6, 4);

@@ -117,7 +117,7 @@ static const int boxes[][3] = {{64, 48, 12}, {33, 29, 11}, {50, 37, 9}, {17, 60,
 static void lattices_are_planned_exactly(void) {
     int k, model;
     for (k = 0; k < BOXES; ++k)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             scene s;
             int32_t space = (k + model) % 2 ? PERI_SOLID : PERI_PLANE_STRESS;
             if (boxes[k][0] == 1 && (model != PERI_BOND_BASED)) continue; /* a line of points: no shear to calibrate on */
@@ -132,7 +132,7 @@ static void lattices_are_planned_exactly(void) {
 static void quadratures_and_influences_are_planned_exactly(void) {
     int k, rule;
     for (k = 0; k < BOXES - 1; ++k)
-        for (rule = PERI_FULL_VOLUME; rule <= PERI_PARTIAL_MOMENT; ++rule) {
+        for (rule = PERI_FULL_VOLUME; rule < PERI_QUADRATURE_COUNT_; ++rule) {
             scene s;
             const int32_t space = rule <= PERI_PARTIAL_VOLUME && k % 2 ? PERI_SOLID : PERI_PLANE_STRAIN;
             set_scene(&s, space, 2.3, PERI_BOND_BASED, boxes[k][0], boxes[k][1], boxes[k][2] / 2 + 2, 1.15);
@@ -166,7 +166,7 @@ static void corrections_and_large_families_are_planned(void) {
     int correction, m;
     scene s;
     peri_plan_report r;
-    for (correction = PERI_VOLUME_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction)
+    for (correction = PERI_VOLUME_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
         for (m = 2; m <= 4; ++m) {
             set_scene(&s, PERI_PLANE_STRESS, m, PERI_BOND_BASED, 60, 45, 1, 1);
             s.desc.correction = correction;
@@ -279,7 +279,7 @@ static void grow(scene *s, int families) {
     m = HELD(s);
     CHECK(m.loads > before.loads && m.damage == before.damage && m.laws == before.laws && m.state == before.state);
     before = m;
-    for (field = PERI_POSITION; field <= PERI_REACTION; ++field) {
+    for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
         (void)MUST(s->body, peri_view_field(s->body, field, &view));
         (void)HELD(s);
     }
@@ -290,7 +290,7 @@ static void grow(scene *s, int families) {
 static void memory_is_what_the_allocator_counts(void) {
     int k, model;
     for (k = 0; k < 8; ++k)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             scene s;
             peri_body *copy;
             peri_memory m, c;

@@ -150,8 +150,8 @@ static void meets(int32_t space, int32_t criterion) {
 }
 static void criteria_are_met_where_they_should(void) {
     int32_t space, criterion;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) meets(space, criterion);
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (criterion = PERI_CRITERION_STRETCH; criterion < PERI_CRITERION_COUNT_; ++criterion) meets(space, criterion);
 }
 
 /* ---- a notched strip ---------------------------------------------------------------------------------------------- */
@@ -409,10 +409,10 @@ static void shatter(int32_t model, int32_t criterion, int32_t geometry, int32_t 
 }
 static void a_plate_shatters(void) {
     int32_t model, criterion, geometry, loose;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (criterion = PERI_CRITERION_STRETCH; criterion <= (model == PERI_BOND_BASED ? 1 : PERI_CRITERION_NODE_ENERGY); ++criterion)
-            for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-                for (loose = PERI_LOOSE_PINNED; loose <= PERI_LOOSE_BALANCED; ++loose)
+            for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+                for (loose = PERI_LOOSE_PINNED; loose < PERI_LOOSE_COUNT_; ++loose)
                     if (test_long || (model == PERI_LPS && criterion % 2 && loose + geometry == 4))
                         shatter(model, criterion, geometry, loose);
 }
@@ -499,7 +499,7 @@ static void every_allocation_fails_once(void) {
     int32_t geometry;
     int what;
     int64_t total = 0;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
         for (what = 0; what < CALLS; ++what) {
             pool calm = {0, 0, 0, 0, -1};
             int32_t set, precision = geometry == PERI_LINEAR && what == SOLVE ? PERI_F32 : PERI_F64;

@@ -44,7 +44,7 @@ static void holds_dense(peri_body *b, int32_t space, const char *what) {
 static void equals_a_dense_factorisation(void) {
     int32_t space;
     int k, broken, moments;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (k = 0; k < ALL_LAWS; ++k)
             for (broken = 0; broken <= 1; ++broken)
                 for (moments = 0; moments <= 1; ++moments) {
@@ -138,8 +138,8 @@ static void stiffness_of(int32_t space, int32_t geometry, int32_t correction) {
 }
 static void stiffness_is_its_product(void) {
     int32_t space, correction;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
             stiffness_of(space, PERI_LINEAR, correction);
             stiffness_of(space, PERI_NONLINEAR, correction);
         }
@@ -174,9 +174,9 @@ static peri_body *patchwork(const scene *s, int32_t quadrature) {
 }
 static void stiffness_of_a_patchwork(void) {
     int32_t space, geometry, quadrature;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-            for (quadrature = PERI_FULL_VOLUME; quadrature <= PERI_PARTIAL_MOMENT; ++quadrature) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+            for (quadrature = PERI_FULL_VOLUME; quadrature < PERI_QUADRATURE_COUNT_; ++quadrature) {
                 scene s = scene_of(space, geometry, PERI_INFLUENCE_CONSTANT, PERI_NO_CORRECTION, 2.2);
                 char what[80];
                 peri_body *b;
@@ -221,8 +221,8 @@ static void what_has_no_stiffness(void) {
 static void product_is_the_difference_of_forces(void) {
     int32_t space, geometry;
     int k, broken, turn;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
             for (k = 0; k < ALL_LAWS; ++k)
                 for (broken = 0; broken <= 1; ++broken) {
                     scene s = small_scene(space, geometry, PERI_NO_CORRECTION);

@@ -35,10 +35,10 @@ static void refused(peri_body *b, int64_t result, int32_t code, const char *fiel
 
 static void materials_refused(void) {
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
         peri_body *b = bare(space);
         peri_material m;
-        for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model) {
+        for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model) {
             BAD(model, PERI_ERROR_RANGE, "poisson", m.poisson = (double)NAN);
             BAD(model, PERI_ERROR_RANGE, "poisson", m.poisson = -1);
             BAD(model, PERI_ERROR_RANGE, "poisson", m.poisson = -1.5);
@@ -67,7 +67,7 @@ static void materials_refused(void) {
         CHECK(MUST(b, peri_add_material(b, &m)) == 0);
         peri_body_destroy(b);
     }
-    for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model) {
         peri_material m;
         peri_material_init(&m, model);
         CHECK(m.criterion == PERI_CRITERION_STRETCH && m.poisson != m.poisson && m.fracture_energy == 0 && m.critical_stretch == 0);
@@ -78,13 +78,13 @@ static void materials_refused(void) {
 /* Partial centroids and moments are bond-based; interfaces are springs; corrections are four, and act on whole bonds to centres. */
 static void combinations_refused(void) {
     int32_t model, q, c;
-    for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model) {
+    for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model) {
         kind k = kind_of(PERI_PLANE_STRAIN, model, PERI_CRITERION_STRETCH, 0.2), bonds = k;
         peri_material m = stuff(k), spring, other;
         peri_body *b;
         bonds.model = PERI_BOND_BASED;
         spring = other = stuff(bonds);
-        for (q = PERI_FULL_VOLUME; q <= PERI_PARTIAL_MOMENT; ++q) {
+        for (q = PERI_FULL_VOLUME; q < PERI_QUADRATURE_COUNT_; ++q) {
             peri_body_desc d = plan(k.space);
             d.quadrature = q;
             (void)MUST(NULL, peri_body_create(&d, &b, NULL));
@@ -103,7 +103,7 @@ static void combinations_refused(void) {
         CHECK(peri_set_interface(b, 0, 2, &spring) == PERI_OK);
         peri_body_destroy(b);
     }
-    for (q = PERI_FULL_VOLUME; q <= PERI_PARTIAL_MOMENT; ++q)
+    for (q = PERI_FULL_VOLUME; q < PERI_QUADRATURE_COUNT_; ++q)
         for (c = -1; c <= 6; ++c) {
             peri_body_desc d = plan(PERI_PLANE_STRESS);
             peri_body *b = NULL;
@@ -122,8 +122,8 @@ static void combinations_refused(void) {
 /* K = E/(3(1-2 nu)): a body of bulk modulus K moves as one of E does: to rounding of that formula. */
 static void bulk_is_young(void) {
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model) {
             const double lo[3] = {0, 0, 0}, hi[3] = {5 * H, 4 * H, 3 * H};
             double *f[2], *u = NULL, most;
             int64_t i, n = 0;
@@ -201,7 +201,7 @@ typedef struct reader {
 } reader;
 static int32_t read_fields(reader *r, peri_body *b) {
     int32_t field;
-    for (field = PERI_DILATATION; field <= PERI_REACTION; ++field) {
+    for (field = PERI_DILATATION; field < PERI_FIELD_COUNT_; ++field) {
         double out[1000];
         peri_view v;
         int64_t i, n = peri_field_size(b, field);
@@ -224,8 +224,8 @@ static void load_reads(void *user, double time, int64_t count, const int32_t *po
 
 static void new_fields(void) {
     int32_t space, model, field;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             const int dim = dim_of(space);
             kind k = kind_of(space, model, PERI_CRITERION_STRETCH, model == PERI_BOND_BASED ? (double)NAN : 0.2);
             peri_body *b = box(k, PERI_NONLINEAR, 5, 4, 3);
@@ -245,7 +245,7 @@ static void new_fields(void) {
             r.user = &l.r;
             (void)MUST(b, peri_advance(b, &r));
             CHECK(l.r.reads >= 6 && l.r.failed == 0);
-            for (field = PERI_DILATATION; field <= PERI_REACTION; ++field) {
+            for (field = PERI_DILATATION; field < PERI_FIELD_COUNT_; ++field) {
                 const int parts = parts_of(field, dim);
                 const int64_t need = n * parts;
                 double *out = (double *)calloc((size_t)need + 1, sizeof *out);
@@ -324,7 +324,7 @@ static int64_t live(life *l, pool *p, int step) {
     case 10: {
         int32_t field;
         double sum = 0;
-        for (field = PERI_POSITION; field <= PERI_REACTION; ++field) {
+        for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
             peri_view v;
             int64_t i, size = peri_field_size(l->body, field);
             double *x = (double *)calloc((size_t)size, sizeof *x);
@@ -432,7 +432,7 @@ static void bytes_by_feature(void) {
     const char *const names[6] = {"bond-based", "LPS at 1/4", "LPS", "LPS, stretch", "LPS, bond energy", "correspondence"};
     int32_t space, precision;
     int n;
-    for (space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space)
         for (precision = PERI_F64; precision <= PERI_F32; ++precision) {
             const int side = space == PERI_SOLID ? 14 : 40, dim = dim_of(space);
             const double near_ = space == PERI_SOLID ? 3 : 6, far_ = space == PERI_SOLID ? 4 : 9, real = precision == PERI_F64 ? 8 : 4;

@@ -48,7 +48,7 @@ static void turn(double time, double *h) {
 static void supports_that_turn(void) {
     int32_t model;
     int64_t steps;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (steps = 1; steps <= 3; steps += 2) {
             solid s = large(PERI_PLANE_STRAIN, model);
             peri_body *b = solid_block(&s, 12, 6, 1);
@@ -83,7 +83,7 @@ static void supports_that_turn(void) {
 /* Both ends moved alike: all of the body moves, nothing resists, whatever the geometry and precision. */
 static void supports_that_move_alike(void) {
     int32_t geometry, precision;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
         for (precision = PERI_F64; precision <= PERI_F32; ++precision) {
             const double way[2] = {0.37, -0.21};
             solid s = large(PERI_PLANE_STRESS, PERI_LPS);
@@ -120,7 +120,7 @@ static void pull_strip(double time, double *h) {
 }
 static void strip_of_large_strain(void) {
     int32_t space;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
         double gap[3], lambda, mu;
         int turn_, dim = dim_of(space), tight;
         for (turn_ = 0; turn_ < 3; ++turn_) {
@@ -313,7 +313,7 @@ static void a_column_buckles(void) {
    that contact leaves is pinned. And a ball pressed into a held plate: what the supports give is what the ball gives. */
 static void contact_carries_the_weight(void) {
     int32_t geometry;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry) {
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry) {
         const double up[2] = {0, 1}, into[2] = {0, -1e-4}, gravity[2] = {0, -2e-3}, centre[2] = {0.6, 0.8 + 0.29};
         double force[2], held[2], *v, *u, weight = 0;
         solid s = large(PERI_PLANE_STRESS, PERI_LPS);
@@ -361,8 +361,8 @@ static void sink(void *user, double time, double *place) {
 }
 static void a_ball_that_sinks(void) {
     int32_t geometry, method, precision;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-        for (method = PERI_NEWTON; method <= PERI_RELAXATION; ++method)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+        for (method = PERI_NEWTON; method < PERI_METHOD_COUNT_; ++method)
             for (precision = PERI_F64; precision <= PERI_F32; ++precision) {
                 const double centre[2] = {0.6, 0.75 + 0.35}, tolerance = precision == PERI_F64 ? 1e-7 : 3e-3;
                 double force[2], held[2], last = 0, asked = -1;

@@ -138,8 +138,8 @@ static void operator_is_the_lattice_sum(void) {
     static const int32_t weights[] = {PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_LINEAR, PERI_INFLUENCE_GAUSSIAN};
     int32_t space, model;
     int m, w, n, way, stab;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (m = 2; m <= (space == PERI_SOLID && !test_long ? 2 : 3); ++m)
                 for (w = 0; w < (model == PERI_BOND_BASED ? 1 : 3); ++w)
                     for (stab = 0; stab < (model == PERI_CORRESPONDENCE ? 3 : 1); ++stab) {
@@ -196,8 +196,8 @@ static void second_order_with_moment_correction(void) {
     int32_t space, model;
     int m;
     if (test_long) printf("    errors in %% at 10, 20, 40, 80 points per wave (order)\n");
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (m = 2; m <= (space == PERI_SOLID && !test_long ? 2 : 3); ++m) {
                 solid s = solid_of(space, model, PERI_MOMENT_CORRECTION);
                 double order[2];
@@ -212,8 +212,8 @@ static void second_order_with_moment_correction(void) {
    horizon 3 and constant influence it is 2 to 3 % (correspondence 5 %): the wave is then only seven horizons long. */
 static void one_per_cent_at_20_points(void) {
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             int gradient = model == PERI_CORRESPONDENCE;
             solid s = solid_of(space, model, gradient ? PERI_NO_CORRECTION : PERI_MOMENT_CORRECTION);
             double order[2];
@@ -229,9 +229,9 @@ static void table_of_settings(void) {
     static const int32_t weights[] = {PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_LINEAR, PERI_INFLUENCE_POWER_3};
     int32_t space, model, correction;
     int m, w;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-            for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; correction += 3)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+            for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3)
                 for (m = 2; m <= 3; ++m)
                     for (w = 0; w < 3; ++w) {
                         solid s = solid_of(space, model, correction);
@@ -353,7 +353,7 @@ static double travel(const solid *s, int kind, int per_wave, int rows) {
 static void packets_in_a_block(void) {
     int32_t model;
     int kind, n;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (kind = LONGITUDINAL; kind <= TRANSVERSE; ++kind) {
             int gradient = model == PERI_CORRESPONDENCE;
             solid s = solid_of(PERI_PLANE_STRAIN, model, gradient ? PERI_NO_CORRECTION : PERI_MOMENT_CORRECTION);
@@ -378,8 +378,8 @@ static void packets_in_a_block(void) {
    points across, with the moment correction or by correspondence; and (--long) within 0.2 % at 80 points. */
 static void wave_in_a_strip(void) {
     int32_t model, correction;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (correction = PERI_NO_CORRECTION; correction <= PERI_MOMENT_CORRECTION; ++correction) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
             solid s = solid_of(PERI_PLANE_STRESS, model, correction);
             int sound = correction == PERI_MOMENT_CORRECTION || model == PERI_CORRESPONDENCE, n;
             if (correction == PERI_VOLUME_CORRECTION && model != PERI_BOND_BASED) continue;

@@ -27,5 +27,29 @@ grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* examples/* tests/*.* tests/e
 grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the library prints or exits"
 # no state: every variable of the library is const or local
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
+awk -f tools/wings.awk peri_impl.c src/*/* || status=1
+# peri.h and peri_status_text say the same of each status
+awk -f - peri.h src/base/status.c << 'END' || fail "peri.h and src/base/status.c differ in the text of a status"
+FILENAME == "peri.h" && !ended {
+    entry = entry " " $0
+    if (!/\*\/$/) next
+    if (match(entry, /PERI_[A-Z_]+ += +-?[0-9]+, \/\* /)) {
+        name = substr(entry, RSTART)
+        said = substr(entry, RSTART + RLENGTH)
+        sub(/ .*/, "", name); sub(/ \*\/$/, "", said); gsub(/ +/, " ", said)
+        text[name] = said
+    }
+    entry = ""
+}
+/^} peri_status;/ { ended = 1 }
+FILENAME != "peri.h" && /^ +X\([A-Z_]+, -?[0-9]+, "/ {
+    name = $1
+    sub(/^X\(/, "PERI_", name); sub(/,$/, "", name)
+    sub(/^[^"]*"/, ""); sub(/"\).*$/, "")
+    if (text[name] != $0) { print "lint: " name ": " $0; bad = 1 }
+    seen++
+}
+END { exit bad || !seen }
+END
 [ $status -eq 0 ] && echo "lint: clean"
 exit $status

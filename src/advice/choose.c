@@ -28,7 +28,7 @@ typedef struct peri__recipe {
     double      ratio;         /* horizon over spacing                                                                    */
     double      stabilization;
     double      nanoseconds;   /* of a bond and a step, mean of 2D and 3D, measured on one machine: only their ratios count */
-    float       plane[PERI_FOR_FRACTURE][PERI_RESOLUTIONS]; /* by peri_quantity less 1                                    */
+    float       plane[PERI_QUANTITY_COUNT_ - 1][PERI_RESOLUTIONS]; /* by peri_quantity less 1                                    */
     float       solid[2][PERI_RESOLUTIONS];                 /* deformation, waves                                         */
 } peri__recipe;
 
@@ -93,7 +93,7 @@ static const peri__recipe peri__recipes[] = {
 #define PERI_RECIPES ((int)(sizeof peri__recipes / sizeof *peri__recipes))
 
 static double peri__preset_error(int32_t preset, int32_t quantity) {
-    static const double error[PERI_PRESET_REFERENCE][PERI_FOR_FRACTURE] = {
+    static const double error[PERI_PRESET_COUNT_ - 1][PERI_QUANTITY_COUNT_ - 1] = {
         { 0.20, 0.20, 0.20, 0.20 }, { 0.10, 0.10, 0.10, 0.10 }, { 0.05, 0.05, 0.05, 0.05 }, { 0.01, 0.02, 0.03, 0.03 }
     };
     return error[preset - 1][quantity - 1];
@@ -204,8 +204,8 @@ static int peri__recipe_serves(const peri__recipe *r, const peri_body_desc *body
 static int32_t peri__check_goal(const peri_goal *g, const peri_body_desc *body, const peri_material *material, peri_error *error) {
     if (g->cookie != PERI_COOKIE_GOAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "goal", -1, 0.0);
     if (material->cookie != PERI_COOKIE_MATERIAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
-    if (g->preset < 0 || g->preset > PERI_PRESET_REFERENCE) return peri__set_error(error, PERI_ERROR_ARGUMENT, "preset", -1, 0.0);
-    if (g->quantity < PERI_FOR_DEFORMATION || g->quantity > PERI_FOR_FRACTURE)
+    if (g->preset < 0 || g->preset >= PERI_PRESET_COUNT_) return peri__set_error(error, PERI_ERROR_ARGUMENT, "preset", -1, 0.0);
+    if (!peri__one_of(g->quantity, PERI_QUANTITY_COUNT_))
         return peri__set_error(error, PERI_ERROR_ARGUMENT, "quantity", -1, 0.0);
     if (!(g->error >= 0.0 && g->error < 1.0)) return peri__set_error(error, PERI_ERROR_RANGE, "error", -1, g->error);
     if (!(g->seconds >= 0.0 && peri__finite(g->seconds))) return peri__set_error(error, PERI_ERROR_RANGE, "seconds", -1, g->seconds);

@@ -80,7 +80,7 @@ static int32_t peri__open_sketch(peri__sketch *s, const peri_plan_desc *plan) {
     peri_body *b = &s->body;
     memset(s, 0, sizeof *s);
     peri__start_body(b, plan->body);
-    PERI_NEED(b, plan->source >= PERI_SOURCE_BOX && plan->source <= PERI_SOURCE_POINTS, "source");
+    PERI_NEED(b, peri__one_of(plan->source, PERI_SOURCE_COUNT_), "source");
     PERI_NEED(b, plan->measure == 0 || plan->measure == 1, "measure");
     PERI_NEED_NUMBER(b, plan->amount >= 0.0 && plan->amount <= 1.0, plan->amount);
     int32_t status = peri__check_material(b, plan->material, 1);

@@ -37,6 +37,9 @@ static double peri__stored(double a) {
     return stored;
 }
 
+/* Is this a choice of an enum that counts from 1? */
+static int peri__one_of(int32_t choice, int32_t count) { return choice > 0 && choice < count; }
+
 /* Finite, without isfinite: -ffast-math compilers may fold isfinite to 1. */
 static int peri__finite(double a) { return a >= -DBL_MAX && a <= DBL_MAX; }
 

@@ -3,16 +3,57 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* X(name, number, text) */
+#define PERI_STATUS_LIST(X)                                                                                            \
+    X(STOPPED, 1, "a callback asked to stop; the body is at a whole step and may go on")                               \
+    X(OK, 0, "success")                                                                                                \
+    X(ERROR_ARGUMENT, -1, "a required pointer is NULL, or a count or a choice is not one of the allowed values")       \
+    X(ERROR_DESCRIPTOR, -2, "the descriptor was not filled by its init function, or is of another version")            \
+    X(ERROR_MEMORY, -3, "the allocator returned NULL")                                                                 \
+    X(ERROR_RANGE, -4, "a number is not finite or lies outside the range of its field")                                \
+    X(ERROR_ORDER, -5, "this call comes too early or too late: points before peri_build, all else after it")           \
+    X(ERROR_MATERIAL, -6, "no such material, or a material that contradicts itself")                                   \
+    X(ERROR_POISSON, -7, "a bond-based material has a fixed Poisson ratio (1/4 in 3D and plane strain, 1/3 in plane stress); it must be") \
+    X(ERROR_INFLUENCE, -8, "the influence function is not finite here, or has no finite moments to calibrate with")    \
+    X(ERROR_POINT, -9, "a point has a position that is not finite, or a volume that is not positive and finite")       \
+    X(ERROR_COINCIDENT, -10, "two points are at the same place")                                                       \
+    X(ERROR_NO_POINTS, -11, "the body, or the shape just added, has no point")                                         \
+    X(ERROR_HORIZON, -12, "the horizon is smaller than the spacing of the points")                                     \
+    X(ERROR_FAMILY, -13, "a point has no neighbour within its horizon, or none with a weight")                         \
+    X(ERROR_IBOND, -14, "the given families are not valid: id out of range, given twice, or not mutual")               \
+    X(ERROR_TOO_LARGE, -15, "more points or bonds than 32-bit ids can number, or more than the memory can address")    \
+    X(ERROR_SET, -16, "no such set, a name that is taken, or a selection that holds no point")                         \
+    X(ERROR_ID, -17, "no such point, load or obstacle")                                                                \
+    X(ERROR_CRACK, -18, "the crack has no extent, or is of a kind that this space does not have")                      \
+    X(ERROR_PAIR, -19, "the two points share no bond")                                                                 \
+    X(ERROR_STEP, -20, "the time step is larger than the stable step, which is the value")                             \
+    X(ERROR_UNSTABLE, -21, "a point is faster than 1e9 speeds of sound or not finite: unstable step, load or start")   \
+    X(ERROR_CALLBACK, -22, "a callback wrote a number that is not finite")                                             \
+    X(ERROR_FIELD, -23, "the field cannot be used in this way: not stored, or not writable")                           \
+    X(ERROR_CAPACITY, -24, "the buffer has the wrong size; it needs the value")                                        \
+    X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")                       \
+    X(ERROR_CRITERION, -26, "the failure criterion cannot act on this model, or lacks its fracture energy")            \
+    X(ERROR_MODEL, -27, "this model has no such constant, or cannot take this quadrature, interface or load")          \
+    X(ERROR_LOOSE, -28, "no support holds this part of the body against some motion")                                  \
+    X(ERROR_INDEFINITE, -29, "the tangent stiffness is not positive: buckling, softening or compression")              \
+    X(ERROR_CONVERGENCE, -30, "no equilibrium within the iterations allowed; the value is the residual over its scale")
+
+#define PERI_STATUS_NUMBER_(name, number, text) PERI_SAME_NUMBER_(name, PERI_##name == (number))
+PERI_STATUS_LIST(PERI_STATUS_NUMBER_)
+PERI_SAME_COUNT(status, PERI_STATUS_LIST, PERI_STATUS_COUNT_);
+
+/* Without a default, so that compilers tell of a status that neither the list nor the count has. */
 PERI_API const char *peri_status_text(int32_t status) {
-#define PERI_STATUS_CASE_(name, value, text)                                                                           \
+#define PERI_STATUS_CASE_(name, number, text)                                                                          \
     case PERI_##name:                                                                                                  \
         return text;
-    switch (status) {
+    switch ((peri_status)status) {
         PERI_STATUS_LIST(PERI_STATUS_CASE_)
-    default:
-        return "unknown status";
+    case PERI_STATUS_COUNT_:
+        break;
     }
 #undef PERI_STATUS_CASE_
+    return "unknown status";
 }
 
 static int32_t peri__set_error(peri_error *error, int32_t code, const char *field, int64_t index, double value) {

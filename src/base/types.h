@@ -21,8 +21,13 @@
 #define PERI_BLOCK 64          /* points per task; totals are summed block by block, whatever the threads                */
 #define PERI_LANES 16          /* component planes of vectors are padded to a multiple of this                           */
 #define PERI_MATERIAL_LIMIT 120 /* a point's class is material + (no-fail ? materials : 0), in 8 bits                    */
-#define PERI_FIELDS 16         /* the last peri_field                                                                     */
 #define PERI_NEVER 1e30        /* critical stretch of bonds that do not break; finite, so that 0*PERI_NEVER is 0         */
+
+/* Lists that belong to an enum are macros LIST(X), which call X(name, number, ...) for each entry. An entry that the enum has and the
+   list has not, or another number of the same name, does not compile. */
+#define PERI_ONE_(...) +1
+#define PERI_SAME_NUMBER_(name, same) typedef char peri__number_of_##name[(same) ? 1 : -1];
+#define PERI_SAME_COUNT(name, list, count) typedef char peri__count_of_##name[(list(PERI_ONE_)) == (count) ? 1 : -1]
 
 typedef struct peri__memory {
     peri_allocate_fn allocate;
@@ -221,8 +226,10 @@ typedef struct peri__load {
     int32_t      stepped; /* supports: a step has left its mean reaction                                                 */
 } peri__load;
 
+typedef enum peri__obstacle_kind { PERI__REMOVED, PERI__PLANE, PERI__BALL } peri__obstacle_kind;
+
 typedef struct peri__obstacle {
-    int32_t        kind; /* 0 removed, 1 plane, 2 ball                                                                   */
+    int32_t        kind;
     double         place[3], place0[3], normal[3], radius, stiffness; /* inner units                                     */
     peri_motion_fn motion;
     void          *user;
@@ -327,6 +334,11 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
 } peri__solver;
 
+typedef struct peri__derived { /* what peri_view_field computed of a field                                                 */
+    double *data; /* [points*components]; NULL until first asked for                                                     */
+    int32_t components;
+} peri__derived;
+
 typedef struct peri__ledger { /* inner units of energy                                                                    */
     double  external, obstacle, damping, fracture, initial;
     double  before;  /* kinetic + elastic before the first unaccounted change                                            */
@@ -400,7 +412,7 @@ struct peri_body {
     void     *change_response; /* and of the response                                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
-    double   *derived[PERI_FIELDS + 1]; /* by field: what peri_view_field computed; NULL until first asked for            */
+    peri__derived derived[PERI_FIELD_COUNT_]; /* by field                                                                */
 
     peri__set      *sets;
     int64_t         set_count, set_capacity;

@@ -14,16 +14,6 @@ static int64_t peri__response_reals(const peri__model *m) {
 /* Entries of the arrays of bonds, see peri__bond_slot. */
 static int64_t peri__bond_slots(const peri__model *m) { return m->lanes.columns ? m->lanes.columns * PERI_LANES : m->entries; }
 
-/* Numbers per point of a field, 0 where there is no such field. */
-static int32_t peri__components(int32_t field, int32_t dim) {
-    switch (field) {
-    case PERI_POSITION: case PERI_DISPLACEMENT: case PERI_VELOCITY: case PERI_FORCE_DENSITY: case PERI_CURRENT: case PERI_REACTION:
-        return dim;
-    case PERI_STRAIN: case PERI_STRESS: case PERI_FORCE_STRESS: return PERI_PACKED(dim);
-    default: return field >= 1 && field <= PERI_FIELDS;
-    }
-}
-
 /* The entries of peri_memory, in its order. */
 typedef enum peri__purpose {
     PERI__POINTS,
@@ -196,8 +186,8 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
     for (int k = 0; k < PERI_ARRAYS; ++k)
         held[arrays[k].purpose] += peri__held_bytes(peri__array_of(b, &arrays[k]), arrays[k].count, arrays[k].size);
     for (int k = 0; k < 3; ++k) held[PERI__STATE] += peri__held_bytes(vectors[k], peri__vector_reals(m), peri__real(b));
-    for (int32_t k = 0; k <= PERI_FIELDS; ++k)
-        held[PERI__FIELDS] += peri__held_bytes(b->derived[k], m->points * peri__components(k, m->dim), sizeof(double));
+    for (int k = 0; k < PERI_FIELD_COUNT_; ++k)
+        held[PERI__FIELDS] += peri__held_bytes(b->derived[k].data, m->points * b->derived[k].components, sizeof(double));
     int64_t loads = peri__held_bytes(b->sets, b->set_capacity, sizeof *b->sets);
     loads += peri__held_bytes(b->loads, b->load_capacity, sizeof *b->loads);
     loads += peri__held_bytes(b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);

@@ -21,19 +21,19 @@ PERI_API void peri_body_desc_init(peri_body_desc *d) {
 
 /* The name of the first field out of range, or NULL. */
 static const char *peri__bad_choice(const peri_body_desc *d) {
-    if (d->space < PERI_PLANE_STRESS || d->space > PERI_SOLID) return "space";
+    if (!peri__one_of(d->space, PERI_SPACE_COUNT_)) return "space";
     if (d->precision != PERI_F64 && d->precision != PERI_F32 && d->precision != PERI_MIXED) return "precision";
-    if (d->geometry != PERI_NONLINEAR && d->geometry != PERI_LINEAR) return "geometry";
-    if (d->influence < PERI_INFLUENCE_CONSTANT || d->influence > PERI_INFLUENCE_USER) return "influence";
+    if (!peri__one_of(d->geometry, PERI_GEOMETRY_COUNT_)) return "geometry";
+    if (!peri__one_of(d->influence, PERI_INFLUENCE_COUNT_)) return "influence";
     if (d->influence == PERI_INFLUENCE_USER && !d->influence_fn) return "influence_fn";
-    if (d->quadrature < PERI_FULL_VOLUME || d->quadrature > PERI_PARTIAL_MOMENT) return "quadrature";
-    if (d->space == PERI_SOLID && d->quadrature > PERI_PARTIAL_VOLUME) return "quadrature";
-    if (d->break_timing != PERI_BREAK_AT_STEP_END && d->break_timing != PERI_BREAK_AFTER_DRIFT) return "break_timing";
-    if (d->correction < PERI_NO_CORRECTION || d->correction > PERI_MOMENT_CORRECTION) return "correction";
-    if (d->correction != PERI_NO_CORRECTION && d->quadrature >= PERI_PARTIAL_CENTROID) return "correction";
+    if (!peri__one_of(d->quadrature, PERI_QUADRATURE_COUNT_)) return "quadrature";
+    if (d->space == PERI_SOLID && peri__is_planar(d->quadrature)) return "quadrature";
+    if (!peri__one_of(d->break_timing, PERI_BREAK_TIMING_COUNT_)) return "break_timing";
+    if (!peri__one_of(d->correction, PERI_CORRECTION_COUNT_)) return "correction";
+    if (d->correction != PERI_NO_CORRECTION && peri__is_planar(d->quadrature)) return "correction";
     if (d->threads < 0) return "threads";
-    if (d->kernel < PERI_KERNEL_BEST || d->kernel > PERI_KERNEL_LIST) return "kernel";
-    if (d->instructions < 0 || d->instructions > PERI_AVX512) return "instructions";
+    if (d->kernel < 0 || d->kernel >= PERI_KERNEL_COUNT_) return "kernel";
+    if (d->instructions < 0 || d->instructions >= PERI_INSTRUCTIONS_COUNT_) return "instructions";
     if ((d->allocate == NULL) != (d->release == NULL)) return "allocate, release";
     return NULL;
 }
@@ -277,9 +277,9 @@ static void peri__free_state(peri_body *b) {
         peri__delete(memory, peri__array_of(b, &arrays[k]), arrays[k].count, arrays[k].size);
         peri__set_array(b, &arrays[k], NULL);
     }
-    for (int32_t k = 0; k <= PERI_FIELDS; ++k) {
-        peri__delete(memory, b->derived[k], m->points * peri__components(k, m->dim), sizeof(double));
-        b->derived[k] = NULL;
+    for (int k = 0; k < PERI_FIELD_COUNT_; ++k) {
+        peri__delete(memory, b->derived[k].data, m->points * b->derived[k].components, sizeof(double));
+        b->derived[k].data = NULL;
     }
     for (int64_t k = 0; k < b->set_count; ++k) {
         peri__delete(memory, b->sets[k].name, b->sets[k].name_bytes, 1);

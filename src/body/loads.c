@@ -294,8 +294,8 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
     PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
     peri__inner(b, place, obstacle->place);
     for (int32_t d = 0; d < b->dim; ++d) /* beyond 1e15 spacings the surface of a ball is lost in rounding */
-        if (!(fabs(obstacle->place[d]) < (obstacle->kind == 2 ? 1e15 : DBL_MAX)))
-            return peri__fail(b, PERI_ERROR_RANGE, obstacle->kind == 2 ? "centre" : "place", -1, place[d]);
+        if (!(fabs(obstacle->place[d]) < (obstacle->kind == PERI__BALL ? 1e15 : DBL_MAX)))
+            return peri__fail(b, PERI_ERROR_RANGE, obstacle->kind == PERI__BALL ? "centre" : "place", -1, place[d]);
     if (!(obstacle->radius < 1e15)) return peri__fail(b, PERI_ERROR_RANGE, "radius", -1, obstacle->radius * m->length);
     memcpy(obstacle->place0, obstacle->place, sizeof obstacle->place0);
     obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
@@ -316,7 +316,7 @@ PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, cons
     PERI_NEED_VECTOR(b, normal);
     memset(&obstacle, 0, sizeof obstacle);
     if (!peri__direction(normal, b->dim, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
-    obstacle.kind = 1;
+    obstacle.kind = PERI__PLANE;
     obstacle.motion = motion;
     obstacle.user = user;
     return peri__add_obstacle(b, &obstacle, place, stiffness);
@@ -329,7 +329,7 @@ PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, doub
     PERI_NEED_VECTOR(b, centre);
     PERI_NEED_NUMBER(b, radius > 0.0, radius);
     memset(&obstacle, 0, sizeof obstacle);
-    obstacle.kind = 2;
+    obstacle.kind = PERI__BALL;
     obstacle.radius = radius / b->model->length;
     obstacle.motion = motion;
     obstacle.user = user;
@@ -341,7 +341,7 @@ static int32_t peri__move_obstacles(peri_body *b, double time) {
     for (int64_t k = 0; k < b->obstacle_count; ++k) {
         peri__obstacle *o = &b->obstacles[k];
         double place[3] = { 0.0, 0.0, 0.0 };
-        if (!o->kind || !o->motion) continue;
+        if (o->kind == PERI__REMOVED || !o->motion) continue;
         for (int32_t d = 0; d < b->dim; ++d) place[d] = b->model->origin[d] + o->place0[d] * b->model->length;
         o->motion(o->user, time, place);
         if (!peri__finite_vector(place, b->dim)) return peri__fail(b, PERI_ERROR_CALLBACK, "motion of the obstacle", k, 0.0);
@@ -354,13 +354,13 @@ static int32_t peri__move_obstacles(peri_body *b, double time) {
 static void peri__push(const peri_body *b, const peri__obstacle *o, int64_t i, double *push) {
     const peri__model *m = b->model;
     double r[3], depth, square = 0.0;
-    if (!o->kind) return;
+    if (o->kind == PERI__REMOVED) return;
     for (int32_t d = 0; d < m->dim; ++d) {
         int64_t at = d * m->stride + i;
         r[d] = peri__get_real(m->x, b->f32, at) + peri__get_real(b->u, b->f32, at) - o->place[d];
         square += r[d] * r[d];
     }
-    if (o->kind == 2) {
+    if (o->kind == PERI__BALL) {
         double distance = sqrt(square);
         depth = o->radius - distance;
         for (int32_t d = 0; depth > 0.0 && d < m->dim; ++d) push[d] += o->stiffness * depth * r[d] / (distance + 1e-290);
@@ -405,7 +405,7 @@ static int32_t peri__apply_obstacles(peri_body *b, double time, double dt) {
 }
 
 static int32_t peri__check_obstacle(peri_body *b, int32_t obstacle) {
-    if (obstacle < 0 || obstacle >= b->obstacle_count || b->obstacles[obstacle].kind == 0)
+    if (obstacle < 0 || obstacle >= b->obstacle_count || b->obstacles[obstacle].kind == PERI__REMOVED)
         return peri__fail(b, PERI_ERROR_ID, "obstacle", obstacle, 0.0);
     return PERI_OK;
 }
@@ -414,7 +414,7 @@ PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t obstacle) {
     PERI_NEED_CHANGEABLE(b);
     int32_t status = peri__check_obstacle(b, obstacle);
     if (status < 0) return status;
-    b->obstacles[obstacle].kind = 0;
+    b->obstacles[obstacle].kind = PERI__REMOVED;
     b->force_current = 0;
     return PERI_OK;
 }
@@ -476,8 +476,7 @@ static void peri__read_reactions(const peri_body *b, double *out) {
         for (int64_t k = 0; load->owned && k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d)
                 if (load->owned[k] >> d & 1)
-                    out[peri__set_point(b, load->set, k) * m->dim + d] =
-                        *peri__held(b, load, PERI__HELD_REACTION, k, d) * peri__force_unit(m);
+                    out[peri__set_point(b, load->set, k) * m->dim + d] = *peri__held(b, load, PERI__HELD_REACTION, k, d);
     }
 }
 

@@ -3,10 +3,14 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* A field of point i, inner units, to out[components]. */
+typedef void (*peri__point_fn)(const peri_body *b, int64_t i, const peri__row *row, double *out);
+
 typedef struct peri__gradients {
-    peri_body *body;
-    int32_t    field;
-    double    *out; /* [points*components]                                                                               */
+    const peri_body *body;
+    peri__point_fn   at;
+    int32_t          components;
+    double          *out; /* [points*components]                                                                         */
 } peri__gradients;
 
 /* H = F - 1 of a point on what its live bonds span, and the projector P onto that. A rotation R of a thin family has H = (R - 1) P, so
@@ -145,35 +149,57 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, 
     }
 }
 
+static void peri__dilatation_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+    const peri__model *m = b->model;
+    peri__deformation f;
+    double strain[3][3];
+    *out = 0.0;
+    if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) {
+        *out = peri__dilatation(b, i, row);
+        return;
+    }
+    peri__deform(b, i, row, &f);
+    peri__strain_of(b, &f, strain);
+    for (int a = 0; a < m->dim; ++a) *out += strain[a][a];
+}
+
+static void peri__strain_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+    peri__deformation f;
+    double strain[3][3];
+    peri__deform(b, i, row, &f);
+    peri__strain_of(b, &f, strain);
+    for (int a = 0; a < b->dim; ++a)
+        for (int c = a; c < b->dim; ++c) out[peri__packed(b->dim, a, c)] = strain[a][c];
+}
+
+static void peri__stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+    peri__deformation f;
+    double p[3][3];
+    peri__deform(b, i, row, &f);
+    peri__piola(b, i, &f, p);
+    peri__cauchy(b, p, &f, out);
+}
+
+static void peri__force_stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+    peri__deformation f;
+    double p[3][3];
+    peri__deform(b, i, row, &f);
+    peri__collapse(b, i, row, &f, p);
+    peri__cauchy(b, p, &f, out);
+}
+
 static void peri__gradients_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__gradients *g = (const peri__gradients *)context;
-    const peri_body *b = g->body;
-    const peri__model *m = b->model;
-    int32_t parts = peri__components(g->field, m->dim);
     peri__row row;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
-        peri__deformation f;
-        double p[3][3], *out = &g->out[i * parts];
-        peri__read_row(b, i, &row);
-        if (g->field == PERI_DILATATION && !(m->laws[m->material[i]].gather & PERI__GRADIENT)) {
-            *out = peri__dilatation(b, i, &row);
-            continue;
-        }
-        peri__deform(b, i, &row, &f);
-        if (g->field == PERI_STRESS || g->field == PERI_FORCE_STRESS) {
-            if (g->field == PERI_STRESS) peri__piola(b, i, &f, p);
-            else peri__collapse(b, i, &row, &f, p);
-            peri__cauchy(b, p, &f, out);
-            for (int k = 0; k < parts; ++k) out[k] *= m->stress;
-            continue;
-        }
-        peri__strain_of(b, &f, p);
-        if (g->field == PERI_DILATATION) *out = 0.0;
-        for (int a = 0; a < m->dim; ++a)
-            for (int c = a; c < m->dim; ++c) {
-                if (g->field == PERI_STRAIN) out[peri__packed(m->dim, a, c)] = p[a][c];
-                else if (a == c) *out += p[a][a];
-            }
+        peri__read_row(g->body, i, &row);
+        g->at(g->body, i, &row, &g->out[i * g->components]);
     }
+}
+
+static void peri__read_gradients(peri_body *b, peri__point_fn at, int32_t components, double *out) {
+    peri__gradients gradients = { b, at, components, out };
+    peri__refresh(b);
+    peri__for_points(b, b->model->points, 8 * b->model->width, peri__gradients_block, &gradients, NULL);
 }

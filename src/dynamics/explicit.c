@@ -133,7 +133,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
 static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     PERI_NEED(b, r, "run");
     if (r->cookie != PERI_COOKIE_RUN) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "run", -1, 0.0);
-    PERI_NEED(b, r->integrator == PERI_VELOCITY_VERLET || r->integrator == PERI_CENTRAL_DIFFERENCE, "integrator");
+    PERI_NEED(b, peri__one_of(r->integrator, PERI_INTEGRATOR_COUNT_), "integrator");
     PERI_NEED_NUMBER(b, r->duration >= 0.0, r->duration);
     PERI_NEED_NUMBER(b, r->time_step >= 0.0, r->time_step);
     PERI_NEED_NUMBER(b, r->safety > 0.0 && r->safety <= 1.0, r->safety);

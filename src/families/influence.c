@@ -1,4 +1,5 @@
-/* influence.c - influence functions w(q), q = |xi|/horizon, and their moments I_k = integral of w(q) q^k over [0, 1]. */
+/* influence.c - influence functions w(q), q = |xi|/horizon, and their moments I_k = integral of w(q) q^k over [0, 1].
+   A function more is its number in peri.h and its entry in the list below. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -12,21 +13,40 @@ typedef struct peri__polynomial {
     double b[4];
 } peri__polynomial;
 
-static const peri__polynomial peri__polynomials[] = {
-    /* CONSTANT */ { 1, { 1 }, 0, 1, { 1 } },
-    /* CUTOFF   */ { 1, { 1 }, 0, 1, { 1 } },
-    /* LINEAR   */ { 2, { 1, -1 }, 1, 1, { 1 } },
-    /* CUBIC    */ { 4, { 1, 0, -3, 2 }, 2, 2, { 1, 2 } },
-    /* QUINTIC  */ { 6, { 1, 0, 0, -10, 15, -6 }, 3, 3, { 1, 3, 6 } },
-    /* SEPTIC   */ { 8, { 1, 0, 0, 0, -35, 84, -70, 20 }, 4, 4, { 1, 4, 10, 20 } },
-    /* POWER_2  */ { 3, { 1, -2, 1 }, 2, 1, { 1 } },
-    /* POWER_3  */ { 4, { 1, -3, 3, -1 }, 3, 1, { 1 } },
-};
+static const peri__polynomial peri__cutoff  = { 1, { 1 }, 0, 1, { 1 } };
+static const peri__polynomial peri__linear  = { 2, { 1, -1 }, 1, 1, { 1 } };
+static const peri__polynomial peri__cubic   = { 4, { 1, 0, -3, 2 }, 2, 2, { 1, 2 } };
+static const peri__polynomial peri__quintic = { 6, { 1, 0, 0, -10, 15, -6 }, 3, 3, { 1, 3, 6 } };
+static const peri__polynomial peri__septic  = { 8, { 1, 0, 0, 0, -35, 84, -70, 20 }, 4, 4, { 1, 4, 10, 20 } };
+static const peri__polynomial peri__power_2 = { 3, { 1, -2, 1 }, 2, 1, { 1 } };
+static const peri__polynomial peri__power_3 = { 4, { 1, -3, 3, -1 }, 3, 1, { 1 } };
 
-static const peri__polynomial *peri__polynomial_of(int32_t influence) {
-    int32_t count = (int32_t)(sizeof peri__polynomials / sizeof peri__polynomials[0]);
-    return influence >= 1 && influence <= count ? &peri__polynomials[influence - 1] : NULL;
-}
+/* X(name, number, w, moment, polynomial): w of q and edge; the moment I_k of k, 0 where none is finite, or by quadrature; the polynomial
+   where w is one within the horizon and 0 beyond, else NULL. */
+#define PERI_BY_QUADRATURE (-1.0)
+#define PERI_POLYNOMIAL_(X, name, number, p)                                                                           \
+    X(name, number, peri__polynomial_value(p, q), peri__polynomial_moment(p, k), p)
+#define PERI_INFLUENCE_LIST(X)                                                                                         \
+    X(CONSTANT, 1, 1.0, 1.0 / (k + 1), NULL)                                                                           \
+    PERI_POLYNOMIAL_(X, CUTOFF, 2, &peri__cutoff)                                                                      \
+    PERI_POLYNOMIAL_(X, LINEAR, 3, &peri__linear)                                                                      \
+    PERI_POLYNOMIAL_(X, CUBIC, 4, &peri__cubic)                                                                        \
+    PERI_POLYNOMIAL_(X, QUINTIC, 5, &peri__quintic)                                                                    \
+    PERI_POLYNOMIAL_(X, SEPTIC, 6, &peri__septic)                                                                      \
+    PERI_POLYNOMIAL_(X, POWER_2, 7, &peri__power_2)                                                                    \
+    PERI_POLYNOMIAL_(X, POWER_3, 8, &peri__power_3)                                                                    \
+    X(GAUSSIAN, 9, exp(-q * q), PERI_BY_QUADRATURE, NULL)                                                              \
+    X(PROPORTIONAL, 10, q, 1.0 / (k + 2), NULL)                                                                        \
+    X(INVERSE, 11, 1.0 / q, 1.0 / k, NULL)                                                                             \
+    X(INVERSE_4, 12, 1.0 / (q * q * q * q), 0.0, NULL)                                                                 \
+    X(POLE_EDGE, 13, q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0, PERI_BY_QUADRATURE, NULL)                          \
+    X(POLE_HALF, 14, 1.0 / (2.0 * q - 1.0), 0.0, NULL)                                                                 \
+    X(POLE_QUARTER, 15, peri__in_range(exp(1.0 / (q - 0.25))), 0.0, NULL)                                              \
+    X(USER, 16, peri__in_range(desc->influence_fn(desc->influence_user, q)), PERI_BY_QUADRATURE, NULL)
+
+#define PERI_INFLUENCE_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(INFLUENCE_##name, PERI_INFLUENCE_##name == (number))
+PERI_INFLUENCE_LIST(PERI_INFLUENCE_NUMBER_)
+PERI_SAME_COUNT(influence, PERI_INFLUENCE_LIST, PERI_INFLUENCE_COUNT_ - 1);
 
 /* A q within the horizon's tolerance is 1, so that a root there is one whatever the rounding of q. */
 static double peri__within_one(double q) { return q < 1.0 - PERI_HORIZON_TOLERANCE ? q : 1.0; }
@@ -34,45 +54,46 @@ static double peri__within_one(double q) { return q < 1.0 - PERI_HORIZON_TOLERAN
 /* Squares and products of a few values beyond 1e100, or below its inverse, leave the range of double: not finite, or nothing. */
 static double peri__in_range(double w) { return fabs(w) <= 1e100 ? fabs(w) >= 1e-100 ? w : 0.0 : (double)NAN; }
 
+static double peri__polynomial_value(const peri__polynomial *p, double q) {
+    double t = peri__within_one(q), sum = 0.0;
+    for (int n = p->rest - 1; n >= 0; --n) sum = sum * t + p->b[n];
+    for (int n = 0; n < p->edge; ++n) sum *= 1.0 - t;
+    return q <= 1.0 + PERI_HORIZON_TOLERANCE ? sum : 0.0;
+}
+
+static double peri__polynomial_moment(const peri__polynomial *p, int k) {
+    double sum = 0.0;
+    for (int n = 0; n < p->terms; ++n) sum += p->a[n] / (n + k + 1);
+    return sum;
+}
+
+static const peri__polynomial *peri__polynomial_of(int32_t influence) {
+#define PERI_POLYNOMIAL_CASE_(name, number, w, moment, polynomial)                                                     \
+    case PERI_INFLUENCE_##name: return polynomial;
+    switch (influence) {
+        PERI_INFLUENCE_LIST(PERI_POLYNOMIAL_CASE_)
+    default: return NULL;
+    }
+#undef PERI_POLYNOMIAL_CASE_
+}
+
 /* w(q) of the descriptor. edge = spacing/(2 horizon), for PERI_INFLUENCE_POLE_EDGE only. A q within the horizon's tolerance
    counts as inside. */
 static double peri__influence(const peri_body_desc *desc, double q, double edge) {
-    int inside = q <= 1.0 + PERI_HORIZON_TOLERANCE;
-    const peri__polynomial *p = peri__polynomial_of(desc->influence);
-    if (desc->influence == PERI_INFLUENCE_CONSTANT) return 1.0;
-    if (p) {
-        double t = peri__within_one(q), sum = 0.0;
-        if (!inside) return 0.0;
-        for (int n = p->rest - 1; n >= 0; --n) sum = sum * t + p->b[n];
-        for (int n = 0; n < p->edge; ++n) sum *= 1.0 - t;
-        return sum;
-    }
+#define PERI_INFLUENCE_CASE_(name, number, w, moment, polynomial)                                                      \
+    case PERI_INFLUENCE_##name: return w;
     switch (desc->influence) {
-    case PERI_INFLUENCE_GAUSSIAN: return exp(-q * q);
-    case PERI_INFLUENCE_PROPORTIONAL: return q;
-    case PERI_INFLUENCE_INVERSE: return 1.0 / q;
-    case PERI_INFLUENCE_INVERSE_4: return 1.0 / (q * q * q * q);
-    case PERI_INFLUENCE_POLE_EDGE: return q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0;
-    case PERI_INFLUENCE_POLE_HALF: return 1.0 / (2.0 * q - 1.0);
-    case PERI_INFLUENCE_POLE_QUARTER: return peri__in_range(exp(1.0 / (q - 0.25)));
-    default: return peri__in_range(desc->influence_fn(desc->influence_user, q));
+        PERI_INFLUENCE_LIST(PERI_INFLUENCE_CASE_)
+    default: return 0.0;
     }
+#undef PERI_INFLUENCE_CASE_
 }
 
 /* The same of count values in place, to the last bit. */
 static void peri__influences(const peri_body_desc *desc, double *q, int64_t count, double edge) {
     const peri__polynomial *p = peri__polynomial_of(desc->influence);
-    if (!p || desc->influence == PERI_INFLUENCE_CONSTANT) {
-        for (int64_t k = 0; k < count; ++k) q[k] = peri__influence(desc, q[k], edge);
-        return;
-    }
-    for (int64_t k = 0; k < count; ++k) {
-        const double t = peri__within_one(q[k]);
-        double sum = 0.0;
-        for (int n = p->rest - 1; n >= 0; --n) sum = sum * t + p->b[n];
-        for (int n = 0; n < p->edge; ++n) sum *= 1.0 - t;
-        q[k] = q[k] <= 1.0 + PERI_HORIZON_TOLERANCE ? sum : 0.0;
-    }
+    for (int64_t n = 0; p && n < count; ++n) q[n] = peri__polynomial_value(p, q[n]);
+    for (int64_t n = 0; !p && n < count; ++n) q[n] = peri__influence(desc, q[n], edge);
 }
 
 static double peri__moment_by_panels(const peri_body_desc *desc, int power, double edge, int panels) {
@@ -86,25 +107,18 @@ static double peri__moment_by_panels(const peri_body_desc *desc, int power, doub
     return sum;
 }
 
-/* I_power, in closed form where there is one, else by Gauss-Legendre quadrature over panels, accepted only where halving the
+/* I_k, in closed form where there is one, else by Gauss-Legendre quadrature over panels, accepted only where halving the
    panels changes nothing: a function without a finite moment is refused, not guessed. Returns 0 where there is none. */
-static int peri__moment(const peri_body_desc *desc, int power, double edge, double *moment) {
-    const peri__polynomial *p = peri__polynomial_of(desc->influence);
-    if (p) {
-        double sum = 0.0;
-        for (int n = 0; n < p->terms; ++n) sum += p->a[n] / (n + power + 1);
-        *moment = sum;
-        return 1;
-    }
+static int peri__moment(const peri_body_desc *desc, int k, double edge, double *moment) {
+#define PERI_MOMENT_CASE_(name, number, w, closed, polynomial)                                                         \
+    case PERI_INFLUENCE_##name: *moment = closed; break;
     switch (desc->influence) {
-    case PERI_INFLUENCE_INVERSE_4:
-    case PERI_INFLUENCE_POLE_HALF:
-    case PERI_INFLUENCE_POLE_QUARTER: return 0;
-    case PERI_INFLUENCE_PROPORTIONAL: *moment = 1.0 / (power + 2); return 1;
-    case PERI_INFLUENCE_INVERSE: *moment = 1.0 / power; return 1;
-    default: break;
+        PERI_INFLUENCE_LIST(PERI_MOMENT_CASE_)
+    default: return 0;
     }
-    double coarse = peri__moment_by_panels(desc, power, edge, 64);
-    *moment = peri__moment_by_panels(desc, power, edge, 128);
+#undef PERI_MOMENT_CASE_
+    if (*moment >= 0.0) return *moment > 0.0;
+    double coarse = peri__moment_by_panels(desc, k, edge, 64);
+    *moment = peri__moment_by_panels(desc, k, edge, 128);
     return peri__finite(*moment) && *moment > 0.0 && fabs(*moment - coarse) <= 1e-6 * *moment;
 }

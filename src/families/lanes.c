@@ -148,7 +148,7 @@ static int peri__is_vector(const peri__draft *d, const peri__vector *row, int64_
 static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_t count) {
     const peri__cloud *c = d->cloud;
     const peri__model *m = c->model;
-    const int listed = m->ids != NULL, weighed = listed || c->body->desc.quadrature > PERI_VOLUME_RAMP, b32 = c->body->b32;
+    const int listed = m->ids != NULL, weighed = listed || peri__is_exact(c->body->desc.quadrature), b32 = c->body->b32;
     const uint16_t bit = (uint16_t)(1 << (i % PERI_LANES));
     const peri__column *old = d->group[d->now], *old_end = old + d->group_count;
     peri__column *made = d->group[!d->now], *next = made;
@@ -437,7 +437,7 @@ static int32_t peri__keep_lanes(peri__draft *d) {
 static int peri__is_alike(const peri__cloud *c) {
     const peri__setup *s = &c->body->setup;
     const int box = s->piece_count == 1 && s->pieces[0].lattice && !s->pieces[0].vertices;
-    return !c->model->ids && c->model->materials == 1 && c->even > 0.0 && (c->body->desc.quadrature <= PERI_VOLUME_RAMP || box);
+    return !c->model->ids && c->model->materials == 1 && c->even > 0.0 && (!peri__is_exact(c->body->desc.quadrature) || box);
 }
 
 /* Makes the columns where they pay, from the list where there is one and else from the points. 1: made; 0: not; else an error. */

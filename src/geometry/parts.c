@@ -3,6 +3,31 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* X(name, number, exact, planar). exact: beta is the part of the cell within the horizon; planar: the centroid of the part counts, too,
+   which is known in the plane only. */
+#define PERI_QUADRATURE_LIST(X)                                                                                        \
+    X(FULL_VOLUME, 1, 0, 0)                                                                                            \
+    X(VOLUME_RAMP, 2, 0, 0)                                                                                            \
+    X(PARTIAL_VOLUME, 3, 1, 0)                                                                                         \
+    X(PARTIAL_CENTROID, 4, 1, 1)                                                                                       \
+    X(PARTIAL_MOMENT, 5, 1, 1)
+
+#define PERI_QUADRATURE_NUMBER_(name, number, exact, planar) PERI_SAME_NUMBER_(name, PERI_##name == (number))
+PERI_QUADRATURE_LIST(PERI_QUADRATURE_NUMBER_)
+PERI_SAME_COUNT(quadrature, PERI_QUADRATURE_LIST, PERI_QUADRATURE_COUNT_ - 1);
+
+static int peri__is_exact(int32_t quadrature) {
+#define PERI_EXACT_CASE_(name, number, exact, planar) || (quadrature == (number) && exact)
+    return 0 PERI_QUADRATURE_LIST(PERI_EXACT_CASE_);
+#undef PERI_EXACT_CASE_
+}
+
+static int peri__is_planar(int32_t quadrature) {
+#define PERI_PLANAR_CASE_(name, number, exact, planar) || (quadrature == (number) && planar)
+    return 0 PERI_QUADRATURE_LIST(PERI_PLANAR_CASE_);
+#undef PERI_PLANAR_CASE_
+}
+
 /* Everything that building families and weights needs to know about the points; inner units. */
 typedef struct peri__cloud {
     const peri_body *body;
@@ -154,7 +179,7 @@ static void peri__set_reach(peri__cloud *c) {
     const peri__model *m = c->model;
     double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
     if (c->body->desc.quadrature == PERI_VOLUME_RAMP) reach += 0.5 * c->largest;
-    if (c->body->desc.quadrature >= PERI_PARTIAL_VOLUME) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
+    if (peri__is_exact(c->body->desc.quadrature)) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
     c->reach2 = reach * reach;
 }
 

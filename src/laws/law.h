@@ -34,4 +34,6 @@ typedef enum peri__gather { /* what a point makes of its family before forces ca
 /* and for those with a gradient */
 #define PERI_GRADIENT_LAW_LIST(X) X(correspondence, PERI_CORRESPONDENCE)
 
+PERI_SAME_COUNT(law, PERI_LAW_LIST, PERI_MODEL_COUNT_ - 1);
+
 #endif

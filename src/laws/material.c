@@ -97,14 +97,14 @@ static double peri__critical_energy(const peri_material *m, int32_t space, doubl
 /* What only some models can have. */
 static int32_t peri__check_model(peri_body *b, const peri_material *m) {
     int32_t space = b->desc.space, bonds = m->model == PERI_BOND_BASED;
-    PERI_NEED(b, m->model >= PERI_BOND_BASED && m->model <= PERI_CORRESPONDENCE, "model");
-    PERI_NEED(b, m->criterion >= PERI_CRITERION_STRETCH && m->criterion <= PERI_CRITERION_NODE_ENERGY, "criterion");
+    PERI_NEED(b, peri__one_of(m->model, PERI_MODEL_COUNT_), "model");
+    PERI_NEED(b, peri__one_of(m->criterion, PERI_CRITERION_COUNT_), "criterion");
     PERI_NEED_NUMBER(b, m->stabilization >= 0.0, m->stabilization);
     if (m->model != PERI_CORRESPONDENCE && m->stabilization != 0.0)
         return peri__fail(b, PERI_ERROR_MODEL, "stabilization", -1, m->stabilization);
     if (m->criterion != PERI_CRITERION_STRETCH && (bonds || !(m->fracture_energy > 0.0)))
         return peri__fail(b, PERI_ERROR_CRITERION, bonds ? "criterion" : "fracture_energy", -1, m->criterion);
-    if (!bonds && b->desc.quadrature >= PERI_PARTIAL_CENTROID)
+    if (!bonds && peri__is_planar(b->desc.quadrature))
         return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
     if (!bonds) PERI_NEED_NUMBER(b, m->poisson > -1.0 && m->poisson < 0.5, m->poisson);
     if (bonds && m->poisson == m->poisson && fabs(m->poisson - peri__bond_poisson(space)) > 1e-9)

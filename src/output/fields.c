@@ -1,13 +1,102 @@
-/* fields.c - fields by copy and by view, the ledger, the momenta. */
+/* fields.c - fields by copy and by view, the ledger, the momenta.
+   A field more is its number in peri.h, its entry in the list below, and the function that the entry names. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
+
+/* X(name, number, components, unit, way, what, forces). The way is `view`: peri__view_what points to what is stored, or `read`:
+   peri__read_what computes all numbers; both leave the unit to the list. forces: 1 of what a write or a cut leaves out of date. */
+#define PERI_FIELD_LIST(X)                                                                                             \
+    X(POSITION, 1, dim, m->length, view, position, 0)                                                                  \
+    X(DISPLACEMENT, 2, dim, m->length, view, displacement, 0)                                                          \
+    X(VELOCITY, 3, dim, peri__velocity_unit(m), view, velocity, 0)                                                     \
+    X(FORCE_DENSITY, 4, dim, peri__force_unit(m), view, force_density, 1)                                              \
+    X(VOLUME, 5, 1, pow(m->length, m->dim), view, volume, 0)                                                           \
+    X(MATERIAL, 6, 1, 1.0, read, material, 0)                                                                          \
+    X(FAMILY_SIZE, 7, 1, 1.0, read, family_size, 0)                                                                    \
+    X(DAMAGE, 8, 1, 1.0, read, damage, 0)                                                                              \
+    X(DAMAGE_GROWN, 9, 1, 1.0, read, damage_grown, 0)                                                                  \
+    X(ENERGY_DENSITY, 10, 1, m->stress, read, energy_density, 0)                                                       \
+    X(CURRENT, 11, dim, 1.0, read, current, 0) /* the sum of two views, which have their units */                      \
+    X(DILATATION, 12, 1, 1.0, read, dilatation, 0)                                                                     \
+    X(STRAIN, 13, PERI_PACKED(dim), 1.0, read, strain, 0)                                                              \
+    X(STRESS, 14, PERI_PACKED(dim), m->stress, read, stress, 0)                                                        \
+    X(FORCE_STRESS, 15, PERI_PACKED(dim), m->stress, read, force_stress, 0)                                            \
+    X(REACTION, 16, dim, peri__force_unit(m), read, reaction, 1)
+
+#define PERI_FIELD_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(name, PERI_##name == (number))
+PERI_FIELD_LIST(PERI_FIELD_NUMBER_)
+PERI_SAME_COUNT(field, PERI_FIELD_LIST, PERI_FIELD_COUNT_ - 1);
+
+/* Numbers per point of a field, 0 where there is no such field. */
+static int32_t peri__components(int32_t field, int32_t dim) {
+#define PERI_COMPONENTS_CASE_(name, number, components, unit, way, what, forces)                                       \
+    case PERI_##name: return components;
+    switch (field) {
+        PERI_FIELD_LIST(PERI_COMPONENTS_CASE_)
+    default: return 0;
+    }
+#undef PERI_COMPONENTS_CASE_
+}
+
+static double peri__unit_of(const peri__model *m, int32_t field) {
+#define PERI_UNIT_CASE_(name, number, components, unit, way, what, forces)                                             \
+    case PERI_##name: return unit;
+    switch (field) {
+        PERI_FIELD_LIST(PERI_UNIT_CASE_)
+    default: return 1.0;
+    }
+#undef PERI_UNIT_CASE_
+}
 
 PERI_API int64_t peri_field_size(const peri_body *b, int32_t field) {
     if (!b) return PERI_ERROR_ARGUMENT;
     if (!b->model) return PERI_ERROR_ORDER;
     int32_t components = peri__components(field, b->dim);
     return components > 0 ? b->model->points * components : PERI_ERROR_FIELD;
+}
+
+/* ---- what is stored ----------------------------------------------------------------------------------------------- */
+
+static void peri__view_position(const peri_body *b, peri_view *view) {
+    view->data = b->model->x;
+    memcpy(view->offset, b->model->origin, sizeof view->offset);
+}
+
+static void peri__view_displacement(const peri_body *b, peri_view *view) { view->data = b->u; }
+static void peri__view_velocity(const peri_body *b, peri_view *view) { view->data = b->v; }
+static void peri__view_force_density(const peri_body *b, peri_view *view) { view->data = b->f; }
+
+static void peri__view_volume(const peri_body *b, peri_view *view) {
+    view->data = b->model->volume;
+    view->type = PERI_F64;
+}
+
+/* All of a view but what it points to. */
+static void peri__frame_view(const peri_body *b, int32_t field, peri_view *view) {
+    const peri__model *m = b->model;
+    view->count = m->points;
+    view->point_stride = 1;
+    view->component_stride = m->stride;
+    view->components = peri__components(field, b->dim);
+    view->type = b->f32 ? PERI_F32 : PERI_F64;
+    view->scale = peri__unit_of(m, field);
+    view->offset[0] = view->offset[1] = view->offset[2] = 0.0;
+}
+
+static double peri__view_at(const peri_view *view, int64_t i, int32_t d) {
+    int64_t at = i * view->point_stride + d * view->component_stride;
+    return view->offset[d] + view->scale * peri__get_real(view->data, view->type == PERI_F32, at);
+}
+
+/* ---- what is computed --------------------------------------------------------------------------------------------- */
+
+static void peri__read_material(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->model->material[i];
+}
+
+static void peri__read_family_size(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->model->count[i];
 }
 
 /* Damage of point i ([L]): 1 - intact/all, both sums of beta V_j over the family; uncut_only: over bonds not cut at the start. */
@@ -25,79 +114,84 @@ static double peri__damage(const peri_body *b, int64_t i, int uncut_only) {
     return all > 0.0 ? 1.0 - intact / all : 0.0;
 }
 
-/* Fills a view of a stored field; 0 where the field is not stored. */
-static int peri__stored_view(peri_body *b, int32_t field, peri_view *view) {
-    const peri__model *m = b->model;
-    view->count = m->points;
-    view->point_stride = 1;
-    view->component_stride = m->stride;
-    view->components = b->dim;
-    view->type = b->f32 ? PERI_F32 : PERI_F64;
-    view->offset[0] = view->offset[1] = view->offset[2] = 0.0;
-    switch (field) {
-    case PERI_POSITION:
-        view->data = m->x;
-        view->scale = m->length;
-        memcpy(view->offset, m->origin, sizeof view->offset);
-        return 1;
-    case PERI_DISPLACEMENT: view->data = b->u; view->scale = m->length; return 1;
-    case PERI_VELOCITY: view->data = b->v; view->scale = peri__velocity_unit(m); return 1;
-    case PERI_FORCE_DENSITY: view->data = b->f; view->scale = peri__force_unit(m); return 1;
-    case PERI_VOLUME:
-        view->data = m->volume;
-        view->components = 1;
-        view->type = PERI_F64;
-        view->scale = pow(m->length, m->dim);
-        return 1;
-    default: return 0;
-    }
+static void peri__read_damage(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__damage(b, i, 0);
 }
 
-static double peri__view_at(const peri_view *view, int64_t i, int32_t d) {
-    int64_t at = i * view->point_stride + d * view->component_stride;
-    return view->offset[d] + view->scale * peri__get_real(view->data, view->type == PERI_F32, at);
+static void peri__read_damage_grown(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__damage(b, i, 1);
+}
+
+static void peri__read_energy_density(peri_body *b, double *out) { (void)peri__elastic_energy(b, out); }
+
+static void peri__read_current(peri_body *b, double *out) {
+    const peri__model *m = b->model;
+    peri_view at, moved;
+    peri__frame_view(b, PERI_POSITION, &at);
+    peri__view_position(b, &at);
+    peri__frame_view(b, PERI_DISPLACEMENT, &moved);
+    peri__view_displacement(b, &moved);
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int32_t d = 0; d < m->dim; ++d) out[i * m->dim + d] = peri__view_at(&at, i, d) + peri__view_at(&moved, i, d);
+}
+
+static void peri__read_dilatation(peri_body *b, double *out) { peri__read_gradients(b, peri__dilatation_at, 1, out); }
+
+static void peri__read_strain(peri_body *b, double *out) {
+    peri__read_gradients(b, peri__strain_at, PERI_PACKED(b->dim), out);
+}
+
+static void peri__read_stress(peri_body *b, double *out) {
+    peri__read_gradients(b, peri__stress_at, PERI_PACKED(b->dim), out);
+}
+
+static void peri__read_force_stress(peri_body *b, double *out) {
+    peri__read_gradients(b, peri__force_stress_at, PERI_PACKED(b->dim), out);
+}
+
+static void peri__read_reaction(peri_body *b, double *out) { peri__read_reactions(b, out); }
+
+/* ---- any field ---------------------------------------------------------------------------------------------------- */
+
+/* One of both functions. */
+typedef struct peri__field {
+    const char *name;
+    int         forces;
+    void (*view)(const peri_body *b, peri_view *view);
+    void (*read)(peri_body *b, double *out); /* [points*components]                                                      */
+} peri__field;
+
+#define PERI_FIELD_ENTRY_(name, number, components, unit, way, what, forces)                                           \
+    [number] = { #what, forces, .way = peri__##way##_##what },
+static const peri__field peri__fields[PERI_FIELD_COUNT_] = { PERI_FIELD_LIST(PERI_FIELD_ENTRY_) };
+#undef PERI_FIELD_ENTRY_
+
+/* Fills a view of a stored field; 0 where the field is not stored. */
+static int peri__stored_view(const peri_body *b, int32_t field, peri_view *view) {
+    if (!peri__fields[field].view) return 0;
+    peri__frame_view(b, field, view);
+    peri__fields[field].view(b, view);
+    return 1;
 }
 
 /* A field in the user's units and order; out is [peri_field_size]. */
 static void peri__compute(peri_body *b, int32_t field, double *out) {
-    const peri__model *m = b->model;
-    peri_view view, moved;
+    const int64_t count = peri_field_size(b, field);
+    const double unit = peri__unit_of(b->model, field);
+    peri_view view;
     if (peri__stored_view(b, field, &view)) {
-        for (int64_t i = 0; i < m->points; ++i)
+        for (int64_t i = 0; i < view.count; ++i)
             for (int32_t d = 0; d < view.components; ++d) out[i * view.components + d] = peri__view_at(&view, i, d);
         return;
     }
-    if (field == PERI_ENERGY_DENSITY) {
-        (void)peri__elastic_energy(b, out);
-        for (int64_t i = 0; i < m->points; ++i) out[i] *= m->stress;
-        return;
-    }
-    if (field == PERI_REACTION) {
-        peri__read_reactions(b, out);
-        return;
-    }
-    if (field >= PERI_DILATATION) {
-        peri__gradients gradients = { b, field, out };
-        peri__refresh(b);
-        peri__for_points(b, m->points, 8 * m->width, peri__gradients_block, &gradients, NULL);
-        return;
-    }
-    (void)peri__stored_view(b, PERI_POSITION, &view);
-    (void)peri__stored_view(b, PERI_DISPLACEMENT, &moved);
-    for (int64_t i = 0; i < m->points; ++i) switch (field) {
-        case PERI_MATERIAL: out[i] = m->material[i]; break;
-        case PERI_FAMILY_SIZE: out[i] = m->count[i]; break;
-        case PERI_DAMAGE: out[i] = peri__damage(b, i, 0); break;
-        case PERI_DAMAGE_GROWN: out[i] = peri__damage(b, i, 1); break;
-        default:
-            for (int32_t d = 0; d < m->dim; ++d) out[i * m->dim + d] = peri__view_at(&view, i, d) + peri__view_at(&moved, i, d);
-        }
+    peri__fields[field].read(b, out);
+    for (int64_t k = 0; unit != 1.0 && k < count; ++k) out[k] *= unit;
 }
 
 /* Forces are what a write or a cut can leave out of date. */
 static int32_t peri__ready_field(peri_body *b, int32_t field) {
     if (peri__components(field, b->dim) == 0) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
-    return (field == PERI_FORCE_DENSITY || field == PERI_REACTION) && b->running < 2 ? peri__update_force(b) : PERI_OK;
+    return peri__fields[field].forces && b->running < 2 ? peri__update_force(b) : PERI_OK;
 }
 
 PERI_API int32_t peri_read(peri_body *b, int32_t field, double *out, int64_t capacity) {
@@ -119,10 +213,13 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     memset(view, 0, sizeof *view);
     if (peri__stored_view(b, field, view)) return PERI_OK;
     int32_t components = peri__components(field, b->dim);
-    if (!b->derived[field]) b->derived[field] = (double *)peri__new(&b->memory, b->model->points * components, sizeof(double));
-    if (!b->derived[field]) return peri__fail(b, PERI_ERROR_MEMORY, "field", field, 0.0);
-    peri__compute(b, field, b->derived[field]);
-    view->data = b->derived[field];
+    peri__derived *derived = &b->derived[field];
+    if (!derived->data) derived->data = (double *)peri__new(&b->memory, b->model->points * components, sizeof(double));
+    if (!derived->data) return peri__fail(b, PERI_ERROR_MEMORY, "field", field, 0.0);
+    derived->components = components;
+    peri__compute(b, field, derived->data);
+    view->data = derived->data;
+    view->count = b->model->points;
     view->components = components;
     view->point_stride = components;
     view->component_stride = 1;

@@ -46,18 +46,12 @@ static int32_t peri__finish(peri_body *b, peri__writer *w) {
 
 /* ---- VTU ---------------------------------------------------------------------------------------------------------- */
 
-typedef struct peri__vtu_array {
-    const char *name;
-    int32_t     field, components; /* 3: a vector, with z = 0 in 2D; 6: a symmetric tensor, xx yy zz xy yz xz            */
-} peri__vtu_array;
+static const int32_t peri__vtu_fields[] = { PERI_DISPLACEMENT, PERI_VELOCITY, PERI_DAMAGE, PERI_ENERGY_DENSITY,
+                                            PERI_MATERIAL, PERI_VOLUME, PERI_STRESS };
+#define PERI_VTU_FIELDS (sizeof peri__vtu_fields / sizeof *peri__vtu_fields)
 
-static const peri__vtu_array peri__vtu_arrays[] = {
-    { "displacement", PERI_DISPLACEMENT, 3 },     { "velocity", PERI_VELOCITY, 3 },
-    { "damage", PERI_DAMAGE, 1 },                 { "energy_density", PERI_ENERGY_DENSITY, 1 },
-    { "material", PERI_MATERIAL, 1 },             { "volume", PERI_VOLUME, 1 },
-    { "stress", PERI_STRESS, 6 },
-};
-#define PERI_VTU_ARRAYS (sizeof peri__vtu_arrays / sizeof peri__vtu_arrays[0])
+/* As in 3D, whatever the space: vectors have z = 0 in 2D, tensors are xx yy zz xy yz xz. */
+static int32_t peri__vtu_components(int32_t field) { return peri__components(field, 3); }
 
 /* The opening tag of an appended array, and the offset of the one after it (8 bytes of length, then the data). */
 static int64_t peri__emit_array(peri__writer *w, const char *type, const char *name, int32_t components, int64_t offset,
@@ -80,9 +74,9 @@ static void peri__emit_length(peri__writer *w, int64_t bytes) {
 }
 
 /* `values` is scratch for one field. */
-static void peri__emit_field(peri_body *b, peri__writer *w, int32_t field, int32_t components, double *values) {
+static void peri__emit_field(peri_body *b, peri__writer *w, int32_t field, double *values) {
     static const int32_t plane[6] = { 0, 1, 3, 2, 3, 3 }; /* of a tensor xx yy xy; 3: none                                */
-    int32_t have = peri__components(field, b->dim);
+    int32_t have = peri__components(field, b->dim), components = peri__vtu_components(field);
     const double zero = 0.0;
     peri__compute(b, field, values);
     peri__emit_length(w, b->model->points * components * 8);
@@ -117,18 +111,18 @@ PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
     peri__emit_text(&w, "\">\n<Points>\n");
     offset = peri__emit_array(&w, "Float64", "position", 3, offset, n * 24);
     peri__emit_text(&w, "</Points>\n<PointData Scalars=\"damage\" Vectors=\"displacement\">\n");
-    for (size_t k = 0; k < PERI_VTU_ARRAYS; ++k)
-        offset = peri__emit_array(&w, "Float64", peri__vtu_arrays[k].name, peri__vtu_arrays[k].components, offset,
-                                  n * 8 * peri__vtu_arrays[k].components);
+    for (size_t k = 0; k < PERI_VTU_FIELDS; ++k) {
+        const int32_t field = peri__vtu_fields[k], components = peri__vtu_components(field);
+        offset = peri__emit_array(&w, "Float64", peri__fields[field].name, components, offset, n * 8 * components);
+    }
     peri__emit_text(&w, "</PointData>\n<Cells>\n");
     offset = peri__emit_array(&w, "Int32", "connectivity", 1, offset, n * 4);
     offset = peri__emit_array(&w, "Int32", "offsets", 1, offset, n * 4);
     (void)peri__emit_array(&w, "UInt8", "types", 1, offset, n);
     peri__emit_text(&w, "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 
-    peri__emit_field(b, &w, PERI_POSITION, 3, values);
-    for (size_t k = 0; k < PERI_VTU_ARRAYS; ++k)
-        peri__emit_field(b, &w, peri__vtu_arrays[k].field, peri__vtu_arrays[k].components, values);
+    peri__emit_field(b, &w, PERI_POSITION, values);
+    for (size_t k = 0; k < PERI_VTU_FIELDS; ++k) peri__emit_field(b, &w, peri__vtu_fields[k], values);
     for (int32_t ends = 0; ends < 2; ++ends) { /* each point is a cell of its own: VTK_VERTEX */
         peri__emit_length(&w, n * 4);
         for (int32_t i = 0; i < (int32_t)n; ++i) {

@@ -26,9 +26,9 @@ PERI_API void peri_statics_init(peri_statics *st) {
 static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
     PERI_NEED(b, st, "statics");
     if (st->cookie != PERI_COOKIE_STATICS) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "statics", -1, 0.0);
-    PERI_NEED(b, st->method >= PERI_NEWTON && st->method <= PERI_RELAXATION, "method");
-    PERI_NEED(b, st->preconditioner >= PERI_MULTILEVEL && st->preconditioner <= PERI_NO_PRECONDITIONER, "preconditioner");
-    PERI_NEED(b, st->loose >= PERI_LOOSE_REFUSED && st->loose <= PERI_LOOSE_BALANCED, "loose");
+    PERI_NEED(b, peri__one_of(st->method, PERI_METHOD_COUNT_), "method");
+    PERI_NEED(b, peri__one_of(st->preconditioner, PERI_PRECONDITIONER_COUNT_), "preconditioner");
+    PERI_NEED(b, peri__one_of(st->loose, PERI_LOOSE_COUNT_), "loose");
     PERI_NEED(b, st->fracture == 0 || st->fracture == 1, "fracture");
     PERI_NEED_NUMBER(b, st->criticality >= 0.0 && st->criticality <= 1.0, st->criticality);
     PERI_NEED_NUMBER(b, st->tolerance >= 0.0 && st->tolerance < 1.0, st->tolerance);

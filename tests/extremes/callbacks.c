@@ -29,7 +29,7 @@ static void read_all(meddler *c) {
     peri_view view;
     peri_memory held;
     peri_error record;
-    for (int32_t field = PERI_POSITION; field <= PERI_REACTION; ++field) {
+    for (int32_t field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
         const int64_t n = peri_field_size(b, field);
         x = (double *)malloc((size_t)n * sizeof *x);
         c->wrong += peri_read(b, field, x, n) != PERI_OK;

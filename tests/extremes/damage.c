@@ -54,8 +54,8 @@ static void start(scene *s, const extreme *row, outcome *o, int32_t precision, c
 static void each(outcome *o, const extreme *row, int32_t precision, const setting *c, probe_fn probe) {
     int32_t space, model;
     int cloud;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = c->criterion == PERI_CRITERION_STRETCH ? PERI_BOND_BASED : PERI_LPS; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = c->criterion == PERI_CRITERION_STRETCH ? PERI_BOND_BASED : PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
             for (cloud = 0; cloud < 2 && o->status >= 0; ++cloud) {
                 scene s;
                 if (model == c->except) continue;
@@ -244,8 +244,8 @@ static outcome limits_of(const extreme *row, int32_t precision, int32_t criterio
     setting c = plain(row->value);
     c.criterion = criterion;
     if (criterion == PERI_CRITERION_BOND_ENERGY) c.except = PERI_OTERKUS;
-    for (c.geometry = PERI_NONLINEAR; c.geometry <= PERI_LINEAR; ++c.geometry)
-        for (c.timing = PERI_BREAK_AT_STEP_END; c.timing <= PERI_BREAK_AFTER_DRIFT; ++c.timing) each(&o, row, precision, &c, limit_probe);
+    for (c.geometry = PERI_NONLINEAR; c.geometry < PERI_GEOMETRY_COUNT_; ++c.geometry)
+        for (c.timing = PERI_BREAK_AT_STEP_END; c.timing < PERI_BREAK_TIMING_COUNT_; ++c.timing) each(&o, row, precision, &c, limit_probe);
     return o;
 }
 
@@ -297,8 +297,8 @@ static outcome threshold(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double v[2] = {0.5, 1.5}, pi = 3.14159265358979323846, h = 2;
     int32_t space, model, side;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = row->choice == PERI_CRITERION_STRETCH ? PERI_BOND_BASED : PERI_LPS; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = row->choice == PERI_CRITERION_STRETCH ? PERI_BOND_BASED : PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
             for (side = 0; side < 2 && o.status >= 0; ++side) {
                 const int dim = space == PERI_SOLID ? 3 : 2;
                 double x[6] = {0, 0, 0, 0, 0, 0}, u[6] = {0, 0, 0, 0, 0, 0}, stiff, w0, s = 0.01;
@@ -355,7 +355,7 @@ static double no_fail_probe(scene *s) {
 static outcome no_fail(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(0.1);
-    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion <= PERI_CRITERION_NODE_ENERGY; ++c.criterion) {
+    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < PERI_CRITERION_COUNT_; ++c.criterion) {
         c.except = c.criterion == PERI_CRITERION_BOND_ENERGY ? PERI_OTERKUS : 0; /* see limits_of */
         each(&o, row, precision, &c, no_fail_probe);
         c.limit = -1e-12;
@@ -384,7 +384,7 @@ static double reset_probe(scene *s) {
     fresh.body = make(&fresh);
     if (!fresh.body) return NAN;
     (void)set_going(&fresh);
-    for (field = PERI_POSITION; field <= PERI_REACTION && s->o->status >= 0; ++field) {
+    for (field = PERI_POSITION; field < PERI_FIELD_COUNT_ && s->o->status >= 0; ++field) {
         const int64_t n = peri_field_size(s->body, field);
         double *x = extreme_read(s->o, s->body, field), *y = extreme_read(s->o, fresh.body, field);
         if (!x || !y || memcmp(x, y, (size_t)n * sizeof *x) != 0) worst = extreme_worst(worst, field);
@@ -400,7 +400,7 @@ static double reset_probe(scene *s) {
 static outcome reset(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(0.03);
-    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion <= PERI_CRITERION_NODE_ENERGY; ++c.criterion) {
+    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < PERI_CRITERION_COUNT_; ++c.criterion) {
         each(&o, row, precision, &c, reset_probe);
         c.limit = -2e-3;
     }

@@ -41,7 +41,7 @@ static outcome ratios_refused(const extreme *row, int32_t precision) {
     outcome o = {row->status, row->field, 0};
     int32_t space, model;
     int k;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (model = row->choice ? PERI_BOND_BASED : PERI_LPS; model <= (row->choice ? PERI_BOND_BASED : PERI_CORRESPONDENCE); ++model)
             for (k = 0; k < n; ++k) {
                 peri_material m;
@@ -58,7 +58,7 @@ static outcome moduli_refused(const extreme *row, int32_t precision) {
     outcome o = {row->status, row->field, 0};
     int32_t model;
     int k;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (k = 0; k < (row->choice ? COUNT(bad) : 3); ++k) {
             peri_material m;
             extreme_material(&m, model, 0.2, 0);
@@ -170,7 +170,7 @@ static outcome uniform_strain(const extreme *row, int32_t precision) {
     int32_t model, space;
     int k;
     for (model = row->choice; model <= (int32_t)row->value; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
             for (k = 0; k < (model == PERI_BOND_BASED ? 1 : n) && o.status == PERI_OK; ++k) {
                 const double nu = model == PERI_BOND_BASED ? bond_ratio(space) : ratios[k];
                 peri_body *b = block(&o, space, precision, model, nu, PERI_MOMENT_CORRECTION, PERI_LINEAR, NULL);
@@ -189,7 +189,7 @@ static outcome held_back(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space;
     int k, s;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (k = 0; k < COUNT(ratios) && o.status == PERI_OK; ++k) {
             const double nu = ratios[k];
             int remarks = 0;
@@ -217,8 +217,8 @@ static outcome bulk_for_young(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
     int k;
-    for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
             for (k = 0; k < COUNT(ratios); ++k) {
                 double energy[2] = {0, 1}, step[2];
                 int way;
@@ -260,8 +260,8 @@ static outcome contrast(const extreme *row, int32_t precision) {
     const double ratio = pow(10, row->value), young = row->choice ? 1 : ratio, density = row->choice ? ratio : 1;
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID && o.status == PERI_OK; ++space) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
             static const int32_t fields[4] = {PERI_STRESS, PERI_FORCE_STRESS, PERI_FORCE_DENSITY, PERI_ENERGY_DENSITY};
             const double lo[3] = {0, 0, 0}, hi[3] = {4, 4, 3}, lo2[3] = {64, 0, 0}, hi2[3] = {68, 4, 3}, push[3] = {1e-3, 2e-3, 0};
             const double solid[9] = {1e-3, 2e-4, 0, 0, -5e-4, 0, 0, 0, 3e-4}, plane[4] = {1e-3, 2e-4, 0, -5e-4};
@@ -343,7 +343,7 @@ static outcome stable(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space;
     int k, cut;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (k = 0; k < COUNT(ratios) && o.status == PERI_OK; ++k)
             for (cut = 0; cut < 2; ++cut) {
                 const double from[2] = {-1, 2.3}, to[2] = {3.4, 2.3};
@@ -400,8 +400,8 @@ static outcome sheared(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space, geometry;
     int k, a, c;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
             for (k = 0; k < (row->choice == PERI_BOND_BASED ? 1 : 5) && o.status == PERI_OK; ++k) {
                 const int dim = dim_of(space);
                 if (geometry == PERI_LINEAR && k % 2) continue; /* the simpler one at every other ratio */

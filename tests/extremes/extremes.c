@@ -170,7 +170,7 @@ outcome extreme_end(outcome o, peri_body *b) {
         peri_energy e;
         double linear[3] = {0, 0, 0}, angular[3] = {0, 0, 0}, sum = 0;
         int good = 1, k;
-        for (field = PERI_POSITION; field <= PERI_REACTION; ++field) good &= is_finite_field(b, field);
+        for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) good &= is_finite_field(b, field);
         if (peri_read_energy(b, &e) == PERI_OK)
             sum = e.kinetic + e.elastic + e.external + e.obstacle + e.damping + e.fracture + e.initial + e.error;
         if (peri_read_momentum(b, linear, angular) == PERI_OK)
@@ -188,12 +188,9 @@ outcome extreme_end(outcome o, peri_body *b) {
 
 static const char *status_name(int32_t status) {
     switch (status) {
-#define NAME(name, value, text) case value: return #name;
-        PERI_STATUS_LIST(NAME)
-#undef NAME
     case NOT_FINITE: return "NOT FINITE";
     case SPOILED: return "SPOILED";
-    default: return "UNKNOWN STATUS";
+    default: return peri_status_text(status);
     }
 }
 

@@ -80,8 +80,8 @@ static setting plain(double horizon, enum shape first, enum shape last) {
 static void each(outcome *o, const extreme *row, int32_t precision, const setting *c, probe_fn probe) {
     int32_t space, model;
     int shape;
-    for (space = c->space; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = c->space; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (shape = (int)c->first; shape <= (int)c->last && o->status >= 0; ++shape) {
                 scene s;
                 double error;
@@ -166,7 +166,7 @@ static outcome shell(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space;
     int k, n, d;
-    for (space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space)
         for (k = 0; k < 5 && o.status >= 0; ++k) {
             const double h = spacings[k];
             double lo[3], hi[3];
@@ -237,7 +237,7 @@ static double swing_probe(scene *s) {
 static outcome swing(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(row->value, PAIR, PAIR);
-    for (c.correction = PERI_NO_CORRECTION; c.correction <= PERI_MOMENT_CORRECTION; ++c.correction)
+    for (c.correction = PERI_NO_CORRECTION; c.correction < PERI_CORRECTION_COUNT_; ++c.correction)
         each(&o, row, precision, &c, swing_probe);
     return o;
 }
@@ -247,8 +247,8 @@ static outcome swing(const extreme *row, int32_t precision) {
 static outcome twins(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE && o.status >= 0; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status >= 0; ++model) {
             const int dim = space == PERI_SOLID ? 3 : 2;
             double x[3 * 65], volume[65];
             uint64_t seed = 29;
@@ -320,7 +320,7 @@ static double pulled_probe(scene *s) {
 static outcome pulled(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(3, row->value > 1 ? PLANE : LINE, row->value > 1 ? PLANE : LINE);
-    for (c.geometry = row->choice % 10 ? PERI_LINEAR : PERI_NONLINEAR; c.geometry <= PERI_LINEAR; ++c.geometry)
+    for (c.geometry = row->choice % 10 ? PERI_LINEAR : PERI_NONLINEAR; c.geometry < PERI_GEOMETRY_COUNT_; ++c.geometry)
         each(&o, row, precision, &c, pulled_probe);
     return o;
 }
@@ -387,8 +387,8 @@ static outcome given(const extreme *row, int32_t precision) {
     if (kind == TWICE) rows_[width * 2 + 1] = 0;
     if (kind == NO_SUCH) rows_[width * 2] = n;
     if (kind == LONELY) rows_[width * 3] = 3, rows_[2] = 0;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE && o.status >= 0; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status >= 0; ++model) {
             const int dim = space == PERI_SOLID ? 3 : 2;
             peri_body_desc d;
             peri_material m;
@@ -458,7 +458,7 @@ static outcome weights(const extreme *row, int32_t precision) {
     setting c = plain(row->value, (enum shape)row->other, (enum shape)row->choice);
     c.space = PERI_PLANE_STRAIN;
     for (c.quadrature = PERI_FULL_VOLUME; c.quadrature <= PERI_PARTIAL_VOLUME; ++c.quadrature)
-        for (c.correction = PERI_NO_CORRECTION; c.correction <= PERI_MOMENT_CORRECTION; ++c.correction)
+        for (c.correction = PERI_NO_CORRECTION; c.correction < PERI_CORRECTION_COUNT_; ++c.correction)
             if (c.quadrature != PERI_VOLUME_RAMP || c.correction == PERI_NO_CORRECTION) each(&o, row, precision, &c, weights_probe);
     return o;
 }

@@ -16,9 +16,9 @@ static outcome carried(const extreme *row, int32_t precision) {
     const double shift[3] = {far_, -far_, far_ / 2};
     outcome o = {PERI_OK, "", 0};
     int32_t model, space, geometry;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-            for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR && o.status == PERI_OK; ++geometry) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+            for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_ && o.status == PERI_OK; ++geometry) {
                 const scene s = scene_of(space, precision, model, geometry);
                 shown home, away;
                 peri_body *b = small_body(&o, &s);
@@ -40,8 +40,8 @@ static outcome made_far(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
     int cloud;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
             for (cloud = 0; cloud < (row->choice ? 1 : 2) && o.status == PERI_OK; ++cloud) {
                 scene s = scene_of(space, precision, model, PERI_NONLINEAR);
                 shown seen[2];
@@ -68,8 +68,8 @@ static outcome made_far(const extreme *row, int32_t precision) {
 static outcome torn_far(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID && o.status == PERI_OK; ++space) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
             scene s = scene_of(space, precision, model, PERI_NONLINEAR);
             shown seen[2];
             double sum[2][6] = {{0}};
@@ -175,8 +175,8 @@ static outcome turned(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
     int way, cloud;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
             for (cloud = 0; cloud < 2 && o.status == PERI_OK; ++cloud) {
                 const int dim = dim_of(space);
                 const double *f = dim == 3 ? pull : flat;
@@ -230,8 +230,8 @@ static outcome turned_linear(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
     int k;
-    for (model = PERI_LPS; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID && o.status == PERI_OK; ++space) {
+    for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
             const double lo[3] = {0, 0, 0}, hi[3] = {5, 5, 5}, nu = 0.3, mu = 0.5 / (1 + nu);
             const double lambda = space == PERI_PLANE_STRESS ? nu / (1 - nu * nu) : nu / ((1 + nu) * (1 - 2 * nu));
             const int dim = dim_of(space), parts = dim == 3 ? 6 : 3;
@@ -300,8 +300,8 @@ static outcome spinning(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
     int cloud;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
             for (cloud = 0; cloud < 2 && o.status == PERI_OK; ++cloud) {
                 scene s = scene_of(space, precision, model, PERI_NONLINEAR);
                 const int dim = dim_of(space);

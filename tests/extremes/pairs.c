@@ -54,9 +54,9 @@ static outcome oscillate(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double size = 1e-3;
     int32_t model, geometry, integrator;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
-            for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
+            for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
                 const double omega = sqrt(omega2_of(model, 1.5)), s = row->value, theta = 2 * asin(s);
                 peri_body *b = pair_of(&o, precision, model, geometry, 1, 1);
                 peri_run run;
@@ -154,8 +154,8 @@ static outcome overdamped(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double size = 1e-3, s = row->value;
     int32_t model, integrator;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
             const double factor = 1 - 2 * s * s;
             peri_body *b = pair_of(&o, precision, model, PERI_LINEAR, 1, 1);
             peri_run run;
@@ -225,7 +225,7 @@ static outcome brief(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const int timed = row->choice == DURATION || row->choice == BOTH;
     int32_t integrator;
-    for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+    for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
         peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, row->other, row->other);
         double e, rate, f[6] = {0}, want = 0.5 * omega2_of(PERI_BOND_BASED, 1.5) * 1e-3;
         peri_run run;
@@ -259,7 +259,7 @@ static outcome overloaded(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double force[3] = {row->value, 0, 0};
     int32_t integrator;
-    for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+    for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
         peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_NONLINEAR, 1, 1);
         double u[6] = {0};
         peri_run run;

@@ -297,7 +297,7 @@ static outcome off_by_one(const extreme *row, int32_t precision) {
         peri_body *b = scene_plate(&o, scene_laws[k], precision, row->choice);
         peri_error e;
         if (o.status < 0) return extreme_end(o, b);
-        for (field = PERI_POSITION; field <= PERI_REACTION; ++field) {
+        for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
             const int64_t n = peri_field_size(b, field);
             double *x = (double *)malloc((size_t)(n + 1) * sizeof *x), last;
             x[0] = x[n] = GUARD;

@@ -198,8 +198,8 @@ static void compare(outcome *o, const dense *a, const solid *s, const peri_stati
 static outcome factorised(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space, model, pre;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             solid s = plain(precision, space, model);
             peri_statics st;
             dense a;
@@ -211,7 +211,7 @@ static outcome factorised(const extreme *row, int32_t precision) {
             if (space == PERI_SOLID) s.ny = 3;
             if (solve_densely(&o, &s, &a)) {
                 peri_statics_init(&st);
-                for (pre = PERI_MULTILEVEL; pre <= PERI_NO_PRECONDITIONER; ++pre) {
+                for (pre = PERI_MULTILEVEL; pre < PERI_PRECONDITIONER_COUNT_; ++pre) {
                     st.preconditioner = pre;
                     compare(&o, &a, &s, &st, "space, law, preconditioner", pre);
                 }
@@ -232,7 +232,7 @@ static outcome factorised(const extreme *row, int32_t precision) {
 static outcome uniform(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space, loose;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
         for (loose = PERI_LOOSE_PINNED; loose <= PERI_LOOSE_BALANCED && o.status >= 0; ++loose) {
             const double pull = 1e-3, value[3] = {1e-3, 0, 0}, against[3] = {-1e-3, 0, 0}, out[3] = {1, 0, 0}, in[3] = {-1, 0, 0};
             const double nu = row->value, lambda = nu / ((1 + nu) * (1 - 2 * nu)), mu = 0.5 / (1 + nu);
@@ -288,8 +288,8 @@ static outcome floating(const extreme *row, int32_t precision) {
     const double tolerance = tolerance_of(precision);
     int32_t space, model, loose;
     (void)row;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE && o.status >= 0; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status >= 0; ++model) {
             const solid s = plain(precision, space, model);
             const double pull[3] = {1e-3, 0, 0}, against[3] = {-1e-3, 0, 0};
             const int dim = dimension(space), part = dim == 3 ? 6 : 3;
@@ -379,8 +379,8 @@ static void swell(void *user, double time, int64_t count, const int32_t *points,
 static outcome burst(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space, model, loose;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (loose = PERI_LOOSE_REFUSED; loose <= PERI_LOOSE_BALANCED && o.status >= 0; ++loose) {
                 const int dim = dimension(space);
                 const int32_t axes = dim == 3 ? 7 : 3;

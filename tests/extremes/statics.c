@@ -169,8 +169,8 @@ typedef void (*each_fn)(outcome *o, const extreme *row, int32_t precision, int32
 static outcome each(const extreme *row, int32_t precision, each_fn one) {
     outcome o = {PERI_OK, "", 0};
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE && o.status >= 0; ++model) one(&o, row, precision, space, model);
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status >= 0; ++model) one(&o, row, precision, space, model);
     return o;
 }
 
@@ -206,7 +206,7 @@ static outcome scaled(const extreme *row, int32_t precision) { return each(row, 
 static void heavy_one(outcome *o, const extreme *row, int32_t precision, int32_t space, int32_t model) {
     const double lo[3] = {5, 0, 0}, hi[3] = {6, 4, 3}, far[3] = {row->value, 0, 0};
     int32_t geometry, code;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR && o->status >= 0; ++geometry) {
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_ && o->status >= 0; ++geometry) {
         peri_body *b = plate(o, precision, space, model, geometry, 1);
         peri_statics s;
         peri_statics_init(&s);
@@ -390,7 +390,7 @@ static outcome number_of(const extreme *row, int32_t precision) {
 static void limit_one(outcome *o, const extreme *row, int32_t precision, int32_t space, int32_t model) {
     double *want = reference(o, space, model), *u = NULL;
     int32_t geometry, method;
-    for (geometry = PERI_NONLINEAR; geometry <= PERI_LINEAR; ++geometry)
+    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
         for (method = PERI_NEWTON; method <= PERI_BICGSTAB && o->status >= 0; ++method) {
             peri_body *b = plate(o, precision, space, model, geometry, 1);
             const double size = geometry == PERI_LINEAR ? 1e-3 : 1e-16; /* where both geometries agree */
@@ -434,7 +434,7 @@ static int32_t stop_step(void *user, peri_body *b) {
 static void stop_one(outcome *o, const extreme *row, int32_t precision, int32_t space, int32_t model) {
     double *want = reference(o, space, model), *u = NULL;
     int method, at_step;
-    for (method = PERI_NEWTON; method <= PERI_RELAXATION; ++method)
+    for (method = PERI_NEWTON; method < PERI_METHOD_COUNT_; ++method)
         for (at_step = 0; at_step < 2 && o->status >= 0; ++at_step) {
             peri_body *b = plate(o, precision, space, model, PERI_LINEAR, 1);
             peri_statics_report r;

@@ -47,8 +47,8 @@ static outcome each(const extreme *row, int32_t precision, int32_t geometry, dou
     outcome o = {PERI_OK, "", 0};
     int32_t space, model;
     int kind;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (kind = 0; kind < 5 && o.status >= 0; kind += step) {
                 scene s;
                 double error;

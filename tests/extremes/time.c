@@ -69,11 +69,11 @@ static outcome each(const extreme *row, int32_t precision, int32_t geometry, eac
     outcome o = {PERI_OK, "", 0};
     int32_t space, model, integrator;
     int k;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
             for (k = 0; k < KINDS; ++k) {
                 peri_body *b = body_of(&o, precision, space, model, geometry, (kind)k);
-                for (integrator = PERI_VELOCITY_VERLET; o.status >= 0 && integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+                for (integrator = PERI_VELOCITY_VERLET; o.status >= 0 && integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
                     char what[40];
                     outcome part = {PERI_OK, "", 0};
                     peri_run run;
@@ -287,8 +287,8 @@ static outcome ends(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, integrator;
     int glides;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE && o.status >= 0; ++model)
-        for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status >= 0; ++model)
+        for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator)
             for (glides = 0; glides < 2 - (row->other > 0) && o.status >= 0; ++glides)
                 end_of(&o, precision, model, integrator, glides, row->value, row->other);
     return o;
@@ -299,8 +299,8 @@ static outcome pieces(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double pull_by[3] = {0, 1e-3, 0}, lo[3] = {0, 0, 0}, hi[3] = {6, 1, 2}, drive[3] = {0, -0.01, 0};
     int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
-        for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model) {
+    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
             double *u[2] = {NULL, NULL};
             int turn;
             for (turn = 0; turn < 2 && o.status >= 0; ++turn) {
@@ -351,8 +351,8 @@ static outcome nothing_left(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, integrator;
     (void)row;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (integrator = PERI_VELOCITY_VERLET; integrator <= PERI_CENTRAL_DIFFERENCE; ++integrator) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
             peri_body *b = body_of(&o, precision, PERI_SOLID, model, PERI_NONLINEAR, LATTICE);
             const double v[3] = {0.25, -0.5, 0.125};
             double step = 0, *u = NULL;

@@ -25,8 +25,8 @@ static outcome tiny(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
     int cloud;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
             for (cloud = 0; cloud < 2 && o.status == PERI_OK; ++cloud) {
                 scene s = scene_of(space, precision, model, PERI_LINEAR);
                 shown large, small;
@@ -55,8 +55,8 @@ static outcome denormal(const extreme *row, int32_t precision) {
     const double least = precision == PERI_F32 ? ldexp(1, -140) : ldexp(1, -1060);
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID && o.status == PERI_OK; ++space) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
             scene s = scene_of(space, precision, model, PERI_NONLINEAR);
             peri_body *b;
             peri_run run;
@@ -108,7 +108,7 @@ static double *settle(outcome *o, const scene *s, int displaced, double size, in
 static outcome faint(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t model;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE && o.status == PERI_OK; ++model) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status == PERI_OK; ++model) {
         const scene s = scene_of(model % 2 ? PERI_SOLID : PERI_PLANE_STRAIN, precision, model, PERI_LINEAR);
         int32_t status[2];
         int64_t n, i;
@@ -132,8 +132,8 @@ static outcome flushed(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
 #ifdef FLUSHES
     int32_t model, space;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID && o.status == PERI_OK; ++space) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
             const unsigned control = _mm_getcsr();
             scene s = scene_of(space, precision, model, PERI_NONLINEAR);
             shown seen[2];

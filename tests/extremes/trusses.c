@@ -12,8 +12,8 @@ static outcome joined(const extreme *row, int32_t precision) {
     const double lo[2] = {-0.5, -0.5}, hi[2] = {2.5, 2.5}, bar = 9 / (PI * pow(1.5, 3)) / sqrt(2.0), pull = 1e-3 * sqrt(0.5);
     const double force[2] = {pull + (row->other > 0 ? 2e-4 : 0), pull - (row->other > 0 ? 2e-4 : 0)};
     int32_t loose, pre;
-    for (loose = PERI_LOOSE_REFUSED; loose <= PERI_LOOSE_BALANCED; ++loose)
-        for (pre = PERI_MULTILEVEL; pre <= PERI_NO_PRECONDITIONER; ++pre) {
+    for (loose = PERI_LOOSE_REFUSED; loose < PERI_LOOSE_COUNT_; ++loose)
+        for (pre = PERI_MULTILEVEL; pre < PERI_PRECONDITIONER_COUNT_; ++pre) {
             const int count = row->choice ? 9 : 1;
             double x[18], v[9];
             peri_body_desc d;

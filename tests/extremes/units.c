@@ -332,8 +332,8 @@ static outcome same_bits(const extreme *row, int32_t precision) {
                                  {7.8886090522101181e-31, 6.2230152778611417e-61, 6.2230152778611417e-61, 1.2621774483536189e-29}};
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_SOLID; ++space) {
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
             const scene c = {space, precision, model, PERI_NONLINEAR, PERI_CRITERION_STRETCH, 1, 0};
             const act_fn act = row->other == 0 ? pull : hold;
             record want = {{0}, {0}, {0}, 0, 0};
@@ -350,7 +350,7 @@ static outcome every_thickness(const extreme *row, int32_t precision) {
     static const double thick[] = {1e-9, 1e-3, 1e6};
     outcome o = {PERI_OK, "", 0};
     int32_t model, space;
-    for (model = PERI_BOND_BASED; model <= PERI_CORRESPONDENCE; ++model)
+    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (space = PERI_PLANE_STRESS; space <= PERI_PLANE_STRAIN; ++space) {
             const int by_energy = model != PERI_BOND_BASED && space == PERI_PLANE_STRAIN;
             const int32_t criterion = by_energy ? PERI_CRITERION_BOND_ENERGY : PERI_CRITERION_STRETCH;
