@@ -20,7 +20,8 @@ typedef struct peri__deformation {
     int    whole; /* the live bonds span the space                                                                       */
 } peri__deformation;
 
-/* theta of the law: sum w g e V, in units of what it is where e = |xi|. A point of a pairwise law counts as one of LPS with w/|xi| in place of w. */
+/* theta of the law: sum w g e V, in units of what it is where e = |xi|. A point of a pairwise law counts as one of
+   LPS with w/|xi| in place of w. */
 static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];

@@ -96,7 +96,8 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(leave)(PERI_STATE sum[PERI_D][P
 
 /* One column of bonds of pairwise laws; c: the micromodulus times w beta V, where linear over |xi|^3. Returns a bit for each point with
    a live bond beyond its limit. */
-PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond, const peri_b c,
+PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_column)(const PERI_LANES_FN(group) *s,
+                                                                      const PERI_LANES_FN(bond) *bond, const peri_b c,
                                                              PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear,
                                                              const int breaking) {
     PERI_NO_CONTRACTION
@@ -204,8 +205,8 @@ PERI_LANES_TARGET static void PERI_LANES_FN(squares)(const peri__step *o, int64_
     }
 }
 
-/* One column of bonds of ordinary laws that are alike; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2; gauged = |xi|,
-   or 1. */
+/* One column of bonds of ordinary laws that are alike; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2;
+   gauged = |xi|, or 1. */
 PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(ordinary_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
                                                                    const peri_b *p, const peri_b *q, peri_b weighed, peri_b gauged,
                                                                    PERI_STATE sum[PERI_D][PERI_PIECES], const int whole, const int linear,
@@ -288,7 +289,8 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri__step *o, int64_t 
             for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&out[a][d][n * PERI_WIDTH], &sum[a][d][n]);
 }
 
-/* Adds what gradients give of the force of all live bonds of a group to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta). Returns as `pairwise`; critical are (2 xi + eta).eta > s0 (2 + s0) |xi|^2, or xi.eta > s0 |xi|^2. */
+/* Adds what gradients give of the force of all live bonds of a group to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta). Returns as
+   `pairwise`; critical are (2 xi + eta).eta > s0 (2 + s0) |xi|^2, or xi.eta > s0 |xi|^2. */
 PERI_LANES_TARGET static uint32_t PERI_LANES_FN(tensor)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
     const peri__model *m = o->model;

@@ -1,9 +1,10 @@
-/* list.inl - the passes over the list: the equations of rows.inl for PERI_CHUNK bonds of a row at once, in pieces of PERI_WIDTH lanes by the
-   operations of vector.inl. Bond k of a row is added in lane k % PERI_CHUNK, and lanes are added up in halves: the same bits from every
+/* list.inl - the passes over the list: the equations of rows.inl for PERI_CHUNK bonds of a row at once, in pieces of PERI_WIDTH lanes by
+   the operations of vector.inl. Bond k of a row is added in lane k % PERI_CHUNK, and lanes are added up in halves: the same bits from every
    instruction set and any number of threads. Bonds that come near their critical stretch are left to the rows. Included per precision,
    dimension and instruction set.
 
-   What is needed of a neighbour lies side by side in its record, ->pack, m->slots reals: x, u, then p and q, or Q and k, or the material. */
+   What is needed of a neighbour lies side by side in its record, ->pack, m->slots reals: x, u, then p and q, or Q and k, or
+   the material. */
 
 #define PERI_PIECES (PERI_CHUNK / PERI_WIDTH)
 
@@ -57,8 +58,8 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(PERI_STATE *sum) {
 }
 
 /* Adds the force of all live bonds of the point at a place to f, all points being of laws alike: pairwise, or ordinary. Returns nonzero
-   where a bond comes near its critical stretch; f is then void. `pairwise`, `by_length` and `slots` are constants where this is inlined, and
-   `linear` where speed matters. */
+   where a bond comes near its critical stretch; f is then void. `pairwise`, `by_length` and `slots` are constants where this is inlined,
+   and `linear` where speed matters. */
 PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, int64_t place, peri_r *f, const int pairwise,
                                                           const int by_length, const int32_t slots, const int linear) {
     PERI_NO_CONTRACTION

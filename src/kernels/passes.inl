@@ -203,8 +203,8 @@ static void PERI_LANES_FN(gather_block)(void *context, int64_t begin, int64_t en
         }
 }
 
-/* Adds the internal force density to f, and breaks bonds or notes in `dying` which are to break: see row_force. sums: a energy of bonds that
-   broke, n their (directed) number, or that of those noted. */
+/* Adds the internal force density to f, and breaks bonds or notes in `dying` which are to break: see row_force. sums: a energy of bonds
+   that broke, n their (directed) number, or that of those noted. */
 static void PERI_LANES_FN(force_block)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *o = (const peri__step *)context;
     const peri__model *m = o->model;

@@ -87,7 +87,8 @@ static int PERI_FN(is_over_for_other)(const peri__step *s, int64_t i, int64_t j,
 }
 
 /* Does bond k of row i meet a criterion? `plain`: there is only the critical stretch. */
-PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond, const int plain) {
+PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
+                                 const int plain) {
     const peri__model *m = s->model;
     const int64_t j = row->ids[k];
     const peri__pair *pair = PERI_FN(pair)(s, i, j);

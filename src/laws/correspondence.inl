@@ -6,7 +6,8 @@
    k = G B/m is the stabilisation: it vanishes for linear fields and resists what F does not see. Linear geometry: E without H^T H, P = S. A
    family that spans too little has no K^-1 and acts by central bonds, q = B/m. */
 #ifdef PERI_LAW_ROLE_TRAITS
-enum { PERI__GATHER_correspondence = PERI__GRADIENT, PERI__GAUGE_correspondence = 0, PERI__PAIRWISE_correspondence = 0, PERI__BY_A_correspondence = 0 };
+enum { PERI__GATHER_correspondence = PERI__GRADIENT, PERI__GAUGE_correspondence = 0, PERI__PAIRWISE_correspondence = 0,
+       PERI__BY_A_correspondence = 0 };
 #endif
 
 #ifdef PERI_LAW_ROLE_CALIBRATION

@@ -4,7 +4,8 @@
 
    A and B by space: material.c. Where A is 0 (Poisson's ratio of the bond-based law) nothing is gathered. */
 #ifdef PERI_LAW_ROLE_TRAITS
-enum { PERI__GATHER_lps = PERI__DILATATION, PERI__GAUGE_lps = 1, PERI__PAIRWISE_lps = 0, PERI__BY_A_lps = 1 };
+enum { PERI__GATHER_lps = PERI__DILATATION, PERI__GAUGE_lps = 1, PERI__PAIRWISE_lps = 0,
+       PERI__BY_A_lps = 1 };
 #endif
 
 #ifdef PERI_LAW_ROLE_CALIBRATION

@@ -5,7 +5,8 @@
    S = sum w xi_a^2 xi_b^2/|xi|^2 V. A family without shear bonds to calibrate on takes the spring of LPS. The energy is never negative
    while q + (bulk - q m/D^2) D^2 sum(w V)/(sum w |xi| V)^2 >= 0 (Cauchy-Schwarz): q stays within that. */
 #ifdef PERI_LAW_ROLE_TRAITS
-enum { PERI__GATHER_oterkus = PERI__DILATATION, PERI__GAUGE_oterkus = 0, PERI__PAIRWISE_oterkus = 0, PERI__BY_A_oterkus = 0 };
+enum { PERI__GATHER_oterkus = PERI__DILATATION, PERI__GAUGE_oterkus = 0, PERI__PAIRWISE_oterkus = 0,
+       PERI__BY_A_oterkus = 0 };
 #endif
 
 #ifdef PERI_LAW_ROLE_CALIBRATION

@@ -81,8 +81,8 @@ typedef struct peri__response { /* see peri__constant                           
 #include "correspondence.inl"
 #undef PERI_LAW_ROLE_CALIBRATION
 
-/* What a law makes of a family, all zero where that has no bonds. 0 where a law with a gradient has a family that spans too little: it acts by
-   springs, which are the caller's to give. */
+/* What a law makes of a family, all zero where that has no bonds. 0 where a law with a gradient has a family that spans too little: it acts
+   by springs, which are the caller's to give. */
 static int peri__respond(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
     memset(r, 0, sizeof *r);
     if (!(sum->m > 0.0)) return 1;

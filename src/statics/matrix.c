@@ -103,7 +103,8 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
         for (int d = 0; d < dim; ++d) length += peri__square(n[d] = xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
         for (int d = 0; d < dim; ++d) n[d] /= length;
-        double q = peri__spring(b, o, row.ids[k], bond), along = volume * w * q, across = linear ? 0.0 : volume * w * (p * gauge + q * stretched) / length;
+        const double q = peri__spring(b, o, row.ids[k], bond), along = volume * w * q;
+        const double across = linear ? 0.0 : volume * w * (p * gauge + q * stretched) / length;
         for (int a = 0; a < dim; ++a) {
             pull[a] = w * gauge * n[a];
             for (int c = 0; c < dim; ++c)
