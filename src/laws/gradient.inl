@@ -1,5 +1,6 @@
 /* gradient.inl - strain, and the stress of the laws with a gradient, in reals of type peri_s and matrices of PERI_S_DIM of which `dim` are
-   in use; PERI_S_FN names it. Included per precision and dimension by the kernels, and once in double for fields and the assembled matrix. */
+   in use; PERI_S_FN names it. Included per precision and dimension by the kernels, and once in double for fields and the assembled
+   matrix. */
 /* E of H. */
 static void PERI_S_FN(strain)(int dim, int linear, peri_s h[PERI_S_DIM][PERI_S_DIM], peri_s strain[PERI_S_DIM][PERI_S_DIM]) {
     for (int a = 0; a < dim; ++a)
