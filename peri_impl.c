@@ -52,7 +52,7 @@
 
 /* ---- kernels: one text, six instantiations -> peri__ops_d2 ... -------------------------- */
 #ifdef PERI_SPLIT                  /* objects of their own (src/kernels/unit.c)                                    */
-extern PERI_SHARED const peri__ops peri__ops_d2[], peri__ops_d3[], peri__ops_m2[], peri__ops_m3[], peri__ops_f2[], peri__ops_f3[];
+extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, peri__ops_m3, peri__ops_f2, peri__ops_f3;
 #else
 #define PERI_T_REAL 64
 #define PERI_T_BOND 64

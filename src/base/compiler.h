@@ -56,6 +56,13 @@
    costs half the speed and more. Builds with gcc's address sanitizer, or with PERI_PLAIN, take the plain text alone: vector code takes
    minutes to instrument. */
 #if defined(__clang__)
+#define PERI_NO_UNROLLING _Pragma("clang loop unroll(disable)")
+#elif defined(__GNUC__) && !defined(__TINYC__) && __GNUC__ >= 8
+#define PERI_NO_UNROLLING _Pragma("GCC unroll 1")
+#else
+#define PERI_NO_UNROLLING
+#endif
+#if defined(__clang__)
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION _Pragma("clang fp contract(off)")
 #define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw"

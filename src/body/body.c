@@ -351,9 +351,9 @@ static int32_t peri__update_classes(peri_body *b) {
 
 static int32_t peri__new_state(peri_body *b) {
     const peri__model *m = b->model;
-    b->ops = (b->f32 ? (b->dim == 3 ? peri__ops_f3 : peri__ops_f2)
-            : b->b32 ? (b->dim == 3 ? peri__ops_m3 : peri__ops_m2)
-                     : b->dim == 3 ? peri__ops_d3 : peri__ops_d2) + m->lanes.isa;
+    b->ops = b->f32 ? (b->dim == 3 ? &peri__ops_f3 : &peri__ops_f2)
+           : b->b32 ? (b->dim == 3 ? &peri__ops_m3 : &peri__ops_m2)
+                    : b->dim == 3 ? &peri__ops_d3 : &peri__ops_d2;
     b->u = peri__new_vector(b);
     b->v = peri__new_vector(b);
     b->f = peri__new_vector(b);

@@ -38,7 +38,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(enter)(PERI_LANES_FN(group) *s,
     s->stride = m->stride;
     s->breaking = breaking;
     for (int d = 0; d < PERI_D; ++d)
-        for (int n = 0; n < PERI_PIECES; ++n) s->own[d][n] = PERI_LANES_FN(take)(s->u + d * s->stride + n * PERI_WIDTH);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) s->own[d][n] = PERI_LANES_FN(take)(s->u + d * s->stride + n * PERI_WIDTH);
 }
 
 /* The next column with a live bond, or 0. */
@@ -91,7 +91,7 @@ PERI_INLINE const peri__stencil_ends *PERI_LANES_FN(ends)(const peri__step *o, c
 
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(leave)(PERI_STATE sum[PERI_D][PERI_PIECES], peri_r f[PERI_D][PERI_LANES]) {
     for (int d = 0; d < PERI_D; ++d)
-        for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&f[d][n * PERI_WIDTH], &sum[d][n]);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&f[d][n * PERI_WIDTH], &sum[d][n]);
 }
 
 /* One column of bonds of pairwise laws; c: the micromodulus times w beta V, where linear over |xi|^3. Returns a bit for each point with
@@ -104,7 +104,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_column)(const PERI
     const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(c), tiny = PERI_V(set1)((peri_b)PERI_TINY);
     const PERI_VECTOR most = PERI_V(set1)(bond->limit * bond->length);
     uint32_t hit = 0;
-    for (int n = 0; n < PERI_PIECES; ++n) {
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
         const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
         PERI_VECTOR eta[PERI_D], y[PERI_D], along;
         PERI_LANES_FN(moved)(s, bond, n, eta);
@@ -128,7 +128,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_of)(const peri__st
     uint32_t hit = 0;
     PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     for (int d = 0; d < PERI_D; ++d)
-        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         peri_b c = (peri_b)bond.row->c * bond.weight;
         if (linear) c *= bond.inverse * bond.inverse * bond.inverse;
@@ -140,6 +140,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_of)(const peri__st
 }
 
 PERI_LANES_TARGET static uint32_t PERI_LANES_FN(pairwise)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    if (PERI_COMPACT) return PERI_LANES_FN(pairwise_of)(o, g, f, o->linear, 1);
     if (!o->linear) return PERI_LANES_FN(pairwise_of)(o, g, f, 0, 1);
     return o->breaking ? PERI_LANES_FN(pairwise_of)(o, g, f, 1, 1) : PERI_LANES_FN(pairwise_of)(o, g, f, 1, 0);
 }
@@ -149,7 +150,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_column)(const PERI_LA
                                                                    const int linear) {
     PERI_NO_CONTRACTION
     const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(gauged);
-    for (int n = 0; n < PERI_PIECES; ++n) {
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
         PERI_VECTOR eta[PERI_D], y[PERI_D], along;
         PERI_LANES_FN(moved)(s, bond, n, eta);
         const PERI_VECTOR now = PERI_LANES_FN(extend)(bond, eta, y, &along, linear);
@@ -168,18 +169,19 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_of)(const peri__step 
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
     PERI_LANES_FN(enter)(&s, o, g, 0);
-    for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         peri_b weight = bond.weight * (linear ? (by_length ? 1 : bond.inverse) : by_length ? bond.length : 1);
         if (o->model->mixed) weight = bond.weight * (peri_b)PERI_LANES_FN(ends)(o, &bond)->gauge * (linear ? bond.inverse : 1);
         if (!PERI_FREE_CHOICE && bond.mask == PERI_WHOLE) PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 1, linear);
         else PERI_LANES_FN(stretched_column)(&s, &bond, weight, sum, 0, linear);
     }
-    for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(out + n * PERI_WIDTH, &sum[n]);
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(out + n * PERI_WIDTH, &sum[n]);
 }
 
 PERI_LANES_TARGET static void PERI_LANES_FN(stretched)(const peri__step *o, int64_t g, peri_r sum[PERI_LANES]) {
-    if (o->linear) PERI_LANES_FN(stretched_of)(o, g, sum, 1);
+    if (PERI_COMPACT) PERI_LANES_FN(stretched_of)(o, g, sum, o->linear);
+    else if (o->linear) PERI_LANES_FN(stretched_of)(o, g, sum, 1);
     else PERI_LANES_FN(stretched_of)(o, g, sum, 0);
 }
 
@@ -195,7 +197,7 @@ PERI_LANES_TARGET static void PERI_LANES_FN(squares)(const peri__step *o, int64_
         const double weight = pairwise ? bond.row->c * (double)bond.weight / (double)bond.length : (double)bond.weight;
         const PERI_VECTOR length = PERI_V(set1)(bond.length);
         peri_b e[PERI_LANES];
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             PERI_VECTOR eta[PERI_D], y[PERI_D], along;
             PERI_LANES_FN(moved)(&s, &bond, n, eta);
             const PERI_VECTOR now = PERI_LANES_FN(extend)(&bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
@@ -215,7 +217,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(ordinary_column)(const PERI
     const PERI_VECTOR length = PERI_V(set1)(bond->length), weight = PERI_V(set1)(weighed), gauge = PERI_V(set1)(gauged);
     const PERI_VECTOR most = PERI_V(set1)(bond->limit * bond->length), tiny = PERI_V(set1)((peri_b)PERI_TINY);
     uint32_t hit = 0;
-    for (int n = 0; n < PERI_PIECES; ++n) {
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
         const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
         const PERI_VECTOR both_p = PERI_V(loadu)(p + n * PERI_WIDTH) + PERI_V(loadu)(p + bond->offset + n * PERI_WIDTH);
         const PERI_VECTOR both_q = PERI_V(loadu)(q + n * PERI_WIDTH) + PERI_V(loadu)(q + bond->offset + n * PERI_WIDTH);
@@ -244,7 +246,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(ordinary_of)(const peri__st
     uint32_t hit = 0;
     PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     for (int d = 0; d < PERI_D; ++d)
-        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const peri_b gauge = m->gauge ? bond.length : 1;
         const peri_b weight = linear ? bond.weight * (bond.inverse * bond.inverse) : bond.weight;
@@ -257,6 +259,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(ordinary_of)(const peri__st
 }
 
 PERI_LANES_TARGET static uint32_t PERI_LANES_FN(ordinary)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+    if (PERI_COMPACT) return PERI_LANES_FN(ordinary_of)(o, g, f, o->linear, 1);
     if (!o->linear) return PERI_LANES_FN(ordinary_of)(o, g, f, 0, 1);
     return o->breaking ? PERI_LANES_FN(ordinary_of)(o, g, f, 1, 1) : PERI_LANES_FN(ordinary_of)(o, g, f, 1, 0);
 }
@@ -271,10 +274,10 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri__step *o, int64_t 
     PERI_LANES_FN(enter)(&s, o, g, 0);
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
-            for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
+            PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none + n * PERI_WIDTH);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const PERI_VECTOR weight = PERI_V(set1)(bond.weight);
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
             PERI_VECTOR eta[PERI_D];
             PERI_LANES_FN(moved)(&s, &bond, n, eta);
@@ -286,7 +289,7 @@ PERI_LANES_TARGET static void PERI_LANES_FN(shape)(const peri__step *o, int64_t 
     }
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
-            for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&out[a][d][n * PERI_WIDTH], &sum[a][d][n]);
+            PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) PERI_LANES_FN(spread)(&out[a][d][n * PERI_WIDTH], &sum[a][d][n]);
 }
 
 /* Adds what gradients give of the force of all live bonds of a group to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta). Returns as
@@ -303,12 +306,12 @@ PERI_LANES_TARGET static uint32_t PERI_LANES_FN(tensor)(const peri__step *o, int
     uint32_t hit = 0;
     PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     for (int d = 0; d < PERI_D; ++d)
-        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const PERI_VECTOR weight = PERI_V(set1)(bond.weight);
         const peri_b most = linear ? bond.limit : bond.limit * (2 + bond.limit);
         const PERI_VECTOR limit = PERI_V(set1)(most * bond.length * bond.length); /* infinite where none breaks */
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
             const peri_b *const here = q + n * PERI_WIDTH, *const there = here + bond.offset;
             const PERI_VECTOR both = PERI_V(loadu)(k + n * PERI_WIDTH) + PERI_V(loadu)(k + bond.offset + n * PERI_WIDTH);
@@ -380,14 +383,14 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(mixed_of)(const peri__step 
     PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     const peri__column *const first = s.column;
     for (int d = 0; d < PERI_D; ++d)
-        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const peri__stencil_ends *ends = PERI_LANES_FN(ends)(o, &bond);
         const PERI_VECTOR length = PERI_V(set1)(bond.length), weight = PERI_V(set1)(bond.weight);
         const PERI_VECTOR gauge = PERI_V(set1)((peri_b)ends->gauge), other = PERI_V(set1)((peri_b)ends->other_gauge);
         const PERI_VECTOR spring = PERI_V(set1)((peri_b)ends->spring), most = PERI_V(set1)(bond.limit * bond.length);
         peri_b force[PERI_D][PERI_LANES];
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
             const PERI_VECTOR both_p = gauge * PERI_V(loadu)(p + n * PERI_WIDTH) + other * PERI_V(loadu)(p + bond.offset + n * PERI_WIDTH);
             const PERI_VECTOR both_q = PERI_V(loadu)(q + n * PERI_WIDTH) + PERI_V(loadu)(q + bond.offset + n * PERI_WIDTH) + spring;

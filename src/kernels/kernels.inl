@@ -64,6 +64,29 @@
 #define PERI_PLAIN_loadu(a) (*(a))
 #define PERI_PLAIN_storeu(a, value) (*(a) = (value))
 
+/* what works on vectors, of one instruction set */
+typedef struct PERI_FN(vector_ops) {
+    uint32_t (*pairwise)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
+    uint32_t (*ordinary)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
+    uint32_t (*mixed)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
+    uint32_t (*tensor)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
+    void (*stretched)(const peri__step *, int64_t, peri_r[PERI_LANES]);
+    void (*squares)(const peri__step *, int64_t, double[PERI_LANES]);
+    void (*shape)(const peri__step *, int64_t, peri_r[PERI_D][PERI_D][PERI_LANES]);
+    int (*list_pairwise)(const peri__step *, int64_t, peri_r *);
+    int (*list_ordinary)(const peri__step *, int64_t, peri_r *);
+    int (*list_tensor)(const peri__step *, int64_t, peri_r *);
+    peri_r (*list_stretched)(const peri__step *, int64_t);
+    void (*list_shape)(const peri__step *, int64_t, peri_r[PERI_D][PERI_D]);
+    int (*kick_some)(int64_t, peri_r, const peri_r *, const peri_r *, peri_r *);
+    void (*drift_some)(int64_t, peri_r, const peri_r *, peri_r *);
+    void (*square_some)(int64_t, int, const uint8_t *, const peri_r *, double *, double *);
+    void (*step_some)(int64_t, peri_r, const peri_r *, const peri_r *, peri_r *, peri_r *);
+    void (*weigh_some)(int64_t, const double *, const peri_r *, peri_r *, double *, double *);
+    void (*dot_some)(int64_t, int, const uint8_t *, const peri_r *, const peri_r *, double *);
+    void (*turn_some)(int64_t, int, const uint8_t *, peri_r, const peri_r *, peri_r *);
+} PERI_FN(vector_ops);
+
 #define PERI_LANES_TARGET PERI_VECTOR_CODE
 #define PERI_LANES_FN(name) PERI_FN(name##_base)
 #define PERI_V_ISA 0
@@ -87,11 +110,12 @@
 
 /* by peri__isa */
 #define PERI_TABLE(set)                                                                                                \
-    { PERI_FN(pack_##set), PERI_FN(pack_response_##set), PERI_FN(gather_block_##set), PERI_FN(gather_rows), PERI_FN(force_block_##set), \
-      PERI_FN(exchange), PERI_FN(energy_##set), PERI_FN(kick_##set), PERI_FN(kinetic_##set), PERI_FN(tangent_gather),    \
-      PERI_FN(tangent_force), PERI_FN(krylov_step_##set), PERI_FN(krylov_turn_##set), PERI_FN(krylov_force_##set),       \
-      PERI_FN(krylov_blocks_##set), PERI_FN(krylov_norm_##set), PERI_FN(krylov_dot_##set) }
-PERI_SHARED const peri__ops PERI_FN(ops)[] = {
+    { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(stretched_##set), \
+      PERI_FN(squares_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set), PERI_FN(list_ordinary_##set),          \
+      PERI_FN(list_tensor_##set), PERI_FN(list_stretched_##set), PERI_FN(list_shape_##set), PERI_FN(kick_some_##set),    \
+      PERI_FN(drift_some_##set), PERI_FN(square_some_##set), PERI_FN(step_some_##set), PERI_FN(weigh_some_##set),        \
+      PERI_FN(dot_some_##set), PERI_FN(turn_some_##set) }
+static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
     PERI_TABLE(base),
 #ifdef PERI_ISA
     PERI_TABLE(avx2),
@@ -100,6 +124,17 @@ PERI_SHARED const peri__ops PERI_FN(ops)[] = {
 };
 #undef PERI_TABLE
 
+#include "passes.inl"
+#include "march.inl"
+#include "solve.inl"
+
+PERI_SHARED const peri__ops PERI_FN(ops) = {
+    PERI_FN(pack), PERI_FN(pack_response), PERI_FN(gather_block), PERI_FN(gather_rows), PERI_FN(force_block), PERI_FN(exchange),
+    PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic), PERI_FN(tangent_gather), PERI_FN(tangent_force), PERI_FN(krylov_step),
+    PERI_FN(krylov_turn), PERI_FN(krylov_force), PERI_FN(krylov_blocks), PERI_FN(krylov_norm), PERI_FN(krylov_dot)
+};
+
+#undef PERI_BY_VECTORS
 #undef peri_r
 #undef peri_b
 #undef peri_i

@@ -81,12 +81,12 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, i
     int hit = 0;
     for (int32_t k = 0; pairwise && several && k < m->materials; ++k)
         table[k] = (peri_b)m->pairs[m->material[i] * m->materials + k].c;
-    for (int n = 0; n < PERI_PIECES; ++n)
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n)
         for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const int64_t at = k + n * PERI_WIDTH;
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + at);
@@ -119,12 +119,15 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, i
 }
 
 PERI_LANES_TARGET static int PERI_LANES_FN(list_pairwise)(const peri__step *o, int64_t place, peri_r *f) {
-    if (PERI_D == 3 || o->model->slots > 4)
-        return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 0);
-    return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 0);
+    const int small = PERI_D == 2 && o->model->slots == 4;
+    if (PERI_COMPACT && small) return PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, o->linear);
+    if (PERI_COMPACT) return PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, o->linear);
+    if (small) return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 0);
+    return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 0);
 }
 
 PERI_LANES_TARGET static int PERI_LANES_FN(list_ordinary)(const peri__step *o, int64_t place, peri_r *f) {
+    if (PERI_COMPACT && o->model->gauge) return PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, o->linear);
     if (o->model->gauge)
         return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, 1) : PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, 0);
     return PERI_LANES_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
@@ -141,11 +144,11 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri__step *o
     PERI_STATE sum[PERI_PIECES];
     peri_r own[8] = { 0 };
     const peri_r none[PERI_WIDTH] = { 0 };
-    for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none);
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * 8 + d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             PERI_VECTOR part = PERI_V(loadu)(weights + k + n * PERI_WIDTH), bond, product, reach;
             PERI_LANES_FN(piece) s;
             PERI_LANES_FN(span)(&s, pack, 8, ids + k + n * PERI_WIDTH, own, linear);
@@ -161,6 +164,7 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri__step *o
 }
 
 PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri__step *o, int64_t place) {
+    if (PERI_COMPACT && o->model->gauge) return PERI_LANES_FN(list_sum)(o, place, 1, o->linear);
     if (o->model->gauge) return o->linear ? PERI_LANES_FN(list_sum)(o, place, 1, 1) : PERI_LANES_FN(list_sum)(o, place, 1, 0);
     return PERI_LANES_FN(list_sum)(o, place, 0, o->linear);
 }
@@ -182,10 +186,10 @@ PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri__step *o, int
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * PERI_TENSOR_SLOTS + d];
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
-            for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none);
+            PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH);
@@ -218,10 +222,10 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *o, int
     int hit = 0;
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
     for (int d = 0; d < PERI_D; ++d)
-        for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(none);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(none);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
-        for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH), back = PERI_V(loadu)(backs + k + n * PERI_WIDTH);

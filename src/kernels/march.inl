@@ -3,7 +3,7 @@
 /* v = keep*v + kick*f/rho; then, where drift > 0: u += drift*v and f = 0, ready for the loads of the new time.
    sums: b work of damping over the kick, its impulse times the mean velocity: what it takes from the kinetic energy, exactly;
    bad the first point whose motion is not finite. At most PERI_BLOCK points. */
-static void PERI_LANES_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     const peri__model *m = step->model;
     const peri_r keep = (peri_r)step->keep;
@@ -22,19 +22,19 @@ static void PERI_LANES_FN(kick)(void *context, int64_t begin, int64_t end, peri_
         const int64_t at = d * m->stride + begin;
         peri_r *u = (peri_r *)step->drifted + at, *v = (peri_r *)step->v + at, *f = (peri_r *)step->f + at;
         if (lossy) memcpy(old, v, (size_t)count * sizeof *v);
-        if (PERI_LANES_FN(kick_some)(count, keep, kick, f, v) > 0)
+        if (PERI_BY_VECTORS(m, kick_some)(count, keep, kick, f, v) > 0)
             for (int64_t k = 0; k < count; ++k)
                 if (!(v[k] > -PERI_SPEEDING && v[k] < PERI_SPEEDING) && (sums->bad < 0 || begin + k < sums->bad)) sums->bad = begin + k;
         for (int64_t k = 0; lossy && k < count; ++k)
             work[k] += (step->loss_old * (double)old[k] + step->loss_new * (double)v[k]) * 0.5 * ((double)old[k] + (double)v[k]);
         if (!(step->drift > 0.0)) continue;
-        PERI_LANES_FN(drift_some)(count, (peri_r)step->drift, v, u);
+        PERI_BY_VECTORS(m, drift_some)(count, (peri_r)step->drift, v, u);
         memset(f, 0, (size_t)count * sizeof *f);
     }
     for (int64_t k = 0; lossy && k < count; ++k) sums->b += work[k] * m->rho[m->material[begin + k]] * m->volume[begin + k];
 }
 
-static void PERI_LANES_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *step = (const peri__step *)context;
     const peri__model *m = step->model;
     for (int64_t i = begin; i < end; ++i) {

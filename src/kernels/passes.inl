@@ -1,10 +1,12 @@
 /* passes.inl - passes over blocks of points: by columns or by the list, and by rows where a bond is about to break, or where families are
-   stored in no other way. Included per precision, dimension and instruction set, as what they call. */
+   stored in no other way. What works on vectors they call by the instruction set of the body. */
+
+#define PERI_BY_VECTORS(model, name) PERI_FN(vectors)[(model)->lanes.isa].name
 
 /* ---- the list ------------------------------------------------------------------------------------------------------ */
 
 /* Records of list.inl. */
-static void PERI_LANES_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *o = (const peri__step *)context;
     const peri__model *m = o->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)o->u;
@@ -27,7 +29,7 @@ static void PERI_LANES_FN(pack)(void *context, int64_t begin, int64_t end, peri_
 }
 
 /* And what points respond with: p, or Q and k. */
-static void PERI_LANES_FN(pack_response)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(pack_response)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *o = (const peri__step *)context;
     const peri__model *m = o->model;
     const peri_b *response = (const peri_b *)o->response, *constant = (const peri_b *)o->constant;
@@ -43,7 +45,7 @@ static void PERI_LANES_FN(pack_response)(void *context, int64_t begin, int64_t e
 }
 
 /* Asks for what a pass over the list wants of the point four places on: places are not met in the order in which memory lies. */
-PERI_INLINE void PERI_LANES_FN(fetch_ahead)(const peri__step *o, int64_t place) {
+PERI_INLINE void PERI_FN(fetch_ahead)(const peri__step *o, int64_t place) {
     const peri__model *m = o->model;
     if (!m->order || place + 4 >= m->points) return;
     const int64_t i = m->order[place + 4];
@@ -53,42 +55,42 @@ PERI_INLINE void PERI_LANES_FN(fetch_ahead)(const peri__step *o, int64_t place) 
     for (int d = 0; d < PERI_D; ++d) PERI_PREFETCH((const peri_r *)o->f + d * m->stride + i);
 }
 
-static void PERI_LANES_FN(force_list)(const peri__step *o, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(force_list)(const peri__step *o, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = o->model;
     const int tensors = m->gathers & PERI__GRADIENT;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         peri_r *force = (peri_r *)o->f + i, f[PERI_D];
         int by_row;
-        PERI_LANES_FN(fetch_ahead)(o, k);
+        PERI_FN(fetch_ahead)(o, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
-        if (m->pairwise) by_row = PERI_LANES_FN(list_pairwise)(o, k, f);
-        else if (!tensors) by_row = PERI_LANES_FN(list_ordinary)(o, k, f);
-        else by_row = o->central[i / PERI_LANES] || PERI_LANES_FN(list_tensor)(o, k, f);
+        if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
+        else if (!tensors) by_row = PERI_BY_VECTORS(m, list_ordinary)(o, k, f);
+        else by_row = o->central[i / PERI_LANES] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
         if (by_row) PERI_FN(force_rows)(o, i, i + 1, sums);
         else
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride] = f[d];
     }
 }
 
-static void PERI_LANES_FN(gather_list)(const peri__step *o, int64_t begin, int64_t end) {
+static void PERI_FN(gather_list)(const peri__step *o, int64_t begin, int64_t end) {
     const peri__model *m = o->model;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
-        PERI_LANES_FN(fetch_ahead)(o, k);
+        PERI_FN(fetch_ahead)(o, k);
         if (m->gathers & PERI__GRADIENT) {
             peri_r n[PERI_D][PERI_D];
-            PERI_LANES_FN(list_shape)(o, k, n);
+            PERI_BY_VECTORS(m, list_shape)(o, k, n);
             PERI_FN(put_tensor)(o, i, n);
         } else
-            PERI_FN(put_pressure)(o, i, PERI_FN(constant)(o, PERI__PRESS, i) == 0 ? 0 : PERI_LANES_FN(list_stretched)(o, k));
+            PERI_FN(put_pressure)(o, i, PERI_FN(constant)(o, PERI__PRESS, i) == 0 ? 0 : PERI_BY_VECTORS(m, list_stretched)(o, k));
     }
 }
 
 /* ---- columns -------------------------------------------------------------------------------------------------------- */
 
 /* Points of group g that may have a bond beyond the critical energy of its ends. */
-static uint32_t PERI_LANES_FN(near_node_energy)(const peri__step *o, int64_t g) {
+static uint32_t PERI_FN(near_node_energy)(const peri__step *o, int64_t g) {
     const peri__model *m = o->model;
     uint32_t near = 0;
     for (int l = 0; l < PERI_LANES && g * PERI_LANES + l < m->points; ++l) {
@@ -99,23 +101,23 @@ static uint32_t PERI_LANES_FN(near_node_energy)(const peri__step *o, int64_t g) 
 }
 
 /* The force on group g by columns; returns a bit for each point that must be done by rows. */
-static uint32_t PERI_LANES_FN(group_force)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+static uint32_t PERI_FN(group_force)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     const peri__model *m = o->model;
-    if (m->pairwise) return PERI_LANES_FN(pairwise)(o, g, f);
-    uint32_t near = o->node && o->breaking ? PERI_LANES_FN(near_node_energy)(o, g) : 0;
-    if (m->lanes.ends) return near | PERI_LANES_FN(mixed)(o, g, f);
-    if (!(m->gathers & PERI__GRADIENT)) return near | PERI_LANES_FN(ordinary)(o, g, f);
-    return o->central[g] ? 0xFFFFu : near | PERI_LANES_FN(tensor)(o, g, f);
+    if (m->pairwise) return PERI_BY_VECTORS(m, pairwise)(o, g, f);
+    uint32_t near = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
+    if (m->lanes.ends) return near | PERI_BY_VECTORS(m, mixed)(o, g, f);
+    if (!(m->gathers & PERI__GRADIENT)) return near | PERI_BY_VECTORS(m, ordinary)(o, g, f);
+    return o->central[g] ? 0xFFFFu : near | PERI_BY_VECTORS(m, tensor)(o, g, f);
 }
 
-static void PERI_LANES_FN(force_columns)(const peri__step *o, int64_t g, peri__sums *sums) {
+static void PERI_FN(force_columns)(const peri__step *o, int64_t g, peri__sums *sums) {
     const peri__model *m = o->model;
     const int64_t first = g * PERI_LANES;
     peri_r *force = (peri_r *)o->f + first, f[PERI_D][PERI_LANES];
     uint32_t broke = 0;
     for (int d = 0; d < PERI_D; ++d)
         for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-    const uint32_t by_row = PERI_LANES_FN(group_force)(o, g, f);
+    const uint32_t by_row = PERI_FN(group_force)(o, g, f);
     if (!by_row) {
         for (int d = 0; d < PERI_D; ++d)
             for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
@@ -134,12 +136,12 @@ static void PERI_LANES_FN(force_columns)(const peri__step *o, int64_t g, peri__s
 }
 
 /* Energy densities of group g, without gradients. */
-static void PERI_LANES_FN(group_energy)(const peri__step *o, int64_t g, double density[PERI_LANES]) {
+static void PERI_FN(group_energy)(const peri__step *o, int64_t g, double density[PERI_LANES]) {
     const peri__model *m = o->model;
     const peri_b *constant = m->pairwise ? NULL : (const peri_b *)o->constant + g * PERI_LANES;
     peri_r sum[PERI_LANES] = { 0 };
-    PERI_LANES_FN(squares)(o, g, density);
-    if (m->gathers & PERI__DILATATION) PERI_LANES_FN(stretched)(o, g, sum);
+    PERI_BY_VECTORS(m, squares)(o, g, density);
+    if (m->gathers & PERI__DILATATION) PERI_BY_VECTORS(m, stretched)(o, g, sum);
     for (int l = 0; l < PERI_LANES; ++l) {
         if (m->pairwise) density[l] *= 0.25;
         else
@@ -150,16 +152,16 @@ static void PERI_LANES_FN(group_energy)(const peri__step *o, int64_t g, double d
 }
 
 /* Are energies had by columns? */
-PERI_INLINE int PERI_LANES_FN(has_group_energy)(const peri__model *m) {
+PERI_INLINE int PERI_FN(has_group_energy)(const peri__model *m) {
     return m->lanes.columns > 0 && !m->mixed && !(m->gathers & PERI__GRADIENT);
 }
 
-static void PERI_LANES_FN(gather_columns)(const peri__step *o, int64_t g) {
+static void PERI_FN(gather_columns)(const peri__step *o, int64_t g) {
     const peri__model *m = o->model;
     const int64_t first = g * PERI_LANES, end = peri__min(first + PERI_LANES, m->points);
     peri_r shape[PERI_D][PERI_D][PERI_LANES], sum[PERI_LANES], n[PERI_D][PERI_D];
     if (m->gathers & PERI__GRADIENT) {
-        PERI_LANES_FN(shape)(o, g, shape);
+        PERI_BY_VECTORS(m, shape)(o, g, shape);
         for (int64_t i = first; i < end; ++i) {
             if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) continue;
             for (int a = 0; a < PERI_D; ++a)
@@ -168,19 +170,19 @@ static void PERI_LANES_FN(gather_columns)(const peri__step *o, int64_t g) {
         }
     }
     if (!(m->gathers & PERI__DILATATION)) return;
-    PERI_LANES_FN(stretched)(o, g, sum);
+    PERI_BY_VECTORS(m, stretched)(o, g, sum);
     for (int64_t i = first; i < end; ++i)
         if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) PERI_FN(put_pressure)(o, i, sum[i - first]);
 }
 
-static void PERI_LANES_FN(gather_nodes)(const peri__step *o, int64_t g) {
+static void PERI_FN(gather_nodes)(const peri__step *o, int64_t g) {
     const peri__model *m = o->model;
     const int64_t first = g * PERI_LANES, end = peri__min(first + PERI_LANES, m->points);
     double density[PERI_LANES];
     peri__row row;
-    if (PERI_LANES_FN(has_group_energy)(m)) PERI_LANES_FN(group_energy)(o, g, density);
+    if (PERI_FN(has_group_energy)(m)) PERI_FN(group_energy)(o, g, density);
     for (int64_t i = first; i < end; ++i) {
-        if (!PERI_LANES_FN(has_group_energy)(m)) {
+        if (!PERI_FN(has_group_energy)(m)) {
             peri__row_of(m, i, &row);
             density[i - first] = PERI_FN(point_energy)(o, i, &row);
         }
@@ -191,38 +193,38 @@ static void PERI_LANES_FN(gather_nodes)(const peri__step *o, int64_t g) {
 /* ---- blocks --------------------------------------------------------------------------------------------------------- */
 
 /* What points make of their families. */
-static void PERI_LANES_FN(gather_block)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(gather_block)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *o = (const peri__step *)context;
     const peri__model *m = o->model;
-    if (m->slots) PERI_LANES_FN(gather_list)(o, begin, end);
+    if (m->slots) PERI_FN(gather_list)(o, begin, end);
     else if (!m->lanes.columns) PERI_FN(gather_rows)(context, begin, end, sums);
     else
         for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) {
-            PERI_LANES_FN(gather_columns)(o, g);
-            if (o->node) PERI_LANES_FN(gather_nodes)(o, g);
+            PERI_FN(gather_columns)(o, g);
+            if (o->node) PERI_FN(gather_nodes)(o, g);
         }
 }
 
 /* Adds the internal force density to f, and breaks bonds or notes in `dying` which are to break: see row_force. sums: a energy of bonds
    that broke, n their (directed) number, or that of those noted. */
-static void PERI_LANES_FN(force_block)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(force_block)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *o = (const peri__step *)context;
     const peri__model *m = o->model;
-    if (m->slots) PERI_LANES_FN(force_list)(o, begin, end, sums);
+    if (m->slots) PERI_FN(force_list)(o, begin, end, sums);
     else if (!m->lanes.columns) PERI_FN(force_rows)(o, begin, end, sums);
     else
-        for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) PERI_LANES_FN(force_columns)(o, g, sums);
+        for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) PERI_FN(force_columns)(o, g, sums);
 }
 
 /* Elastic energy of live bonds: sums->a, and per point to ->out where it is not NULL. By rows, too, of points that begin within a group. */
-static void PERI_LANES_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__step *o = (const peri__step *)context;
     const peri__model *m = o->model;
-    const int columns = PERI_LANES_FN(has_group_energy)(m) && begin % PERI_LANES == 0;
+    const int columns = PERI_FN(has_group_energy)(m) && begin % PERI_LANES == 0;
     double group[PERI_LANES];
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {
-        if (columns && i % PERI_LANES == 0) PERI_LANES_FN(group_energy)(o, i / PERI_LANES, group);
+        if (columns && i % PERI_LANES == 0) PERI_FN(group_energy)(o, i / PERI_LANES, group);
         if (!columns) peri__row_of(m, i, &row);
         const double density = columns ? group[i % PERI_LANES] : PERI_FN(point_energy)(o, i, &row);
         if (o->out) o->out[i] = density;

@@ -1,7 +1,7 @@
 /* solve.inl - the static solver's work on whole vectors. */
 
 /* d += alpha p, r -= alpha q. sums: |r|^2 of free dofs to a, of held ones to b. */
-static void PERI_LANES_FN(krylov_step)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(krylov_step)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
     double loose[PERI_BLOCK] = { 0.0 }, fixed[PERI_BLOCK] = { 0.0 };
@@ -9,41 +9,41 @@ static void PERI_LANES_FN(krylov_step)(void *context, int64_t begin, int64_t end
         const int64_t at = d * m->stride + begin;
         peri_r *x = (peri_r *)s->d + at, *r = (peri_r *)s->r + at;
         const peri_r *p = (const peri_r *)s->p + at, *q = (const peri_r *)s->q + at;
-        PERI_LANES_FN(step_some)(end - begin, (peri_r)s->alpha, p, q, x, r);
-        PERI_LANES_FN(square_some)(end - begin, d, s->held + begin, r, loose, fixed);
+        PERI_BY_VECTORS(m, step_some)(end - begin, (peri_r)s->alpha, p, q, x, r);
+        PERI_BY_VECTORS(m, square_some)(end - begin, d, s->held + begin, r, loose, fixed);
     }
     sums->a += peri__add_up(loose);
     sums->b += peri__add_up(fixed);
 }
 
 /* p = z + beta p on free dofs, 0 on held ones. */
-static void PERI_LANES_FN(krylov_turn)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(krylov_turn)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
     (void)sums;
     for (int d = 0; d < PERI_D; ++d) {
         peri_r *p = (peri_r *)s->p + d * m->stride + begin;
         const peri_r *z = (const peri_r *)s->z + d * m->stride + begin;
-        PERI_LANES_FN(turn_some)(end - begin, d, s->held + begin, (peri_r)s->beta, z, p);
+        PERI_BY_VECTORS(m, turn_some)(end - begin, d, s->held + begin, (peri_r)s->beta, z, p);
     }
 }
 
 /* q = -V q: the force that the change p of displacements needs. sums: p.q to a, p.p to b. */
-static void PERI_LANES_FN(krylov_force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(krylov_force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
     double bent[PERI_BLOCK] = { 0.0 }, square[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *p = (const peri_r *)s->p + d * m->stride + begin;
         peri_r *q = (peri_r *)s->q + d * m->stride + begin;
-        PERI_LANES_FN(weigh_some)(end - begin, m->volume + begin, p, q, bent, square);
+        PERI_BY_VECTORS(m, weigh_some)(end - begin, m->volume + begin, p, q, bent, square);
     }
     sums->a += peri__add_up(bent);
     sums->b += peri__add_up(square);
 }
 
 /* z = inverse blocks times r (0 for held dofs, whose rows are 0), or r itself. */
-static void PERI_LANES_FN(krylov_blocks)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(krylov_blocks)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const int64_t stride = s->model->stride;
     const peri_r *blocks = (const peri_r *)s->blocks, *r = (const peri_r *)s->r;
@@ -59,26 +59,26 @@ static void PERI_LANES_FN(krylov_blocks)(void *context, int64_t begin, int64_t e
 }
 
 /* sums: |r|^2 of free dofs to a, of held ones to b. */
-static void PERI_LANES_FN(krylov_norm)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(krylov_norm)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
     double loose[PERI_BLOCK] = { 0.0 }, fixed[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *r = (const peri_r *)s->r + d * m->stride + begin;
-        PERI_LANES_FN(square_some)(end - begin, d, s->held + begin, r, loose, fixed);
+        PERI_BY_VECTORS(m, square_some)(end - begin, d, s->held + begin, r, loose, fixed);
     }
     sums->a += peri__add_up(loose);
     sums->b += peri__add_up(fixed);
 }
 
 /* sums: r.z over free dofs to a. */
-static void PERI_LANES_FN(krylov_dot)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(krylov_dot)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
     double sum[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *r = (const peri_r *)s->r + d * m->stride + begin, *z = (const peri_r *)s->z + d * m->stride + begin;
-        PERI_LANES_FN(dot_some)(end - begin, d, s->held + begin, r, z, sum);
+        PERI_BY_VECTORS(m, dot_some)(end - begin, d, s->held + begin, r, z, sum);
     }
     sums->a += peri__add_up(sum);
 }

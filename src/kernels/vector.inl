@@ -11,6 +11,16 @@
    differ          four reals of the state from pack + slots*id of each of PERI_WIDTH ids, less own[4], as four PERI_VECTOR. Records are
                    loaded whole and turned in registers (`fetch`): a fraction of the time of gathering numbers one by one */
 
+/* PERI_COMPACT   1: where processors of the instruction set have become rare its code is kept small: linear geometry and breaking are
+                   asked for where they matter, not once */
+#if PERI_V_ISA == 0 && defined(PERI_ISA)
+#define PERI_COMPACT 1
+#define PERI_PIECEWISE PERI_NO_UNROLLING
+#else
+#define PERI_COMPACT 0
+#define PERI_PIECEWISE
+#endif
+
 #if PERI_V_ISA == 0 && !defined(PERI_ISA) && !defined(PERI_GENERIC)
 #define PERI_VECTOR peri_b
 #define PERI_WIDTH 1
