@@ -349,7 +349,8 @@ typedef enum peri__stale {
     PERI__STALE_MASKS = 1,     /* body->lanes_alive: bonds have been cut or mended since                                 */
     PERI__STALE_CONSTANTS = 2, /* body->constant, wide, rate, fastest, central: likewise, where laws are state-based     */
     PERI__STALE_FORCE = 4,     /* body->f and all that comes with it: push, response, reactions, places of obstacles     */
-    PERI__STALE_LEDGER = 8     /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
+    PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
+    PERI__STALE_BALANCE = 16   /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
 } peri__stale;
 
 /* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. */

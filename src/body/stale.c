@@ -28,7 +28,7 @@ static void peri__changed(peri_body *b, peri__change what) {
     if (what == PERI__MOTION || what == PERI__CUTS) peri__note_energy(b);
     if (what == PERI__CUTS || what == PERI__BONDS) b->now.stale |= PERI__STALE_MASKS;
     if ((what == PERI__CUTS || what == PERI__BONDS) && !b->model->pairwise) b->now.stale |= PERI__STALE_CONSTANTS;
-    b->now.stale |= PERI__STALE_FORCE;
+    b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
 }
 
 /* f of u, loads and bonds as they are, without breaking anything. */

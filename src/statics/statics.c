@@ -236,14 +236,14 @@ static int32_t peri__show_step(peri__solver *s) {
     s->report.load_factor = b->now.load_factor;
     for (int64_t l = 0; l < b->load_count; ++l) b->loads[l].stepped = 0;
     int32_t status = peri__meet_supports(b);
-    if (status == PERI_OK) b->now.stale &= ~(uint32_t)PERI__STALE_FORCE; /* f is that of the equilibrium */
+    if (status == PERI_OK) b->now.stale &= ~(uint32_t)(PERI__STALE_FORCE | PERI__STALE_BALANCE); /* f is that of the equilibrium */
     if (status == PERI_OK) status = peri__record(s);
     if (status != PERI_OK || !s->settings->on_step) return status;
     const int32_t former = peri__enter(b, PERI__IN_FRAME);
     int32_t stop = s->settings->on_step(s->settings->user, b);
     peri__leave(b, former);
     (void)peri__ensure(b, PERI__STALE_LEDGER);
-    s->disturbed = b->desc.ledger && b->now.stale & PERI__STALE_FORCE;
+    s->disturbed = b->desc.ledger && b->now.stale & PERI__STALE_BALANCE;
     if (s->disturbed) status = peri__note_forces(s);
     return status < 0 ? status : stop ? PERI_STOPPED : PERI_OK;
 }
