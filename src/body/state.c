@@ -66,7 +66,7 @@ static void peri__bond_forces(peri_body *b, peri__step *step) {
     if (step->working) memcpy(b->worked, b->u, (size_t)(m->stride * m->dim) * peri__real(b));
 }
 
-/* Energy of the intact bonds under the displacements u, laid out as those of the body; per point to density[points] where it is not NULL. */
+/* Energy of the intact bonds under the displacements u, laid out as b->u; per point to density[points] where it is not NULL. */
 static double peri__energy_under(peri_body *b, const void *u, double *density) {
     peri__step step = peri__no_step(b);
     peri__update_lanes(b);
