@@ -82,12 +82,17 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 
 /* ---- body: what there is, and what may be done to it ----------------------------------- */
 #include "src/body/arrays.c"       /* what a body keeps                                                            */
-#include "src/body/body.c"         /* create, build, reset, destroy                                                */
+#include "src/body/body.c"         /* create, build, destroy                                                       */
 #include "src/body/clone.c"        /* copies; counts                                                               */
 #include "src/body/sets.c"         /* selections of points                                                         */
-#include "src/body/state.c"        /* access to the state in the user's units; energies                            */
+#include "src/body/state.c"        /* units; the force of bonds, energies                                          */
+#include "src/body/loads.c"        /* loads and supports            -> force, work                                 */
+#include "src/body/obstacles.c"    /* obstacles                     -> force, work                                 */
+#include "src/body/stale.c"        /* a change                      -> what is stale -> up to date again           */
+#include "src/body/motion.c"       /* displacement and velocity from outside, reset                                */
 #include "src/body/cracks.c"       /* initial cracks, no-fail zones, break events                                  */
-#include "src/body/loads.c"        /* supports, loads, obstacles, the force                                        */
+#include "src/body/boundary.c"     /* supports, loads and obstacles, added and removed                             */
+#include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
 
 /* ---- dynamics -------------------------------------------------------------------------- */

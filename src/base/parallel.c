@@ -37,10 +37,9 @@ static void peri__for_points(const peri_body *b, int64_t points, int64_t cost, p
     loop.sums = sums;
     int threaded = points * cost >= PERI_THREAD_WORK;
     if (threaded && b->desc.parallel_for) {
-        const int32_t running = b->running; /* the hook may not change the body, whoever called */
-        ((peri_body *)b)->running = 2;
+        const int32_t former = peri__enter(b, PERI__IN_CALLBACK); /* the hook may not change the body, whoever called */
         b->desc.parallel_for(b->desc.parallel_user, blocks, peri__block_task, &loop);
-        ((peri_body *)b)->running = running;
+        peri__leave(b, former);
         return;
     }
 #if defined(_OPENMP) && !defined(PERI_NO_OPENMP)

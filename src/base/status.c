@@ -98,13 +98,21 @@ PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_
     return length;
 }
 
+/* From here on `who` is at work on the body. Returns who was before: peri__leave takes that back. So callbacks may nest. */
+static int32_t peri__enter(const peri_body *b, int32_t who) {
+    const int32_t former = b->running;
+    ((peri_body *)b)->running = who;
+    return former;
+}
+
+static void peri__leave(const peri_body *b, int32_t former) { ((peri_body *)b)->running = former; }
+
 /* What the log itself brings about is not told to it. */
 static void peri__log(peri_body *b, int32_t level, const char *text) {
-    int32_t running = b->running;
-    if (!b->desc.log || running > 2) return;
-    b->running = 3;
+    if (!b->desc.log || b->running == PERI__IN_LOG) return;
+    const int32_t former = peri__enter(b, PERI__IN_LOG);
     b->desc.log(b->desc.log_user, level, text);
-    b->running = running;
+    peri__leave(b, former);
 }
 
 /* "m->young" names the field young. The text is constant, so its tail is too. */
@@ -133,7 +141,7 @@ static const char *peri__field_name(const char *expression) {
 /* Of a built body: what a callback within a step may not change; and the state, which no callback may. */
 #define PERI_NEED_CHANGEABLE(b)                                                                                        \
     PERI_NEED_BUILT(b);                                                                                                \
-    if ((b)->running > 1) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)
+    if ((b)->running > PERI__IN_FRAME) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)
 #define PERI_NEED_IDLE(b)                                                                                              \
     PERI_NEED_BUILT(b);                                                                                                \
     if ((b)->running) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)

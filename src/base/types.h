@@ -340,10 +340,36 @@ typedef struct peri__derived { /* what peri_view_field computed of a field      
 } peri__derived;
 
 typedef struct peri__ledger { /* inner units of energy                                                                    */
-    double  external, obstacle, damping, fracture, initial;
-    double  before;  /* kinetic + elastic before the first unaccounted change                                            */
-    int32_t pending; /* 1 from such a change until it is accounted                                                       */
+    double external, obstacle, damping, fracture, initial;
+    double before; /* kinetic + elastic before the first unaccounted change, while PERI__STALE_LEDGER                    */
 } peri__ledger;
+
+/* What is derived from the state and no longer belongs to it: see stale.c. Where masks or constants are stale the force is, too. */
+typedef enum peri__stale {
+    PERI__STALE_MASKS = 1,     /* body->lanes_alive: bonds have been cut or mended since                                 */
+    PERI__STALE_CONSTANTS = 2, /* body->constant, wide, rate, fastest, central: likewise, where laws are state-based     */
+    PERI__STALE_FORCE = 4,     /* body->f and all that comes with it: push, response, reactions, places of obstacles     */
+    PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
+    PERI__STALE_BALANCE = 16   /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
+} peri__stale;
+
+/* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. */
+typedef struct peri__progress {
+    int64_t      cut, broken, steps; /* cut, broken: directed                                                            */
+    double       time;               /* [T], the caller's unit: a run ends at its duration to the last bit               */
+    double       load_factor;        /* of constant loads and supports; the time of callbacks where `still`              */
+    int32_t      still;              /* 1: the last motion was a static one                                              */
+    uint32_t     stale;              /* bits of peri__stale                                                              */
+    peri__ledger ledger;
+} peri__progress;
+
+/* Who is at work on a body: peri__enter and peri__leave of status.c. */
+typedef enum peri__running {
+    PERI__IDLE,
+    PERI__IN_FRAME,    /* on_frame or on_step: the state stays; bonds and what acts may change                           */
+    PERI__IN_CALLBACK, /* any other callback, or a call that makes some: nothing may change                              */
+    PERI__IN_LOG       /* likewise, and the log is silent                                                                */
+} peri__running;
 
 struct peri__ops { /* the kernels of one precision, dimension and instruction set; all are peri__block_fn, on a peri__step unless said */
     void (*pack)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or gather on the list      */
@@ -386,7 +412,6 @@ struct peri_body {
     uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
     uint32_t *before;        /* [points][words] alive before the step, for break events; NULL without a callback         */
     uint16_t *lanes_alive;   /* [columns] as alive, by columns; NULL where alive or the columns are                      */
-    int32_t   lanes_stale;   /* 1: alive has changed since                                                               */
     uint8_t  *no_fail;       /* [points]; NULL where none                                                                */
     uint8_t  *cls;           /* [points] class: row of `pairs`; NULL where there is one class                            */
     peri__pair *pairs;       /* [classes][classes]                                                                       */
@@ -397,7 +422,6 @@ struct peri_body {
     void     *response;      /* bond [1 + dim*dim][stride]: p, and Q where there are tensors; with margins               */
     double   *rate, *wide;   /* [points] row sum of the stiffness over rho; what theta or F of a point adds to those of others */
     double    fastest;       /* largest rate                                                                             */
-    int32_t   stale;         /* 1: bonds have changed since the constants were made                                      */
     uint8_t  *central;       /* [groups of PERI_LANES] 1: points there or beside it act by central bonds instead of a gradient; NULL without
                                 gradients                                                                                */
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
@@ -423,13 +447,8 @@ struct peri_body {
     peri_break_fn   on_break;
     void           *break_user;
 
-    int64_t cut, broken, steps; /* cut, broken: directed                                                                 */
-    double  time;               /* [T], the caller's unit: a run ends at its duration to the last bit                    */
-    double  load_factor;        /* of constant loads and supports; the time of callbacks where `still`                   */
-    int32_t still;              /* 1: the last motion was a static one                                                   */
-    int32_t force_current;      /* 1: f belongs to u, loads and cracks as they are                                       */
-    int32_t running;            /* 0 idle; 1 in on_frame: the state stays; 2 in any other callback, 3 in the log: nothing may change */
-    peri__ledger ledger;
+    peri__progress now;
+    int32_t        running; /* peri__running                                                                             */
 };
 
 #endif

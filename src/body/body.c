@@ -1,4 +1,4 @@
-/* body.c - create, build, reset, destroy. */
+/* body.c - create, build, destroy. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -58,6 +58,16 @@ static peri__memory peri__hooks(const peri_body_desc *desc) {
     return memory;
 }
 
+/* The progress of a body at its start, when all it has gone through is `cut` (directed) bonds of initial cracks. */
+static peri__progress peri__at_start(int64_t cut) {
+    peri__progress now;
+    memset(&now, 0, sizeof now);
+    now.cut = cut;
+    now.load_factor = 1.0;
+    now.stale = PERI__STALE_FORCE;
+    return now;
+}
+
 /* b is all zero. */
 static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->desc = *desc;
@@ -65,7 +75,7 @@ static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->dim = desc->space == PERI_SOLID ? 3 : 2;
     b->f32 = desc->precision == PERI_F32;
     b->b32 = desc->precision != PERI_F64;
-    b->load_factor = 1.0;
+    b->now = peri__at_start(0);
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
 }
 
@@ -361,7 +371,7 @@ static int32_t peri__new_state(peri_body *b) {
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
     int32_t status = peri__update_classes(b);
     if (status < 0 || m->pairwise) return status;
-    b->stale = 1;
+    b->now.stale |= PERI__STALE_CONSTANTS;
     peri__refresh(b);
     b->model->rate = b->fastest; /* of the whole body: broken bonds may only raise it */
     return b->fastest > 1e-30 && b->fastest < 1e30 ? PERI_OK : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
@@ -383,10 +393,10 @@ PERI_API int32_t peri_build(peri_body *b) {
     if (points == 0) return peri__fail(b, PERI_ERROR_NO_POINTS, "points", -1, 0.0);
 
     memset(&cloud, 0, sizeof cloud);
-    b->running = 2;
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     m = (peri__model *)peri__new(&b->memory, 1, sizeof *m);
     if (!m) {
-        b->running = 0;
+        peri__leave(b, former);
         return peri__fail(b, PERI_ERROR_MEMORY, "model", -1, 0.0);
     }
     m->memory = b->memory;
@@ -406,7 +416,7 @@ PERI_API int32_t peri_build(peri_body *b) {
         }
     }
     peri__delete(&b->memory, sums, blocks, sizeof *sums);
-    b->running = 0;
+    peri__leave(b, former);
     if (status < 0) {
         peri__release_model(b, m);
         return status;
@@ -430,35 +440,4 @@ PERI_API void peri_body_destroy(peri_body *b) {
     peri__free_setup(b);
     peri__delete(&memory, b->interfaces, b->interface_capacity, sizeof *b->interfaces);
     peri__delete(&memory, b, 1, sizeof *b);
-}
-
-PERI_API int32_t peri_reset(peri_body *b) {
-    PERI_NEED_IDLE(b);
-    const peri__model *m = b->model;
-    size_t vector = (size_t)(m->stride * m->dim) * peri__real(b);
-    memset(b->u, 0, vector);
-    memset(b->v, 0, vector);
-    memset(b->f, 0, vector);
-    if (b->push) memset(b->push, 0, (size_t)(m->stride * m->dim) * sizeof *b->push);
-    if (b->alive) {
-        peri__set_flags(m, b->alive);
-        if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
-        b->lanes_stale = 1;
-        b->stale = !m->pairwise;
-    }
-    if (b->work) {
-        memset(b->work, 0, (size_t)peri__bond_slots(m) * peri__real(b));
-        memset(b->pull, 0, (size_t)(peri__bond_slots(m) * m->dim) * peri__real(b));
-        memset(b->worked, 0, vector);
-    }
-    for (int64_t k = 0; k < b->obstacle_count; ++k)
-        memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);
-    for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
-    b->broken = b->steps = 0;
-    b->time = 0.0;
-    b->load_factor = 1.0;
-    b->still = 0;
-    b->force_current = 0;
-    memset(&b->ledger, 0, sizeof b->ledger);
-    return PERI_OK;
 }

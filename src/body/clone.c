@@ -70,33 +70,19 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
     if (copy) *copy = NULL;
     if (!from || !copy) return peri__set_error(error, PERI_ERROR_ARGUMENT, from ? "copy" : "body", -1, 0.0);
     if (!from->model) return peri__set_error(error, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
-    if (from->running > 1) return peri__set_error(error, PERI_ERROR_ORDER, "callback", -1, 0.0);
+    if (from->running > PERI__IN_FRAME) return peri__set_error(error, PERI_ERROR_ORDER, "callback", -1, 0.0);
     b = (peri_body *)peri__new(&from->memory, 1, sizeof *b);
     if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
-    b->desc = from->desc;
-    b->memory = from->memory;
-    b->dim = from->dim;
-    b->f32 = from->f32;
-    b->b32 = from->b32;
+    peri__start_body(b, &from->desc);
     memcpy(b->materials, from->materials, sizeof b->materials);
     b->material_count = from->material_count;
     b->model = from->model;
     b->ops = from->ops;
     b->classes = from->classes;
-    b->lanes_stale = from->lanes_stale;
-    b->stale = from->stale;
     b->fastest = from->fastest;
     b->on_break = from->on_break;
     b->break_user = from->break_user;
-    b->cut = from->cut;
-    b->broken = from->broken;
-    b->steps = from->steps;
-    b->time = from->time;
-    b->load_factor = from->load_factor;
-    b->still = from->still;
-    b->force_current = from->force_current;
-    b->ledger = from->ledger;
-    (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
+    b->now = from->now;
     (void)peri__count_users(&b->model->users, 1);
     int ok = peri__copy_state(b, from);
     if (ok && from->interface_count > 0) {
@@ -153,13 +139,13 @@ PERI_API const char *peri_kernel_text(const peri_body *b) {
     return names[m->lanes.columns ? 0 : m->slots ? 1 : b->desc.kernel == PERI_KERNEL_REFERENCE || m->centroid ? 3 : 2][m->lanes.isa];
 }
 
-PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->cut / 2 : PERI_ERROR_ARGUMENT; }
+PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->now.cut / 2 : PERI_ERROR_ARGUMENT; }
 
-PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->broken / 2 : PERI_ERROR_ARGUMENT; }
+PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->now.broken / 2 : PERI_ERROR_ARGUMENT; }
 
-PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->steps : PERI_ERROR_ARGUMENT; }
+PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->now.steps : PERI_ERROR_ARGUMENT; }
 
-PERI_API double peri_time(const peri_body *b) { return b ? b->time : 0.0; }
+PERI_API double peri_time(const peri_body *b) { return b ? b->now.time : 0.0; }
 
 PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows, int64_t capacity) {
     PERI_NEED_BUILT(b);

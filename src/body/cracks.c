@@ -60,15 +60,10 @@ static void peri__add_face(peri__crack *c, const double *normal, const double *p
     c->faces++;
 }
 
-/* A place in inner units. */
-static void peri__inner(const peri_body *b, const double *place, double *out) {
-    for (int32_t d = 0; d < b->dim; ++d) out[d] = (place[d] - b->model->origin[d]) / b->model->length;
-}
-
 /* Flags for cuts, taken on the first: alive for every bond, and which of them is not part of the initial crack. */
 static int32_t peri__need_flags(peri_body *b) {
-    if (b->steps == 0 && !b->uncut) b->uncut = peri__new_flags(b);
-    if ((b->steps == 0 && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
+    if (b->now.steps == 0 && !b->uncut) b->uncut = peri__new_flags(b);
+    if ((b->now.steps == 0 && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
     return PERI_OK;
 }
 
@@ -77,19 +72,13 @@ static int peri__cut_one(peri_body *b, int64_t i, int64_t k) {
     uint32_t flag = (uint32_t)1 << (k % 32), *alive = &b->alive[i * b->model->words + k / 32];
     if (!(*alive & flag)) return 0;
     *alive &= ~flag;
-    if (b->steps == 0) {
+    if (b->now.steps == 0) {
         b->uncut[i * b->model->words + k / 32] &= ~flag;
-        b->cut++;
+        b->now.cut++;
     } else {
-        b->broken++;
+        b->now.broken++;
     }
     return 1;
-}
-
-/* Bonds have been cut: what is derived from them is out of date. */
-static void peri__cuts_made(peri_body *b) {
-    b->lanes_stale = 1;
-    b->stale = !b->model->pairwise;
 }
 
 typedef struct peri__cutter {
@@ -120,7 +109,7 @@ static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sum
             if (!near_crack || !(*alive & flag)) continue;
             if (!peri__meets(cutter->crack, i < j ? xi : xj, i < j ? xj : xi, dim)) continue;
             *alive &= ~flag;
-            if (b->steps == 0) b->uncut[i * m->words + k / 32] &= ~flag;
+            if (b->now.steps == 0) b->uncut[i * m->words + k / 32] &= ~flag;
             sums->n++;
         }
     }
@@ -130,14 +119,13 @@ static int64_t peri__apply_crack(peri_body *b, const peri__crack *crack) {
     peri__cutter cutter;
     int32_t status = peri__need_flags(b);
     if (status < 0) return status;
-    peri__touch(b);
+    peri__changed(b, PERI__CUTS);
     cutter.body = b;
     cutter.crack = crack;
     peri__for_points(b, b->model->points, 2 * b->model->width, peri__cut_block, &cutter, b->sums);
     int64_t cut = peri__total(b->sums, b->model->points).n;
-    if (b->steps == 0) b->cut += cut;
-    else b->broken += cut;
-    peri__cuts_made(b);
+    if (b->now.steps == 0) b->now.cut += cut;
+    else b->now.broken += cut;
     if (cut == 0) peri__log(b, 1, "the crack meets no bond that was whole");
     return cut / 2;
 }
@@ -289,13 +277,12 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int64_t count, const int32_t *pair
     }
     int32_t status = peri__need_flags(b);
     if (status < 0) return status;
-    peri__touch(b);
+    peri__changed(b, PERI__CUTS);
     for (int64_t k = 0; k < count; ++k) {
         int32_t i = pairs[2 * k], j = pairs[2 * k + 1];
         cut += peri__cut_one(b, i, peri__find_bond(b->model, i, j));
         (void)peri__cut_one(b, j, peri__find_bond(b->model, j, i));
     }
-    peri__cuts_made(b);
     return cut;
 }
 
@@ -306,9 +293,8 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
     const peri__model *m = b->model;
     int32_t status = peri__need_flags(b);
     if (status < 0) return status;
-    peri__touch(b);
-    int32_t running = b->running;
-    b->running = 2;
+    peri__note_energy(b);
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
         peri__read_row(b, i, &row);
@@ -325,8 +311,8 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
             (void)peri__cut_one(b, j, peri__find_bond(m, j, i));
         }
     }
-    b->running = running;
-    peri__cuts_made(b);
+    peri__leave(b, former);
+    peri__changed(b, PERI__CUTS); /* not before: a callback that reads would bring up to date what half the cuts have made stale */
     return count;
 }
 
@@ -376,8 +362,7 @@ PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
 /* Reports the bonds that broke in this step. */
 static void peri__report_breaks(peri_body *b) {
     const peri__model *m = b->model;
-    int32_t running = b->running;
-    b->running = 2;
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t i = 0; i < m->points; ++i) {
         if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
         peri__row row;
@@ -388,5 +373,5 @@ static void peri__report_breaks(peri_body *b) {
             b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, &row, k));
         }
     }
-    b->running = running;
+    peri__leave(b, former);
 }

@@ -66,15 +66,14 @@ static int32_t peri__select(peri_body *b, const char *name, peri_point_fn take, 
     const peri__model *m = b->model;
     int32_t *points = (int32_t *)peri__new(&b->memory, m->points, sizeof *points);
     int64_t count = 0;
-    int32_t running = b->running;
     if (!points) return peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
-    b->running = 2;
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t i = 0; i < m->points; ++i) {
         double x[3];
         for (int32_t d = 0; d < m->dim; ++d) x[d] = peri__position(b, i, d);
         if (take(user, i, x)) points[count++] = (int32_t)i;
     }
-    b->running = running;
+    peri__leave(b, former);
     return peri__new_set(b, name, points, m->points, count);
 }
 

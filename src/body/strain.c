@@ -201,6 +201,6 @@ static void peri__gradients_block(void *context, int64_t begin, int64_t end, per
 
 static void peri__read_gradients(peri_body *b, peri__point_fn at, int32_t components, double *out) {
     peri__gradients gradients = { b, at, components, out };
-    peri__refresh(b);
+    (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     peri__for_points(b, b->model->points, 8 * b->model->width, peri__gradients_block, &gradients, NULL);
 }

@@ -40,7 +40,7 @@ static double peri__stable(const peri_body *b) {
 
 PERI_API double peri_stable_step(const peri_body *b) {
     if (!b || !b->model) return 0.0;
-    peri__refresh((peri_body *)b);
+    (void)peri__ensure((peri_body *)b, PERI__STALE_CONSTANTS);
     return peri__stable(b) * b->model->time;
 }
 
@@ -48,7 +48,7 @@ static void peri__kick(peri_body *b, peri__step *step, int64_t *bad) {
     peri__supply_supports(b, step);
     peri__for_points(b, b->model->points, 1, b->ops->kick, step, b->sums);
     peri__sums total = peri__total(b->sums, b->model->points);
-    b->ledger.damping += total.b;
+    b->now.ledger.damping += total.b;
     if (bad && *bad < 0) *bad = total.bad;
 }
 
@@ -70,7 +70,7 @@ static int32_t peri__unstagger(peri_body *b, double dt, double damping) {
     step.kick = 0.5 * dt * step.keep;
     step.loss_new = b->desc.ledger ? h : 0.0;
     peri__kick(b, &step, &bad);
-    return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->time) : PERI_OK;
+    return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->now.time) : PERI_OK;
 }
 
 /* One step of dt (inner units) to the time `next`. */
@@ -82,7 +82,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     peri__step step = peri__no_step(b);
     int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
-        b->force_current = 0;
+        peri__changed(b, PERI__ACTION);
         return status;
     }
 
@@ -92,13 +92,13 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     step.loss_old = b->desc.ledger ? h : 0.0;
     step.loss_new = central ? step.loss_old : 0.0;
     peri__kick(b, &step, &bad);
-    b->time = next;
-    b->steps++;
+    b->now.time = next;
+    b->now.steps++;
 
     status = peri__apply_loads(b, next, dt);
     if (status == PERI_OK) status = peri__apply_obstacles(b, next, dt);
     if (status < 0) {
-        b->force_current = 0;
+        peri__changed(b, PERI__ACTION);
         return status;
     }
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
@@ -111,8 +111,8 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
         if (!m->pairwise && total.n > 0) {
             peri__break_states(b, &step);
         } else {
-            b->ledger.fracture += total.a;
-            b->broken += total.n;
+            b->now.ledger.fracture += total.a;
+            b->now.broken += total.n;
         }
         if (b->before && total.n > 0) peri__report_breaks(b);
     }
@@ -126,7 +126,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
         step.loss_old = 0.0;
         peri__kick(b, &step, &bad);
     }
-    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->time);
+    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->now.time);
     return PERI_OK;
 }
 
@@ -141,7 +141,7 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
     PERI_NEED(b, r->frame_steps >= 0, "frame_steps");
     PERI_NEED(b, r->steps >= 0, "steps");
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
-    peri__refresh(b);
+    (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     const double unit = b->model->time;
     double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
     /* in the unit of time both may vanish */
@@ -157,12 +157,12 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
 
 /* on_frame, and what it may have changed. */
 static int32_t peri__show_frame(peri_body *b, const peri_run *r) {
-    b->running = 1;
+    const int32_t former = peri__enter(b, PERI__IN_FRAME);
     int32_t stop = r->on_frame(r->user, b);
-    b->running = 2;
+    peri__leave(b, former);
     if (stop) return PERI_STOPPED;
-    int32_t status = peri__update_force(b);
-    if (b->desc.ledger) peri__settle(b);
+    int32_t status = peri__ensure(b, PERI__STALE_FORCE);
+    (void)peri__ensure(b, PERI__STALE_LEDGER);
     return status;
 }
 
@@ -174,7 +174,7 @@ typedef struct peri__plan {
 } peri__plan;
 
 static int32_t peri__plan_steps(peri_body *b, const peri_run *r, double left, peri__plan *plan) {
-    plan->start = b->time;
+    plan->start = b->now.time;
     plan->steps -= plan->done;
     plan->full = plan->steps;
     plan->done = 0;
@@ -202,12 +202,11 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
     int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
     double damping = r->damping * m->time;
     int64_t left_to_frame = r->frame_steps;
-    peri__plan plan = { 0.0, 0.0, 0.0, b->time + r->duration, 0, r->steps, 0 };
+    peri__plan plan = { 0.0, 0.0, 0.0, b->now.time + r->duration, 0, r->steps, 0 };
     plan.dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b);
     int32_t status = peri__plan_steps(b, r, r->duration, &plan);
-    if (status == PERI_OK) status = peri__update_force(b);
+    if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE | PERI__STALE_LEDGER);
     if (status < 0) return status;
-    if (b->desc.ledger) peri__settle(b);
     while (plan.done < plan.steps && status == PERI_OK) {
         /* a stretch of steps of one size, up to the next frame */
         int64_t stretch = (plan.done < plan.full ? plan.full : plan.steps) - plan.done, run = 0;
@@ -232,7 +231,7 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
         if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, peri__next_size(&plan))) {
             if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
             plan.dt = r->safety * peri__stable(b);
-            status = peri__plan_steps(b, r, plan.end - b->time, &plan);
+            status = peri__plan_steps(b, r, plan.end - b->now.time, &plan);
         }
     }
     return status;
@@ -242,11 +241,12 @@ PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
     PERI_NEED_IDLE(b);
     int32_t status = peri__check_run(b, r);
     if (status < 0) return status;
-    b->running = 2;
-    if (b->still) b->force_current = b->still = 0; /* loads count in full again */
-    b->load_factor = 1.0;
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    if (b->now.still) peri__changed(b, PERI__ACTION); /* loads count in full again */
+    b->now.still = 0;
+    b->now.load_factor = 1.0;
     status = peri__march(b, r);
-    b->running = 0;
+    peri__leave(b, former);
     return status;
 }
 

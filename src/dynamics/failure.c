@@ -66,7 +66,7 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
             if (b->marked[i] != 1 || !(b->dying[i * m->words + k / 32] & flag)) continue;
             *alive &= ~flag;
             b->dying[i * m->words + k / 32] &= ~flag;
-            b->broken++;
+            b->now.broken++;
         }
         if (b->marked[i] == 1) {
             if (b->lanes_alive) peri__group_masks(m, i / PERI_LANES, (uint32_t)1 << (i % PERI_LANES), b->alive, b->lanes_alive);
@@ -78,7 +78,7 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
     }
     for (int64_t n = 0; n < count; ++n)
         if (b->marked[b->near_dying[n]] == 1) b->ops->gather_rows(&step, b->near_dying[n], b->near_dying[n] + 1, NULL);
-    b->ledger.fracture += energy - peri__energy_at_stake(b, &step, count);
+    b->now.ledger.fracture += energy - peri__energy_at_stake(b, &step, count);
     b->ops->exchange(&step, b->near_dying, count, 1);
     for (int64_t n = 0; n < count; ++n) {
         peri__set_rate(b, b->near_dying[n]);

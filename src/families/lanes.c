@@ -498,7 +498,8 @@ static void peri__whole_masks(const peri__model *m, uint16_t *masks) {
 
 /* Masks of what is alive, brought up to date with the flags. */
 static void peri__update_lanes(peri_body *b) {
-    if (!b->lanes_stale || !b->lanes_alive) return;
-    for (int64_t g = 0; g < b->model->lanes.groups; ++g) peri__group_masks(b->model, g, ~(uint32_t)0, b->alive, b->lanes_alive);
-    b->lanes_stale = 0;
+    if (!(b->now.stale & PERI__STALE_MASKS)) return;
+    for (int64_t g = 0; b->lanes_alive && g < b->model->lanes.groups; ++g)
+        peri__group_masks(b->model, g, ~(uint32_t)0, b->alive, b->lanes_alive);
+    b->now.stale &= ~(uint32_t)PERI__STALE_MASKS;
 }

@@ -105,8 +105,7 @@ static void peri__site(const peri__piece *piece, int64_t k, int64_t *index) {
 static int64_t peri__mark_sites(peri_body *b, const peri__piece *piece, int64_t sites, peri_point_fn inside, void *user,
                                 uint8_t *taken) {
     int64_t count = 0;
-    int32_t running = b->running;
-    b->running = 2;
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t k = 0; k < sites; ++k) {
         int64_t index[3];
         double x[3];
@@ -116,7 +115,7 @@ static int64_t peri__mark_sites(peri_body *b, const peri__piece *piece, int64_t 
         taken[k / 8] = (uint8_t)(taken[k / 8] | 1 << k % 8);
         count++;
     }
-    b->running = running;
+    peri__leave(b, former);
     return count;
 }
 

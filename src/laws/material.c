@@ -230,12 +230,11 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
         PERI_NEED_BUILT(b);
         edge = 0.5 * b->model->spacing / b->model->horizon;
     }
-    int32_t running = b->running;
-    b->running = 2; /* influence_fn may be called */
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK); /* influence_fn may be called */
     status = peri__constants(b, &b->materials[i], stress, length, edge, &own[i]);
     if (status == PERI_OK) status = peri__constants(b, &b->materials[j], stress, length, edge, &own[j]);
     if (status == PERI_OK) status = peri__pair_constants(b, i, j, stress, length, edge, own, &pair);
-    b->running = running;
+    peri__leave(b, former);
     if (status < 0) return status;
     const double unit = stress / length / length / length / (solid ? length : b->desc.thickness), micromodulus = pair.c * unit;
     if (c && !(micromodulus >= DBL_MIN && peri__finite(micromodulus))) return peri__fail(b, PERI_ERROR_RANGE, "c", -1, micromodulus);

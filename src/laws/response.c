@@ -286,14 +286,14 @@ static void peri__find_fastest(peri_body *b) {
 /* Brings the constants up to date with the bonds that are left. */
 static void peri__refresh(peri_body *b) {
     peri__refresher r;
-    if (!b->stale) return;
+    if (!(b->now.stale & PERI__STALE_CONSTANTS)) return;
     r.body = b;
-    r.whole = b->model->lanes.columns > 0 && b->cut == 0 && b->broken == 0;
+    r.whole = b->model->lanes.columns > 0 && b->now.cut == 0 && b->now.broken == 0;
     if (r.whole) peri__find_models(b);
     if (b->central) memset(b->central, 0, (size_t)(b->model->points / PERI_LANES + 1));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &r, NULL);
     if (r.whole) peri__copy_models(b, peri__constant_planes(b->model));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__rates_block, &r, NULL);
     peri__find_fastest(b);
-    b->stale = 0;
+    b->now.stale &= ~(uint32_t)PERI__STALE_CONSTANTS;
 }

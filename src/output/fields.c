@@ -191,7 +191,7 @@ static void peri__compute(peri_body *b, int32_t field, double *out) {
 /* Forces are what a write or a cut can leave out of date. */
 static int32_t peri__ready_field(peri_body *b, int32_t field) {
     if (peri__components(field, b->dim) == 0) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
-    return peri__fields[field].forces && b->running < 2 ? peri__update_force(b) : PERI_OK;
+    return peri__fields[field].forces ? peri__ensure_force(b) : PERI_OK;
 }
 
 PERI_API int32_t peri_read(peri_body *b, int32_t field, double *out, int64_t capacity) {
@@ -239,7 +239,7 @@ PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64
     void *data = field == PERI_VELOCITY ? b->v : b->u;
     int32_t status = peri__check_state(b, data, in, count, view.scale, "in");
     if (status < 0) return status;
-    peri__touch(b);
+    peri__changed(b, PERI__MOTION);
     for (int64_t i = 0; i < m->points; ++i)
         for (int32_t d = 0; d < m->dim; ++d)
             peri__put_real(data, b->f32, d * m->stride + i, in[i * m->dim + d] / view.scale);
@@ -249,7 +249,7 @@ PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64
 PERI_API int32_t peri_read_energy(peri_body *b, peri_energy *e) {
     PERI_NEED_BUILT(b);
     PERI_NEED(b, e, "energy");
-    const peri__ledger *l = &b->ledger;
+    const peri__ledger *l = &b->now.ledger;
     double unit = b->model->energy;
     memset(e, 0, sizeof *e);
     e->kinetic = peri__kinetic_energy(b) * unit;
@@ -260,7 +260,7 @@ PERI_API int32_t peri_read_energy(peri_body *b, peri_energy *e) {
     e->obstacle = l->obstacle * unit;
     e->damping = l->damping * unit;
     e->initial = l->initial * unit;
-    if (l->pending) e->initial += e->kinetic + e->elastic - l->before * unit;
+    if (b->now.stale & PERI__STALE_LEDGER) e->initial += e->kinetic + e->elastic - l->before * unit;
     e->error = e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->damping - e->fracture;
     return PERI_OK;
 }

@@ -13,10 +13,9 @@ typedef struct peri__writer {
 } peri__writer;
 
 static void peri__flush(peri__writer *w) {
-    int32_t running = w->body->running;
-    w->body->running = 2;
+    const int32_t former = peri__enter(w->body, PERI__IN_CALLBACK);
     if (w->used > 0 && !w->failed && w->write(w->user, w->buffer, w->used) != 0) w->failed = 1;
-    w->body->running = running;
+    peri__leave(w->body, former);
     w->used = 0;
 }
 
@@ -158,16 +157,16 @@ PERI_API int32_t peri_write_history(peri_body *b, int32_t header, peri_write_fn 
         peri__emit_text(&w, "step,time,kinetic,elastic,external,obstacle,damping,fracture,initial,error,broken,cut\n");
     const double numbers[9] = { peri_time(b), e.kinetic,  e.elastic, e.external, e.obstacle,
                                 e.damping,    e.fracture, e.initial, e.error };
-    peri__emit_integer(&w, b->steps);
+    peri__emit_integer(&w, b->now.steps);
     for (int k = 0; k < 9; ++k) {
         char text[40] = "";
         peri__emit_text(&w, ",");
         peri__emit(&w, text, (size_t)(peri__put_double(text, numbers[k]) - text));
     }
     peri__emit_text(&w, ",");
-    peri__emit_integer(&w, b->broken / 2);
+    peri__emit_integer(&w, b->now.broken / 2);
     peri__emit_text(&w, ",");
-    peri__emit_integer(&w, b->cut / 2);
+    peri__emit_integer(&w, b->now.cut / 2);
     peri__emit_text(&w, "\n");
     return peri__finish(b, &w);
 }

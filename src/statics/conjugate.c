@@ -45,8 +45,8 @@ static void peri__free_solver(peri__solver *s) {
 }
 
 /* Runs one of the vector kernels over the body, and sums. */
-static peri__sums peri__krylov_pass(peri__solver *s, peri__block_fn kernel) {
-    peri__for_points(s->body, s->body->model->points, 4, kernel, &s->k, s->body->sums);
+static peri__sums peri__krylov_pass(peri__solver *s, peri__krylov *k, peri__block_fn kernel) {
+    peri__for_points(s->body, s->body->model->points, 4, kernel, k, s->body->sums);
     return peri__total(s->body->sums, s->body->model->points);
 }
 
@@ -58,7 +58,7 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
     peri__apply_tangent(&s->t, at_rest);
     peri__apply_contact(&s->t);
     s->report.passes++;
-    peri__sums sums = peri__krylov_pass(s, s->body->ops->krylov_force);
+    peri__sums sums = peri__krylov_pass(s, &s->k, s->body->ops->krylov_force);
     /* the tangent of a stressed body answers to turns; p has no part in what is taken out, so p.K p stands */
     peri__balance(s, s->k.q, 1);
     peri__drop_hanging(s, s->k.q);
@@ -69,11 +69,11 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
 /* z = preconditioner times r; returns r.z. */
 static double peri__precondition(peri__solver *s) {
     s->k.blocks = s->settings->preconditioner == PERI_NO_PRECONDITIONER ? NULL : s->blocks;
-    (void)peri__krylov_pass(s, s->body->ops->krylov_blocks);
+    (void)peri__krylov_pass(s, &s->k, s->body->ops->krylov_blocks);
     if (s->levels) peri__correct_coarsely(s);
     peri__balance(s, s->k.z, 0);
     peri__drop_hanging(s, s->k.z);
-    return peri__krylov_pass(s, s->body->ops->krylov_dot).a;
+    return peri__krylov_pass(s, &s->k, s->body->ops->krylov_dot).a;
 }
 
 /* |r| of what is free; the scale by the loads and the reactions in r. */
@@ -113,7 +113,7 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
     double rz = 0.0, first = 0.0;
     s->slope = 0.0;
     memset(s->k.p, 0, peri__vector_bytes(b));
-    double residual = peri__measure(s, peri__krylov_pass(s, b->ops->krylov_norm), loads);
+    double residual = peri__measure(s, peri__krylov_pass(s, &s->k, b->ops->krylov_norm), loads);
     for (int64_t k = 0;; ++k) {
         double before = rz, square, bent;
         if (k == 0) first = residual;
@@ -129,17 +129,17 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
             return PERI_OK;
         }
         s->k.beta = k == 0 ? 0.0 : rz / before;
-        (void)peri__krylov_pass(s, b->ops->krylov_turn);
+        (void)peri__krylov_pass(s, &s->k, b->ops->krylov_turn);
         bent = peri__stiffness_times(s, at_rest, &square);
         if (!(bent > none * square * s->softest)) {
             s->k.alpha = k == 0 ? 1.0 : 0.0;
             s->slope += s->k.alpha * rz;
-            (void)peri__krylov_pass(s, b->ops->krylov_step);
+            (void)peri__krylov_pass(s, &s->k, b->ops->krylov_step);
             return bent < less * square * s->stiff ? PERI_ERROR_INDEFINITE : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
         }
         s->k.alpha = rz / bent;
         s->slope += s->k.alpha * rz;
-        residual = peri__measure(s, peri__krylov_pass(s, b->ops->krylov_step), loads);
+        residual = peri__measure(s, peri__krylov_pass(s, &s->k, b->ops->krylov_step), loads);
         int32_t status = peri__count_iteration(s, s->scale > 0.0 ? residual / s->scale : residual);
         if (status != PERI_OK) return status;
     }

@@ -46,8 +46,8 @@ static double peri__static_forces(peri__solver *s) {
     peri__step step = peri__no_step(b);
     double square = 0.0;
     memset(b->f, 0, peri__vector_bytes(b));
-    int32_t status = peri__apply_loads(b, b->load_factor, 0.0);
-    if (status == PERI_OK) status = peri__apply_obstacles(b, b->load_factor, 0.0);
+    int32_t status = peri__apply_loads(b, b->now.load_factor, 0.0);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, b->now.load_factor, 0.0);
     if (status < 0) return status;
     memcpy(s->k.z, b->f, peri__vector_bytes(b));
     for (int32_t d = 0; d < m->dim; ++d)
@@ -68,7 +68,7 @@ static double peri__static_forces(peri__solver *s) {
 
 /* |r| of what is free, with the scale brought up to date. */
 static double peri__static_residual(peri__solver *s, double loads) {
-    return peri__measure(s, peri__krylov_pass(s, s->body->ops->krylov_norm), loads);
+    return peri__measure(s, peri__krylov_pass(s, &s->k, s->body->ops->krylov_norm), loads);
 }
 
 /* The rounding of forces: the diagonal of K times that of the displacements, as they are and as supports will make them; the largest of
@@ -146,8 +146,7 @@ static void peri__note_bytes(peri__solver *s) {
 static int32_t peri__prepare(peri__solver *s, int anew) {
     peri_body *b = s->body;
     peri__mark_supports(s);
-    peri__update_lanes(b);
-    peri__refresh(b);
+    (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
     if (anew && s->levels) {
         s->bytes -= s->levels->bytes;
         peri__free_levels(s->levels);
@@ -242,11 +241,9 @@ static int64_t peri__most_moved(const peri__solver *s) {
 }
 
 static double peri__slope(peri__solver *s) {
-    void *z = s->k.z;
-    s->k.z = s->k.d;
-    double slope = peri__krylov_pass(s, s->body->ops->krylov_dot).a;
-    s->k.z = z;
-    return slope;
+    peri__krylov way = s->k;
+    way.z = s->k.d;
+    return peri__krylov_pass(s, &way, s->body->ops->krylov_dot).a;
 }
 
 /* Moves along d until the slope r.d has fallen to less than 0.8 of what it was. Returns |loads| there, < 0: a status. */
@@ -284,14 +281,13 @@ static double peri__newton_reach(const peri__solver *s, double residual, int gap
 /* Takes what supports move out of r: d holds it. */
 static void peri__lift(peri__solver *s, int at_rest) {
     peri_body *b = s->body;
-    void *d = s->k.d;
     double square;
     memcpy(s->k.p, s->k.d, peri__vector_bytes(b));
     (void)peri__stiffness_times(s, at_rest, &square);
-    s->k.alpha = 1.0;
-    s->k.d = s->k.z; /* only r is wanted */
-    (void)peri__krylov_pass(s, b->ops->krylov_step);
-    s->k.d = d;
+    peri__krylov whole = s->k;
+    whole.alpha = 1.0;
+    whole.d = s->k.z; /* only r is wanted */
+    (void)peri__krylov_pass(s, &whole, b->ops->krylov_step);
 }
 
 /* Finds the equilibrium at the present load factor. */

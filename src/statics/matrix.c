@@ -207,7 +207,7 @@ PERI_API int32_t peri_assemble(peri_body *b, peri_matrix **matrix) {
         a->unit = m->energy / peri__square(m->length);
         a->start = (int64_t *)peri__new(&b->memory, a->points + 1, sizeof *a->start);
     }
-    peri__refresh(b);
+    (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (a && a->start && mark && list && e.id && e.pull && e.spring) status = peri__couple(b, a, mark, list);
     else status = peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
     for (int64_t o = 0; status == PERI_OK && o < m->points; ++o) {

@@ -105,9 +105,9 @@ static int64_t peri__break_static(peri__solver *s) {
             count++;
         }
     }
-    b->broken += 2 * count;
+    b->now.broken += 2 * count;
     s->report.broken += count;
-    peri__cuts_made(b);
+    peri__changed(b, PERI__BONDS);
     if (b->before) peri__report_breaks(b);
     return count;
 }
@@ -128,7 +128,7 @@ static void peri__count_work(peri__solver *s, const void *from) {
             work += 0.5 * (outer + peri__get_real(s->load, b->f32, at)) * way * m->volume[i];
             peri__put_real(s->load, b->f32, at, outer);
         }
-    b->ledger.external += work;
+    b->now.ledger.external += work;
 }
 
 static double peri__static_energy(peri_body *b) { return b->desc.ledger ? peri__elastic_energy(b, NULL) : 0.0; }
@@ -138,7 +138,7 @@ static double peri__static_energy(peri_body *b) { return b->desc.ledger ? peri__
 static int32_t peri__static_values(peri_body *b) {
     for (int64_t l = 0; l < b->load_count; ++l)
         if (b->loads[l].kind == PERI__DISPLACEMENT) {
-            int32_t status = peri__refresh_load(b, &b->loads[l], b->load_factor);
+            int32_t status = peri__refresh_load(b, &b->loads[l], b->now.load_factor);
             if (status < 0) return status;
         }
     return PERI_OK;
@@ -151,8 +151,7 @@ static int32_t peri__note_forces(peri__solver *s) {
     if (status < 0) return status;
     memset(s->held, 0, (size_t)b->model->points);
     s->part_count = s->hanging = 0;
-    peri__update_lanes(b);
-    peri__refresh(b);
+    (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
     double loads = peri__static_forces(s);
     if (loads < 0.0) return (int32_t)loads;
     peri__mark_supports(s);
@@ -165,7 +164,7 @@ static void peri__stand_still(peri__solver *s) {
     peri_body *b = s->body;
     if (s->begun) return;
     s->begun = 1;
-    if (b->desc.ledger) b->ledger.damping += peri__kinetic_energy(b);
+    if (b->desc.ledger) b->now.ledger.damping += peri__kinetic_energy(b);
     memset(b->v, 0, peri__vector_bytes(b));
 }
 
@@ -173,8 +172,8 @@ static void peri__stand_still(peri__solver *s) {
 static int32_t peri__static_step(peri__solver *s, double factor) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
-    b->load_factor = factor;
-    b->force_current = 0;
+    b->now.load_factor = factor;
+    peri__changed(b, PERI__ACTION);
     int32_t status = peri__static_values(b);
     if (status == PERI_OK) status = peri__move_obstacles(b, factor);
     double broken = s->disturbed ? peri__static_energy(b) : 0.0; /* elastic energy after bonds broke, or on_step changed the body */
@@ -192,14 +191,14 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
             memcpy(b->f, s->k.z, peri__vector_bytes(b));
             peri__bond_forces(b, &step);
         }
-        double external = b->ledger.external, energy = 0.0;
+        double external = b->now.ledger.external, energy = 0.0;
         peri__count_work(s, s->from);
         if (peri__may_break(s) || s->disturbed) energy = peri__static_energy(b);
-        if (round > 0 || s->disturbed) b->ledger.damping += b->ledger.external - external - (energy - broken);
+        if (round > 0 || s->disturbed) b->now.ledger.damping += b->now.ledger.external - external - (energy - broken);
         s->disturbed = 0;
         if (!peri__may_break(s) || peri__break_static(s) == 0) break;
         broken = peri__static_energy(b);
-        b->ledger.fracture += energy - broken;
+        b->now.ledger.fracture += energy - broken;
         if (round >= s->settings->breaks) status = peri__fail_step(s, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
     }
     return status;
@@ -216,14 +215,14 @@ static int32_t peri__record(peri__solver *s) {
     if (s->report.curve_rows < st->curve_rows) {
         double *row = &st->curve[s->report.curve_rows * (2 + 2 * dim)];
         const peri__load *load = &b->loads[st->curve_load];
-        row[0] = b->load_factor;
+        row[0] = b->now.load_factor;
         for (int32_t d = 0; d < dim; ++d) {
             row[1 + d] = 0.0;
             for (int64_t k = 0; k < load->count; ++k) row[1 + d] += peri__get_real(b->u, b->f32, peri__dof(b, load, k, d));
             row[1 + d] *= b->model->length / (double)load->count;
             row[1 + dim + d] = force[d];
         }
-        row[1 + 2 * dim] = (double)(b->broken / 2);
+        row[1 + 2 * dim] = (double)(b->now.broken / 2);
     }
     s->report.curve_rows++;
     return PERI_OK;
@@ -232,19 +231,19 @@ static int32_t peri__record(peri__solver *s) {
 /* Reactions, the record and the callback at an equilibrium. */
 static int32_t peri__show_step(peri__solver *s) {
     peri_body *b = s->body;
-    b->steps++;
+    b->now.steps++;
     s->report.steps++;
-    s->report.load_factor = b->load_factor;
+    s->report.load_factor = b->now.load_factor;
     for (int64_t l = 0; l < b->load_count; ++l) b->loads[l].stepped = 0;
     int32_t status = peri__meet_supports(b);
-    b->force_current = status == PERI_OK;
+    if (status == PERI_OK) b->now.stale &= ~(uint32_t)(PERI__STALE_FORCE | PERI__STALE_BALANCE); /* f is that of the equilibrium */
     if (status == PERI_OK) status = peri__record(s);
     if (status != PERI_OK || !s->settings->on_step) return status;
-    b->running = 1;
+    const int32_t former = peri__enter(b, PERI__IN_FRAME);
     int32_t stop = s->settings->on_step(s->settings->user, b);
-    b->running = 2;
-    if (b->desc.ledger) peri__settle(b);
-    s->disturbed = b->desc.ledger && !b->force_current;
+    peri__leave(b, former);
+    (void)peri__ensure(b, PERI__STALE_LEDGER);
+    s->disturbed = b->desc.ledger && b->now.stale & PERI__STALE_BALANCE;
     if (s->disturbed) status = peri__note_forces(s);
     return status < 0 ? status : stop ? PERI_STOPPED : PERI_OK;
 }
@@ -282,10 +281,10 @@ static int32_t peri__load_steps(peri__solver *s) {
     int32_t status = peri__take_solver(s);
     if (status < 0) return status;
     double from = st->load_from;
-    if (b->desc.ledger) peri__settle(b);
-    b->still = 1;
-    b->force_current = 0;
-    b->load_factor = from;
+    (void)peri__ensure(b, PERI__STALE_LEDGER);
+    b->now.still = 1;
+    peri__changed(b, PERI__ACTION);
+    b->now.load_factor = from;
     if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
     if (s->load) status = peri__note_forces(s);
     for (int64_t k = 1; k <= st->steps && status == PERI_OK; ++k) {
@@ -299,11 +298,7 @@ static int32_t peri__load_steps(peri__solver *s) {
 /* A solve that ended short of an equilibrium has moved the body: like a change by the caller, to `initial`. */
 static void peri__count_stray(peri__solver *s) {
     peri_body *b = s->body;
-    void *u = b->u;
-    b->u = s->from;
-    double energy = peri__static_energy(b);
-    b->u = u;
-    b->ledger.initial += peri__static_energy(b) - energy;
+    b->now.ledger.initial += peri__elastic_energy(b, NULL) - peri__energy_under(b, s->from, NULL);
 }
 
 PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_report *report) {
@@ -315,16 +310,16 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_r
     memset(&s, 0, sizeof s);
     s.body = b;
     s.settings = st;
-    const double factor = b->load_factor;
-    const int32_t still = b->still;
-    b->running = 2;
+    const double factor = b->now.load_factor;
+    const int32_t still = b->now.still;
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     status = peri__load_steps(&s);
-    b->running = 0;
+    peri__leave(b, former);
     if (status < 0 && status == s.failure.code) b->error = s.failure;
     if (status < 0) {
-        b->load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? st->load_from : factor;
-        b->still = s.begun ? 1 : still;
-        b->force_current = 0;
+        b->now.load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? st->load_from : factor;
+        b->now.still = s.begun ? 1 : still;
+        peri__changed(b, PERI__ACTION);
     }
     if (status != PERI_OK && s.from && s.begun) peri__count_stray(&s);
     peri__free_solver(&s);

@@ -118,8 +118,7 @@ static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double 
         if (m->material[i] != material) return peri__fail(b, PERI_ERROR_MODEL, "set", i, 0.0);
     }
     if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
-    peri__update_lanes(b);
-    peri__refresh(b);
+    (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
     void *p = peri__new_vector(b);
     f->t.body = b;
     f->t.p = p;

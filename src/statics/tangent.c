@@ -241,7 +241,7 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     if (wrong >= 0) return peri__fail(b, PERI_ERROR_RANGE, "in", wrong, in[wrong]);
     if (largest > 0.0) (void)frexp(largest, &exponent);
     if (exponent < -1000) exponent = -1000; /* so that its inverse is a number, too */
-    const int32_t status = peri__update_force(b);
+    const int32_t status = peri__ensure(b, PERI__STALE_FORCE);
     if (status < 0) return status;
     if (!peri__need_change(b)) return peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
     product.t.body = b;

@@ -1,0 +1,174 @@
+/* boundary.c - supports, loads and obstacles, as the caller adds and removes them. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* ---- loads and supports ------------------------------------------------------------------------------------------- */
+
+/* A dof belongs to the last support that prescribes it: gives support s its dofs, and takes them from those before it. */
+static void peri__assign_support(peri_body *b, int64_t s) {
+    peri__load *load = &b->loads[s];
+    if (load->owned) memset(load->owned, load->axes, (size_t)load->count);
+    for (int64_t e = 0; load->owned && e < s; ++e) {
+        peri__load *earlier = &b->loads[e];
+        int64_t a = 0, c = 0;
+        if (!earlier->owned) continue;
+        while (a < earlier->count && c < load->count) { /* both ascending */
+            int32_t p = peri__set_point(b, earlier->set, a), q = peri__set_point(b, load->set, c);
+            if (p == q) earlier->owned[a] = (uint8_t)(earlier->owned[a] & ~load->axes);
+            if (p <= q) a++;
+            if (q <= p) c++;
+        }
+    }
+}
+
+static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                              void *user) {
+    peri__load load;
+    int support = kind != PERI__FORCE;
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    PERI_NEED(b, value || fn || support, "value");
+    PERI_NEED(b, axes > 0 && axes < 1 << b->dim, "axes");
+    if (value && !peri__finite_vector(value, b->dim)) return peri__fail(b, PERI_ERROR_RANGE, "value", -1, 0.0);
+    memset(&load, 0, sizeof load);
+    load.kind = kind;
+    load.set = set;
+    load.axes = axes;
+    load.fn = fn;
+    load.user = user;
+    load.per_value = 1.0;
+    load.count = peri__set_count(b, set);
+    for (int32_t d = 0; value && d < b->dim; ++d) load.constant[d] = value[d];
+    if (!peri__grow(&b->memory, &b->loads, &b->load_capacity, b->load_count + 1, sizeof *b->loads))
+        return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    if (fn) load.value = (double *)peri__new(&b->memory, load.count * b->dim, sizeof(double));
+    if (fn && set == PERI_ALL) load.all = (int32_t *)peri__new(&b->memory, load.count, sizeof *load.all);
+    if (support) load.force = (double *)peri__new(&b->memory, PERI__HELD_PLANES * load.count * b->dim, sizeof(double));
+    if (support) load.owned = (uint8_t *)peri__new(&b->memory, load.count, 1);
+    if ((fn && !load.value) || (fn && set == PERI_ALL && !load.all) || (support && (!load.force || !load.owned))) {
+        peri__free_load(b, &load);
+        return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    }
+    for (int64_t k = 0; load.all && k < load.count; ++k) load.all[k] = (int32_t)k;
+    b->loads[b->load_count++] = load;
+    peri__changed(b, PERI__ACTION);
+    peri__assign_support(b, b->load_count - 1);
+    return (int32_t)(b->load_count - 1);
+}
+
+PERI_API int32_t peri_prescribe_displacement(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                                             void *user) {
+    PERI_NEED_CHANGEABLE(b);
+    return peri__add_load(b, PERI__DISPLACEMENT, set, axes, value, fn, user);
+}
+
+PERI_API int32_t peri_prescribe_velocity(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
+                                         void *user) {
+    PERI_NEED_CHANGEABLE(b);
+    return peri__add_load(b, PERI__VELOCITY, set, axes, value, fn, user);
+}
+
+PERI_API int32_t peri_apply_body_force(peri_body *b, int32_t set, const double *value, peri_load_fn fn, void *user) {
+    PERI_NEED_CHANGEABLE(b);
+    return peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
+}
+
+PERI_API int32_t peri_apply_traction(peri_body *b, int32_t set, double area, const double *value, peri_load_fn fn,
+                                     void *user) {
+    double volume = 0.0;
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_NUMBER(b, area > 0.0, area);
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < peri__set_count(b, set); ++k) volume += m->volume[peri__set_point(b, set, k)];
+    status = peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
+    if (status >= 0) b->loads[status].per_value = area / (volume * pow(m->length, b->dim));
+    return status;
+}
+
+static int32_t peri__check_load(peri_body *b, int32_t load) {
+    if (load < 0 || load >= b->load_count || b->loads[load].kind == PERI__FREE)
+        return peri__fail(b, PERI_ERROR_ID, "load", load, 0.0);
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_remove_load(peri_body *b, int32_t load) {
+    PERI_NEED_CHANGEABLE(b);
+    int32_t status = peri__check_load(b, load);
+    if (status < 0) return status;
+    const int support = b->loads[load].owned != NULL;
+    peri__free_load(b, &b->loads[load]);
+    b->loads[load].kind = PERI__FREE;
+    peri__changed(b, PERI__ACTION);
+    for (int64_t s = 0; support && s < b->load_count; ++s) peri__assign_support(b, s);
+    return PERI_OK;
+}
+
+/* ---- obstacles ---------------------------------------------------------------------------------------------------- */
+
+static double peri__default_stiffness(const peri__model *m) { return 1.0 / peri__square(m->spacing); }
+
+static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const double *place, double stiffness) {
+    const peri__model *m = b->model;
+    int64_t vector = m->stride * m->dim;
+    PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
+    peri__inner(b, place, obstacle->place);
+    for (int32_t d = 0; d < b->dim; ++d) /* beyond 1e15 spacings the surface of a ball is lost in rounding */
+        if (!(fabs(obstacle->place[d]) < (obstacle->kind == PERI__BALL ? 1e15 : DBL_MAX)))
+            return peri__fail(b, PERI_ERROR_RANGE, obstacle->kind == PERI__BALL ? "centre" : "place", -1, place[d]);
+    if (!(obstacle->radius < 1e15)) return peri__fail(b, PERI_ERROR_RANGE, "radius", -1, obstacle->radius * m->length);
+    memcpy(obstacle->place0, obstacle->place, sizeof obstacle->place0);
+    obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
+    if (!peri__grow(&b->memory, &b->obstacles, &b->obstacle_capacity, b->obstacle_count + 1, sizeof *b->obstacles))
+        return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
+    if (!b->push) b->push = (double *)peri__new(&b->memory, vector, sizeof *b->push);
+    if (!b->push) return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
+    b->obstacles[b->obstacle_count++] = *obstacle;
+    peri__changed(b, PERI__ACTION);
+    return (int32_t)(b->obstacle_count - 1);
+}
+
+PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, const double *normal, double stiffness,
+                                         peri_motion_fn motion, void *user) {
+    peri__obstacle obstacle;
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_VECTOR(b, place);
+    PERI_NEED_VECTOR(b, normal);
+    memset(&obstacle, 0, sizeof obstacle);
+    if (!peri__direction(normal, b->dim, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
+    obstacle.kind = PERI__PLANE;
+    obstacle.motion = motion;
+    obstacle.user = user;
+    return peri__add_obstacle(b, &obstacle, place, stiffness);
+}
+
+PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, double radius, double stiffness,
+                                        peri_motion_fn motion, void *user) {
+    peri__obstacle obstacle;
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_VECTOR(b, centre);
+    PERI_NEED_NUMBER(b, radius > 0.0, radius);
+    memset(&obstacle, 0, sizeof obstacle);
+    obstacle.kind = PERI__BALL;
+    obstacle.radius = radius / b->model->length;
+    obstacle.motion = motion;
+    obstacle.user = user;
+    return peri__add_obstacle(b, &obstacle, centre, stiffness);
+}
+
+static int32_t peri__check_obstacle(peri_body *b, int32_t obstacle) {
+    if (obstacle < 0 || obstacle >= b->obstacle_count || b->obstacles[obstacle].kind == PERI__REMOVED)
+        return peri__fail(b, PERI_ERROR_ID, "obstacle", obstacle, 0.0);
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t obstacle) {
+    PERI_NEED_CHANGEABLE(b);
+    int32_t status = peri__check_obstacle(b, obstacle);
+    if (status < 0) return status;
+    b->obstacles[obstacle].kind = PERI__REMOVED;
+    peri__changed(b, PERI__ACTION);
+    return PERI_OK;
+}

@@ -1,0 +1,65 @@
+/* motion.c - displacement and velocity from outside, and back to the start. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+/* Displacements and velocities that the arithmetic can square, and cube where stresses are P = F S: within 1e15 spacings, or 1e11; below
+   1e9 speeds of sound. */
+static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit,
+                                 const char *field) {
+    const int cubes = b->model->gathers & PERI__GRADIENT && b->b32 && b->desc.geometry != PERI_LINEAR;
+    const double limit = array == b->v ? 1e9 : cubes ? 1e11 : 1e15;
+    for (int64_t k = 0; k < count; ++k)
+        if (!(fabs(in[k] / unit) < limit)) return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);
+    return PERI_OK;
+}
+
+static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t set, const double *value) {
+    PERI_NEED_VECTOR(b, value);
+    int32_t status = peri__check_set(b, set);
+    if (status < 0) return status;
+    status = peri__check_state(b, array, value, b->dim, unit, "value");
+    if (status < 0) return status;
+    peri__changed(b, PERI__MOTION);
+    for (int64_t k = 0; k < peri__set_count(b, set); ++k)
+        for (int32_t d = 0; d < b->dim; ++d) {
+            int64_t at = d * b->model->stride + peri__set_point(b, set, k);
+            peri__put_real(array, b->f32, at, peri__get_real(array, b->f32, at) + value[d] / unit);
+        }
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_add_displacement(peri_body *b, int32_t set, const double *value) {
+    PERI_NEED_IDLE(b);
+    return peri__add_to(b, b->u, b->model->length, set, value);
+}
+
+PERI_API int32_t peri_add_velocity(peri_body *b, int32_t set, const double *value) {
+    PERI_NEED_IDLE(b);
+    return peri__add_to(b, b->v, peri__velocity_unit(b->model), set, value);
+}
+
+PERI_API int32_t peri_reset(peri_body *b) {
+    PERI_NEED_IDLE(b);
+    const peri__model *m = b->model;
+    size_t vector = (size_t)(m->stride * m->dim) * peri__real(b);
+    memset(b->u, 0, vector);
+    memset(b->v, 0, vector);
+    memset(b->f, 0, vector);
+    if (b->push) memset(b->push, 0, (size_t)(m->stride * m->dim) * sizeof *b->push);
+    if (b->alive) {
+        peri__set_flags(m, b->alive);
+        if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
+    }
+    if (b->work) {
+        memset(b->work, 0, (size_t)peri__bond_slots(m) * peri__real(b));
+        memset(b->pull, 0, (size_t)(peri__bond_slots(m) * m->dim) * peri__real(b));
+        memset(b->worked, 0, vector);
+    }
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);
+    for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
+    b->now = peri__at_start(b->now.cut);
+    if (b->alive) peri__changed(b, PERI__BONDS);
+    return PERI_OK;
+}

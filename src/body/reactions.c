@@ -1,0 +1,56 @@
+/* reactions.c - the forces of obstacles, supports and loads, read. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+PERI_API int32_t peri_read_obstacle_force(peri_body *b, int32_t obstacle, double *force) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_obstacle(b, obstacle);
+    if (status < 0) return status;
+    PERI_NEED(b, force, "force");
+    status = peri__ensure_force(b); /* moves the obstacle to where it is now */
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    double total[3] = { 0.0, 0.0, 0.0 };
+    for (int64_t i = 0; i < m->points; ++i) {
+        double push[3] = { 0.0, 0.0, 0.0 };
+        peri__push(b, &b->obstacles[obstacle], i, push);
+        for (int32_t d = 0; d < m->dim; ++d) total[d] += push[d] * m->volume[i];
+    }
+    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+    return PERI_OK;
+}
+
+/* Force density of the supports on every point, inner units. */
+static void peri__read_reactions(const peri_body *b, double *out) {
+    const peri__model *m = b->model;
+    for (int64_t k = 0; k < m->points * m->dim; ++k) out[k] = 0.0;
+    for (int64_t s = 0; s < b->load_count; ++s) {
+        const peri__load *load = &b->loads[s];
+        for (int64_t k = 0; load->owned && k < load->count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d)
+                if (load->owned[k] >> d & 1)
+                    out[peri__set_point(b, load->set, k) * m->dim + d] = *peri__held(b, load, PERI__HELD_REACTION, k, d);
+    }
+}
+
+PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
+    PERI_NEED_BUILT(b);
+    int32_t status = peri__check_load(b, id);
+    if (status < 0) return status;
+    PERI_NEED(b, force, "force");
+    status = peri__ensure_force(b);
+    if (status < 0) return status;
+    const peri__model *m = b->model;
+    const peri__load *load = &b->loads[id];
+    double total[3] = { 0.0, 0.0, 0.0 };
+    for (int64_t k = 0; k < load->count; ++k)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            double volume = m->volume[peri__set_point(b, load->set, k)];
+            if (load->owned && !(load->owned[k] >> d & 1)) continue;
+            if (load->owned) total[d] += *peri__held(b, load, PERI__HELD_REACTION, k, d) * volume;
+            else total[d] += peri__load_force(b, load, k, d) * volume;
+        }
+    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
+    return PERI_OK;
+}

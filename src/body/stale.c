@@ -1,0 +1,70 @@
+/* stale.c - what a change makes stale, and how that is brought up to date: the one place that knows.
+
+   Who changes a body calls peri__changed, who reads what is derived calls peri__ensure. A change costs no more than bits, so that a hundred
+   cuts between two steps cost one pass over the bonds; but before the first change by the caller the ledger notes the energy. The steps of
+   explicit.c and the rounds of failure.c keep masks, constants and force up to date as they go, and set no bits. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+typedef enum peri__change {
+    PERI__MOTION, /* displacement or velocity, by the caller                                                             */
+    PERI__CUTS,   /* bonds, by the caller                                                                                */
+    PERI__BONDS,  /* bonds that a criterion broke or peri_reset mended: the ledger has an account of its own for them    */
+    PERI__ACTION  /* loads, supports, obstacles, the load factor; or a step that ended half way                          */
+} peri__change;
+
+/* Before displacement, velocity or bonds are changed by the caller, not by the equations of motion: the change of energy counts as
+   `initial`. It is measured when next needed, so that a hundred cuts cost two energy passes. */
+static void peri__note_energy(peri_body *b) {
+    peri__ledger *l = &b->now.ledger;
+    if (!b->desc.ledger || b->now.stale & PERI__STALE_LEDGER) return;
+    l->before = b->now.steps == 0 && l->initial == 0.0 ? 0.0 : peri__kinetic_energy(b) + peri__elastic_energy(b, NULL);
+    b->now.stale |= PERI__STALE_LEDGER;
+}
+
+/* To be called before a change by the caller; before or after any other. */
+static void peri__changed(peri_body *b, peri__change what) {
+    if (what == PERI__MOTION || what == PERI__CUTS) peri__note_energy(b);
+    if (what == PERI__CUTS || what == PERI__BONDS) b->now.stale |= PERI__STALE_MASKS;
+    if ((what == PERI__CUTS || what == PERI__BONDS) && !b->model->pairwise) b->now.stale |= PERI__STALE_CONSTANTS;
+    b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
+}
+
+/* f of u, loads and bonds as they are, without breaking anything. */
+static int32_t peri__make_force(peri_body *b) {
+    peri__step step = peri__no_step(b);
+    const peri__model *m = b->model;
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
+    int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
+    if (status == PERI_OK) {
+        step.working = m->works;
+        peri__bond_forces(b, &step);
+        status = peri__meet_supports(b);
+    }
+    peri__leave(b, former);
+    return status;
+}
+
+/* Brings up to date what is stale of `what`, bits of peri__stale, and what that is made of. Fails only where a load or an obstacle does;
+   the force then stays stale. */
+static int32_t peri__ensure(peri_body *b, uint32_t what) {
+    what &= b->now.stale;
+    if (what & (PERI__STALE_FORCE | PERI__STALE_MASKS)) peri__update_lanes(b);
+    if (what & (PERI__STALE_FORCE | PERI__STALE_CONSTANTS)) peri__refresh(b);
+    if (what & PERI__STALE_FORCE) {
+        int32_t status = peri__make_force(b);
+        if (status < 0) return status;
+    }
+    if (what & PERI__STALE_LEDGER)
+        b->now.ledger.initial += peri__kinetic_energy(b) + peri__elastic_energy(b, NULL) - b->now.ledger.before;
+    b->now.stale &= ~what;
+    return PERI_OK;
+}
+
+/* For those who read forces: within a step they are those under way. */
+static int32_t peri__ensure_force(peri_body *b) {
+    return b->running > PERI__IN_FRAME ? PERI_OK : peri__ensure(b, PERI__STALE_FORCE);
+}
