@@ -141,8 +141,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(pairwise_of)(const peri__st
 
 PERI_LANES_TARGET static uint32_t PERI_LANES_FN(pairwise)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     if (PERI_COMPACT) return PERI_LANES_FN(pairwise_of)(o, g, f, o->linear, 1);
-    if (!o->linear) return PERI_LANES_FN(pairwise_of)(o, g, f, 0, 1);
-    return o->breaking ? PERI_LANES_FN(pairwise_of)(o, g, f, 1, 1) : PERI_LANES_FN(pairwise_of)(o, g, f, 1, 0);
+    return o->linear ? PERI_LANES_FN(pairwise_of)(o, g, f, 1, o->breaking) : PERI_LANES_FN(pairwise_of)(o, g, f, 0, 1);
 }
 
 PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(stretched_column)(const PERI_LANES_FN(group) *s, const PERI_LANES_FN(bond) *bond,
@@ -260,8 +259,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(ordinary_of)(const peri__st
 
 PERI_LANES_TARGET static uint32_t PERI_LANES_FN(ordinary)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     if (PERI_COMPACT) return PERI_LANES_FN(ordinary_of)(o, g, f, o->linear, 1);
-    if (!o->linear) return PERI_LANES_FN(ordinary_of)(o, g, f, 0, 1);
-    return o->breaking ? PERI_LANES_FN(ordinary_of)(o, g, f, 1, 1) : PERI_LANES_FN(ordinary_of)(o, g, f, 1, 0);
+    return o->linear ? PERI_LANES_FN(ordinary_of)(o, g, f, 1, o->breaking) : PERI_LANES_FN(ordinary_of)(o, g, f, 0, 1);
 }
 
 /* sum w eta xi V. */
@@ -366,8 +364,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(work)(const peri__step *o, 
 
 /* Adds the force of all live bonds of group g to f, whatever the laws of their ends, and counts the work on them where that is asked for.
    Returns as `pairwise`, with a bit for points whose bonds may meet an energy criterion, too. */
-PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(mixed_of)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES],
-                                                               const int tensors) {
+PERI_LANES_TARGET static uint32_t PERI_LANES_FN(mixed)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     PERI_NO_CONTRACTION
     const peri__model *m = o->model;
     const peri_b *p = (const peri_b *)o->response + g * PERI_LANES;
@@ -375,7 +372,7 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(mixed_of)(const peri__step 
     const peri_b *tensor = (const peri_b *)o->response + m->stride + g * PERI_LANES;
     const peri_b *k = (const peri_b *)o->constant + PERI__VECTOR * m->stride + g * PERI_LANES;
     const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
-    const int linear = o->linear;
+    const int linear = o->linear, tensors = m->gathers & PERI__GRADIENT;
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_LANES_FN(group) s;
     PERI_LANES_FN(bond) bond;
@@ -383,14 +380,14 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(mixed_of)(const peri__step 
     PERI_LANES_FN(enter)(&s, o, g, o->breaking);
     const peri__column *const first = s.column;
     for (int d = 0; d < PERI_D; ++d)
-        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(&f[d][n * PERI_WIDTH]);
     while (PERI_LANES_FN(next)(&s, &bond)) {
         const peri__stencil_ends *ends = PERI_LANES_FN(ends)(o, &bond);
         const PERI_VECTOR length = PERI_V(set1)(bond.length), weight = PERI_V(set1)(bond.weight);
         const PERI_VECTOR gauge = PERI_V(set1)((peri_b)ends->gauge), other = PERI_V(set1)((peri_b)ends->other_gauge);
         const PERI_VECTOR spring = PERI_V(set1)((peri_b)ends->spring), most = PERI_V(set1)(bond.limit * bond.length);
         peri_b force[PERI_D][PERI_LANES];
-        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) {
             const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
             const PERI_VECTOR both_p = gauge * PERI_V(loadu)(p + n * PERI_WIDTH) + other * PERI_V(loadu)(p + bond.offset + n * PERI_WIDTH);
             const PERI_VECTOR both_q = PERI_V(loadu)(q + n * PERI_WIDTH) + PERI_V(loadu)(q + bond.offset + n * PERI_WIDTH) + spring;
@@ -419,10 +416,6 @@ PERI_LANES_TARGET PERI_INLINE uint32_t PERI_LANES_FN(mixed_of)(const peri__step 
     }
     PERI_LANES_FN(leave)(sum, f);
     return hit;
-}
-
-PERI_LANES_TARGET static uint32_t PERI_LANES_FN(mixed)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
-    return o->model->gathers & PERI__GRADIENT ? PERI_LANES_FN(mixed_of)(o, g, f, 1) : PERI_LANES_FN(mixed_of)(o, g, f, 0);
 }
 
 #undef PERI_PIECES

@@ -58,8 +58,7 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(PERI_STATE *sum) {
 }
 
 /* Adds the force of all live bonds of the point at a place to f, all points being of laws alike: pairwise, or ordinary. Returns nonzero
-   where a bond comes near its critical stretch; f is then void. `pairwise`, `by_length` and `slots` are constants where this is inlined,
-   and `linear` where speed matters. */
+   where a bond comes near its critical stretch; f is then void. `pairwise`, `by_length` and `slots` are constants where this is inlined. */
 PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, int64_t place, peri_r *f, const int pairwise,
                                                           const int by_length, const int32_t slots, const int linear) {
     PERI_NO_CONTRACTION
@@ -120,17 +119,12 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, i
 
 PERI_LANES_TARGET static int PERI_LANES_FN(list_pairwise)(const peri__step *o, int64_t place, peri_r *f) {
     const int small = PERI_D == 2 && o->model->slots == 4;
-    if (PERI_COMPACT && small) return PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, o->linear);
-    if (PERI_COMPACT) return PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, o->linear);
-    if (small) return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, 0);
-    return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 1) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, 0);
+    return small ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, o->linear) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, o->linear);
 }
 
 PERI_LANES_TARGET static int PERI_LANES_FN(list_ordinary)(const peri__step *o, int64_t place, peri_r *f) {
-    if (PERI_COMPACT && o->model->gauge) return PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, o->linear);
-    if (o->model->gauge)
-        return o->linear ? PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, 1) : PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, 0);
-    return PERI_LANES_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
+    return o->model->gauge ? PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, o->linear)
+                           : PERI_LANES_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
 }
 
 /* sum w g e V of the point at a place. */
@@ -164,9 +158,7 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri__step *o
 }
 
 PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri__step *o, int64_t place) {
-    if (PERI_COMPACT && o->model->gauge) return PERI_LANES_FN(list_sum)(o, place, 1, o->linear);
-    if (o->model->gauge) return o->linear ? PERI_LANES_FN(list_sum)(o, place, 1, 1) : PERI_LANES_FN(list_sum)(o, place, 1, 0);
-    return PERI_LANES_FN(list_sum)(o, place, 0, o->linear);
+    return o->model->gauge ? PERI_LANES_FN(list_sum)(o, place, 1, o->linear) : PERI_LANES_FN(list_sum)(o, place, 0, o->linear);
 }
 
 /* ---- gradients ---------------------------------------------------------------------------------------------------- */

@@ -110,20 +110,13 @@ static uint32_t PERI_FN(group_force)(const peri__step *o, int64_t g, peri_r f[PE
     return o->central[g] ? 0xFFFFu : near | PERI_BY_VECTORS(m, tensor)(o, g, f);
 }
 
-static void PERI_FN(force_columns)(const peri__step *o, int64_t g, peri__sums *sums) {
+/* The points of group g whose bits are set are done by rows, the others get f. */
+static void PERI_FN(finish_by_rows)(const peri__step *o, int64_t g, uint32_t by_row, peri_r f[PERI_D][PERI_LANES], peri__sums *sums) {
     const peri__model *m = o->model;
     const int64_t first = g * PERI_LANES;
-    peri_r *force = (peri_r *)o->f + first, f[PERI_D][PERI_LANES];
-    uint32_t broke = 0;
-    for (int d = 0; d < PERI_D; ++d)
-        for (int l = 0; l < PERI_LANES; ++l) f[d][l] = force[d * m->stride + l];
-    const uint32_t by_row = PERI_FN(group_force)(o, g, f);
-    if (!by_row) {
-        for (int d = 0; d < PERI_D; ++d)
-            for (int l = 0; l < PERI_LANES; ++l) force[d * m->stride + l] = f[d][l];
-        return;
-    }
+    peri_r *force = (peri_r *)o->f + first;
     peri__step rest = *o;
+    uint32_t broke = 0;
     rest.working = 0; /* that is done */
     for (int l = 0; l < PERI_LANES && first + l < m->points; ++l) {
         const int64_t broken = sums->n;
@@ -133,6 +126,19 @@ static void PERI_FN(force_columns)(const peri__step *o, int64_t g, peri__sums *s
         if (sums->n > broken) broke |= (uint32_t)1 << l;
     }
     if (broke && m->pairwise) peri__group_masks(m, g, broke, o->alive, o->masks);
+}
+
+static void PERI_FN(force_columns)(const peri__step *o, int64_t g, peri__sums *sums) {
+    const peri__model *m = o->model;
+    const int64_t first = g * PERI_LANES;
+    peri_r *force = (peri_r *)o->f + first, f[PERI_D][PERI_LANES];
+    for (int d = 0; d < PERI_D; ++d) memcpy(f[d], &force[d * m->stride], sizeof f[d]);
+    const uint32_t by_row = PERI_FN(group_force)(o, g, f);
+    if (!by_row) {
+        for (int d = 0; d < PERI_D; ++d) memcpy(&force[d * m->stride], f[d], sizeof f[d]);
+        return;
+    }
+    PERI_FN(finish_by_rows)(o, g, by_row, f, sums);
 }
 
 /* Energy densities of group g, without gradients. */
