@@ -117,14 +117,17 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, i
     return hit;
 }
 
+/* Geometry is a constant where that makes a difference in time. */
+#define PERI_BY_GEOMETRY(call, ...) (PERI_COMPACT ? call(__VA_ARGS__, o->linear) : o->linear ? call(__VA_ARGS__, 1) : call(__VA_ARGS__, 0))
+
 PERI_LANES_TARGET static int PERI_LANES_FN(list_pairwise)(const peri__step *o, int64_t place, peri_r *f) {
-    const int small = PERI_D == 2 && o->model->slots == 4;
-    return small ? PERI_LANES_FN(list_row)(o, place, f, 1, 0, 4, o->linear) : PERI_LANES_FN(list_row)(o, place, f, 1, 0, 8, o->linear);
+    if (PERI_D == 2 && o->model->slots == 4) return PERI_BY_GEOMETRY(PERI_LANES_FN(list_row), o, place, f, 1, 0, 4);
+    return PERI_BY_GEOMETRY(PERI_LANES_FN(list_row), o, place, f, 1, 0, 8);
 }
 
 PERI_LANES_TARGET static int PERI_LANES_FN(list_ordinary)(const peri__step *o, int64_t place, peri_r *f) {
-    return o->model->gauge ? PERI_LANES_FN(list_row)(o, place, f, 0, 1, 8, o->linear)
-                           : PERI_LANES_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
+    if (o->model->gauge) return PERI_BY_GEOMETRY(PERI_LANES_FN(list_row), o, place, f, 0, 1, 8);
+    return PERI_LANES_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
 }
 
 /* sum w g e V of the point at a place. */
@@ -158,8 +161,10 @@ PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri__step *o
 }
 
 PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri__step *o, int64_t place) {
-    return o->model->gauge ? PERI_LANES_FN(list_sum)(o, place, 1, o->linear) : PERI_LANES_FN(list_sum)(o, place, 0, o->linear);
+    if (o->model->gauge) return PERI_BY_GEOMETRY(PERI_LANES_FN(list_sum), o, place, 1);
+    return PERI_LANES_FN(list_sum)(o, place, 0, o->linear);
 }
+#undef PERI_BY_GEOMETRY
 
 /* ---- gradients ---------------------------------------------------------------------------------------------------- */
 
