@@ -11,9 +11,9 @@
        [C]  Queiruga, Moridis 2017, the convergence study (its three state-based laws; influence functions of its table 2)
 
    HOW TO BUILD, any one of
-       cc -O2 -c peri_impl.c             once (half a minute), and link peri_impl.o; every other file only includes peri.h
-       #define PERI_IMPLEMENTATION       in exactly one C file, then  #include "peri.h": that file takes half a minute more each time
-                                         that it is compiled; without optimisation some 4 seconds
+       cc -O2 -c peri_impl.c             once (up to a minute of gcc), and link peri_impl.o; every other file only includes peri.h
+       #define PERI_IMPLEMENTATION       in exactly one C file, then  #include "peri.h": that file takes as much longer each time
+                                         that it is compiled; without optimisation some 5 seconds
        #define PERI_STATIC               together with PERI_IMPLEMENTATION, in as many files as you like: private copies
      The implementation is C99 (compile it as C); the declarations are also C++11. Link with -lm. With -fopenmp the loops
      run on all cores. The single file (`make dist`) includes itself: where a compiler does not tell it its name and that is not peri.h,

@@ -127,7 +127,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #endif
 
 /* ---- what a build leaves out, answering that it is ------------------------------------- */
-#include "src/base/without.c"
+#include "src/without/without.c"
 
 #ifdef PERI_UNCALLED
 #pragma GCC diagnostic pop
