@@ -20,7 +20,7 @@
 #endif
 
 #if defined(__GNUC__) || defined(__clang__)
-#define PERI_INLINE static inline __attribute__((always_inline))
+#define PERI_INLINE static inline __attribute__((always_inline, unused)) /* an inline text may serve one of its includers alone */
 #elif defined(_MSC_VER)
 #define PERI_INLINE static __forceinline
 #else
