@@ -11,12 +11,18 @@
        [C]  Queiruga, Moridis 2017, the convergence study (its three state-based laws; influence functions of its table 2)
 
    HOW TO BUILD, any one of
-       #define PERI_IMPLEMENTATION       in exactly one C file, then  #include "peri.h"
-       cc -c peri_impl.c                 and link peri_impl.o; every other file only includes peri.h
+       cc -O2 -c peri_impl.c             once (up to a minute of gcc), and link peri_impl.o; every other file only includes peri.h
+       #define PERI_IMPLEMENTATION       in exactly one C file, then  #include "peri.h": that file takes as much longer each time
+                                         that it is compiled; without optimisation some 5 seconds
        #define PERI_STATIC               together with PERI_IMPLEMENTATION, in as many files as you like: private copies
      The implementation is C99 (compile it as C); the declarations are also C++11. Link with -lm. With -fopenmp the loops
-     run on all cores. Other switches: PERI_NO_STDIO (no FILE helpers), PERI_NO_OPENMP, PERI_PORTABLE
-     (the vectors of gcc and clang in place of x86 instructions), PERI_PLAIN (C99 alone), PERI_API (your own linkage).
+     run on all cores. The single file (`make dist`) includes itself: where a compiler does not tell it its name and that is not peri.h,
+     define PERI_FILE to "its_name.h". Switches for the implementation:
+       PERI_KERNELS   1 plain C99, the default without optimisation; 2 the vectors of gcc and clang; 3 (default) those of x86-64, too
+       PERI_NO_2D, PERI_NO_3D, PERI_NO_F64, PERI_NO_MIXED, PERI_NO_F32, PERI_NO_STATICS (all under "statics" below), PERI_NO_ADVICE
+                      (peri_plan, peri_choose), PERI_NO_OUTPUT (VTU, CSV) leave out what a scene does not need; README.md says what each
+                      saves. What is left out answers PERI_ERROR_LEFT_OUT, and the field of the error names the switch
+       PERI_NO_STDIO (no FILE helpers), PERI_NO_OPENMP, PERI_API (your own linkage)
 
    STEP BY STEP
      1  peri_body_desc d;  peri_body_desc_init(&d);  d.space = PERI_PLANE_STRESS;  d.horizon = 1e-3;
@@ -132,7 +138,8 @@ typedef enum peri_status {
     PERI_ERROR_LOOSE       = -28, /* no support holds this part of the body against some motion */
     PERI_ERROR_INDEFINITE  = -29, /* the tangent stiffness is not positive: buckling, softening or compression */
     PERI_ERROR_CONVERGENCE = -30, /* no equilibrium within the iterations allowed; the value is the residual over its scale */
-    PERI_STATUS_COUNT_     =  32  /* how many there are */
+    PERI_ERROR_LEFT_OUT    = -31, /* left out of this build, by the switch that the field names */
+    PERI_STATUS_COUNT_     =  33  /* how many there are */
 } peri_status;
 
 typedef struct peri_error {

@@ -100,6 +100,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
 
 /* ---- statics --------------------------------------------------------------------------- */
+#ifndef PERI_NO_STATICS
 #include "src/statics/tangent.c"   /* products with the tangent stiffness, its diagonal                            */
 #include "src/statics/loose.c"     /* parts and points that can move without resistance                            */
 #include "src/statics/grids.c"     /* regular grids: smoothing, V-cycle                                            */
@@ -110,16 +111,27 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/statics/relax.c"     /* adaptive dynamic relaxation                                                  */
 #include "src/statics/statics.c"   /* load steps, quasi-static fracture                                            */
 #include "src/statics/surface.c"   /* tractions and pressures that pass the patch test                             */
+#endif
 
 /* ---- output ---------------------------------------------------------------------------- */
 #include "src/output/fields.c"     /* fields by copy and by view, the ledger                                       */
+#ifndef PERI_NO_OUTPUT
 #include "src/output/output.c"     /* VTU, CSV                                                                     */
+#endif
 
 /* ---- advice ---------------------------------------------------------------------------- */
+#ifndef PERI_NO_ADVICE
 #include "src/advice/sketch.c"     /* a body that is only described  -> its bonds and columns                      */
 #include "src/advice/plan.c"       /* what a scene would cost                                                      */
 #include "src/advice/choose.c"     /* the knobs for an accuracy or a budget                                        */
+#endif
 
+/* ---- what a build leaves out, answering that it is ------------------------------------- */
+#include "src/without/without.c"
+
+#ifdef PERI_UNCALLED
+#pragma GCC diagnostic pop
+#endif
 #if defined(PERI_AS_WRITTEN) && defined(__clang__)
 #pragma float_control(pop)
 #elif defined(PERI_AS_WRITTEN)

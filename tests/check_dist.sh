@@ -19,14 +19,39 @@ awk -f tools/dist.awk peri.h | cmp - $file
 grep -n '^#include "' $file > $dir/includes || true
 must_be_empty "not self-contained" $dir/includes
 
-# what the compiler sees, line marks aside: then the machine code is the same under any flags
-tokens() { $cc -std=c99 -E -P "$@" > $dir/tokens; }
+# what each compiler sees, all vectors included, line marks and spaces at the start of lines aside: then the machine code is the same under
+# any flags. The file includes itself: so under another name, too, which those compilers must be told that do not tell it
+tokens() { # tokens FLAGS AND SOURCE
+    $cc_of_tokens -std=c99 -DPERI_KERNELS=3 -E -P "$@" > $dir/raw
+    sed 's/^[[:space:]]*//' $dir/raw | grep -v '^$' > $dir/tokens
+}
+cp $file $dir/other_name.h
+printf '#define PERI_IMPLEMENTATION\n#include "../../dist/peri.h"\n' > $dir/user.c
+printf '#define PERI_IMPLEMENTATION\n#include "other_name.h"\n' > $dir/other.c
+for compiler in gcc clang tcc x86_64-w64-mingw32-gcc; do
+    command -v $compiler > /dev/null || { echo "skip $compiler: not on this machine"; continue; }
+    named=""
+    echo __FILE_NAME__ | $compiler -E -P - 2> /dev/null | grep -q '"' || named='-DPERI_FILE="other_name.h"'
+    cc_of_tokens=$compiler
+    tokens peri_impl.c
+    mv $dir/tokens $dir/tree
+    tokens $dir/user.c
+    cmp $dir/tokens $dir/tree
+    tokens $named $dir/other.c
+    cmp $dir/tokens $dir/tree
+done
+cc_of_tokens=$cc
 tokens peri_impl.c
 mv $dir/tokens $dir/tree
 for header in peri.h $file; do
     tokens -DPERI_IMPLEMENTATION -x c $header
     cmp $dir/tokens $dir/tree
 done
+if command -v tcc > /dev/null; then tcc -c $dir/user.c -o $dir/tcc.o; fi
+if command -v x86_64-w64-mingw32-gcc > /dev/null; then
+    x86_64-w64-mingw32-gcc -std=c99 -Wall -Wextra -Werror -fsyntax-only $dir/user.c
+fi
+[ "$(wc -l < $file)" -le 16000 ] || { echo "$file: more than 16000 lines: is a text there twice?"; exit 1; }
 
 if command -v nm > /dev/null; then
     nm -g --defined-only build/libperi.a | awk "NF == 3" | grep -v ' peri_' > $dir/foreign || true

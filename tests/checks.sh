@@ -16,24 +16,42 @@ if can_sanitize; then
     sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
         test_loadsteps test_loose test_memory test_output test_plan test_programs test_quadrature test_random test_search \
         test_solvers"
-    queue sanitized_library "$CC $STRICT $SANITIZE $OPENMP -c peri_impl.c -o build/san/peri.o"
+    queue sanitized_library "make --no-print-directory CC='$CC' SANITIZE='$SANITIZE' build/san/peri.o"
 else
     skip sanitized "no sanitizers on this machine"
 fi
+others=""
 for compiler in gcc clang; do
     if ! command -v $compiler > /dev/null; then skip "strict_$compiler" "no $compiler on this machine"; continue; fi
-    out=build/checks/$compiler
-    vectors=PERI_PLAIN
-    [ $compiler = clang ] || vectors=PERI_PORTABLE
-    queue "${compiler}_${vectors}_no_stdio" "$compiler $STRICT -O1 -DPERI_NO_STDIO -D$vectors -c peri_impl.c -o $out.other.o"
+    queue "strict_$compiler" "make --no-print-directory build/$compiler/peri.o"
+    others="$others build/$compiler/peri.o"
     quick=$compiler
 done
-queue fast_math "$CC $STRICT -O1 -ffast-math -c peri_impl.c -o build/checks/fast.o"
+queue fast_math "make --no-print-directory CC='$CC' build/fast/peri.o"
 # the tokens of peri_impl.c, of peri.h with PERI_IMPLEMENTATION and of the single file are the same (dist): one build stands for all; $CC
-# made build/libperi.a with $STRICT, too. Without optimisation clang takes a fifth of gcc's time
-queue "strict_single_file" "$quick $STRICT -O0 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o"
-queue "static_in_two_units" "$quick $STRICT -O0 -DPERI_PLAIN -I. tests/static_a.c tests/static_b.c -o build/checks/static -lm && \
-    build/checks/static"
+# made build/libperi.a with $STRICT, too. Without optimisation clang takes a third of gcc's time for all that vectors ask for
+queue "strict_single_file" "$quick $STRICT -O0 -DPERI_KERNELS=3 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o"
+others="$others build/checks/single.o"
+queue "static_in_two_units" "$quick $STRICT -O0 -DPERI_NO_3D -DPERI_NO_MIXED -DPERI_NO_F32 -I. tests/static_a.c tests/static_b.c \
+    -o build/checks/static -lm && build/checks/static"
+# parts left out, one line of switches each; without optimisation, so plain kernels
+switches() { # switches NAME COMPILER SWITCH...
+    name=switches_$1
+    out=build/checks/$name
+    build="$2 $STRICT -O0"
+    shift 2
+    for switch; do build="$build -DPERI_NO_$switch"; done
+    queue "$name" "$build -c peri_impl.c -o $out.o && $build -I. tests/switches.c $out.o -o $out -lm && $out > $out.text && \
+        grep -q . $out.text && ! grep -vxF -f build/checks/switches.text $out.text"
+}
+check switches $CC $STRICT -I. tests/switches.c build/libperi.a -o build/checks/switches $OPENMP -lm
+check switches_whole sh -c 'build/checks/switches > build/checks/switches.text && [ "$(wc -l < build/checks/switches.text)" -eq 48 ]'
+switches 2D_double $CC 3D F32 MIXED
+switches 3D_single $CC 2D F64 MIXED STATICS ADVICE OUTPUT
+switches statics $quick STATICS F64
+switches advice $quick ADVICE F32
+switches output $quick OUTPUT STDIO MIXED
+switches mixed $quick F64 F32
 if command -v g++ > /dev/null; then
     queue cxx11 "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/libperi.a \
         -o build/checks/cxx $OPENMP -lm && build/checks/cxx"
@@ -51,10 +69,10 @@ run_queue
 bits() { $CC $STRICT -I. tests/bits.c "$1" -o "$1.bits" $OPENMP -lm && "$1.bits" > "$1.text" && cmp "$1.text" build/checks/bits.text; }
 $CC $STRICT -I. tests/bits.c build/libperi.a -o build/checks/bits $OPENMP -lm
 build/checks/bits > build/checks/bits.text
-for other in build/checks/*.other.o; do check "same_bits_$(basename "$other" .other.o)" bits "$other"; done
+for other in $others; do check "same_bits_$(echo "$other" | tr / _)" bits "$other"; done
 
 # ---- -ffast-math: the same bits, and NaN is refused
-fast=build/checks/fast.o
+fast=build/fast/peri.o
 check fast_math_bits bits $fast
 $CC build/extremes/*.o $fast -o build/checks/fast_math_callbacks $OPENMP -lm
 program fast_math_callbacks build/checks/fast_math_callbacks callbacks

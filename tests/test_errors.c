@@ -560,7 +560,7 @@ static void errors_format(void) {
 
 static void every_status_was_reached(void) {
     for (int32_t code = PERI_STOPPED; code > PERI_STOPPED - PERI_STATUS_COUNT_; --code)
-        if (!reached[code + 32]) {
+        if (!reached[code + 32] && code != PERI_ERROR_LEFT_OUT) { /* that one by builds with parts left out: switches.c */
             test_bad++;
             printf("    never reached: %d, %s\n", (int)code, peri_status_text(code));
         }

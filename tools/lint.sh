@@ -3,7 +3,7 @@
 cd "$(dirname "$0")/.." || exit 1
 status=0
 fail() { echo "lint: $*"; status=1; }
-strict="-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror -fsyntax-only -I."
+strict="-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror -fsyntax-only -DPERI_KERNELS=3 -I."
 
 for compiler in gcc clang; do
     command -v $compiler > /dev/null || { echo "lint: no $compiler, skipped"; continue; }

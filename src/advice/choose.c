@@ -195,6 +195,7 @@ static double peri__allowed_resolution(peri__candidate *c, const peri_goal *goal
 /* ---- the choice --------------------------------------------------------------------------------------------------- */
 
 static int peri__recipe_serves(const peri__recipe *r, const peri_body_desc *body, const peri_material *material) {
+    if (peri__without_precision(r->precision)) return 0;
     if (r->model != PERI_BOND_BASED) return 1;
     return fabs(peri__poisson(material, body->space) - peri__bond_poisson(body->space)) <= 1e-9 &&
            material->criterion == PERI_CRITERION_STRETCH;
@@ -260,7 +261,7 @@ PERI_API int32_t peri_choose(const peri_goal *goal, peri_body_desc *body, peri_m
     desc.influence = PERI_INFLUENCE_CONSTANT;
     desc.quadrature = PERI_FULL_VOLUME;
     desc.correction = PERI_NO_CORRECTION;
-    desc.precision = PERI_F64;
+    desc.precision = !peri__without_precision(PERI_F64) ? PERI_F64 : !peri__without_precision(PERI_F32) ? PERI_F32 : PERI_MIXED;
     int32_t status = peri__check_desc(&desc, error);
     if (status == PERI_OK) status = peri__check_goal(goal, &desc, material, error);
     if (status < 0) return status;

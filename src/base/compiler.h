@@ -3,8 +3,24 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* A build without some of its parts has functions that nothing calls; in the whole library such a function is a mistake. Ends with
+   peri_impl.c. */
+#if defined(PERI_NO_2D) && defined(PERI_NO_3D)
+#error "PERI_NO_2D and PERI_NO_3D: one of both must stay"
+#endif
+#if defined(PERI_NO_F64) && defined(PERI_NO_MIXED) && defined(PERI_NO_F32)
+#error "PERI_NO_F64, PERI_NO_MIXED and PERI_NO_F32: one of them must stay"
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) &&                                                                       \
+    (defined(PERI_NO_2D) || defined(PERI_NO_3D) || defined(PERI_NO_F64) || defined(PERI_NO_MIXED) || defined(PERI_NO_F32) || \
+     defined(PERI_NO_STATICS) || defined(PERI_NO_ADVICE) || defined(PERI_NO_OUTPUT))
+#define PERI_UNCALLED
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#endif
+
 #if defined(__GNUC__) || defined(__clang__)
-#define PERI_INLINE static inline __attribute__((always_inline))
+#define PERI_INLINE static inline __attribute__((always_inline, unused)) /* an inline text may serve one of its includers alone */
 #elif defined(_MSC_VER)
 #define PERI_INLINE static __forceinline
 #else
@@ -50,11 +66,18 @@
                      "fp-contract=off")
 #endif
 
-/* Kernels on columns and on the list work on vectors (k_vector.inl): on x86-64 with the best instruction set, chosen at run time; elsewhere
-   those of gcc and clang, or plain loops over lanes. Products and sums stay apart (no contraction), so that every instruction set gives the
-   same bits. gcc gets its options here, whatever the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which
-   costs half the speed and more. Builds with gcc's address sanitizer, or with PERI_PLAIN, take the plain text alone: vector code takes
-   minutes to instrument. */
+/* PERI_KERNELS: the texts of the kernels on columns and on the list that are compiled (k_vector.inl): 1 plain C99, one lane at a time;
+   2 the vectors of gcc and clang, 16 bytes; 3 on x86-64 SSE2, AVX2 and AVX-512, of which the best is chosen at run time, elsewhere as 2.
+   1 is for builds without optimisation, which would take a minute, and with gcc's address sanitizer, minutes; and all that other
+   compilers can. Products and sums stay apart (no contraction), so that every text gives the same bits. gcc gets its options here, whatever
+   the user's flags: at -O2 it does not unroll the loops over dimensions and pieces, which costs half the speed and more. */
+#ifndef PERI_KERNELS
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+#define PERI_KERNELS 3
+#else
+#define PERI_KERNELS 1
+#endif
+#endif
 #if defined(__clang__)
 #define PERI_NO_UNROLLING _Pragma("clang loop unroll(disable)")
 #elif defined(__GNUC__) && !defined(__TINYC__) && __GNUC__ >= 8
@@ -66,16 +89,17 @@
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION _Pragma("clang fp contract(off)")
 #define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw"
-#elif defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+#elif defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
 #define PERI_VECTOR_CODE __attribute__((optimize("O3", "no-trapping-math", "fp-contract=off")))
 #define PERI_NO_CONTRACTION
 #define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw,prefer-vector-width=512"
 #else
 #define PERI_VECTOR_CODE
 #define PERI_NO_CONTRACTION
+#define PERI_WIDE "avx512f,avx512vl,avx512dq,avx512bw"
 #endif
-#if (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__) && !defined(__SANITIZE_ADDRESS__) && !defined(PERI_PLAIN)
-#if defined(__x86_64__) && !defined(PERI_PORTABLE)
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__) && PERI_KERNELS > 1
+#if defined(__x86_64__) && PERI_KERNELS > 2
 #define PERI_ISA
 #include <immintrin.h>
 #define PERI_TARGET_AVX2 __attribute__((target("avx2")))

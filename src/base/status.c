@@ -36,7 +36,8 @@
     X(ERROR_MODEL, -27, "this model has no such constant, or cannot take this quadrature, interface or load")          \
     X(ERROR_LOOSE, -28, "no support holds this part of the body against some motion")                                  \
     X(ERROR_INDEFINITE, -29, "the tangent stiffness is not positive: buckling, softening or compression")              \
-    X(ERROR_CONVERGENCE, -30, "no equilibrium within the iterations allowed; the value is the residual over its scale")
+    X(ERROR_CONVERGENCE, -30, "no equilibrium within the iterations allowed; the value is the residual over its scale") \
+    X(ERROR_LEFT_OUT, -31, "left out of this build, by the switch that the field names")
 
 #define PERI_STATUS_NUMBER_(name, number, text) PERI_SAME_NUMBER_(name, PERI_##name == (number))
 PERI_STATUS_LIST(PERI_STATUS_NUMBER_)

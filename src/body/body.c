@@ -38,11 +38,40 @@ static const char *peri__bad_choice(const peri_body_desc *d) {
     return NULL;
 }
 
+/* The switch that left a space or a precision out of this build, or NULL. */
+static const char *peri__without_space(int32_t space) {
+#ifdef PERI_NO_2D
+    if (space != PERI_SOLID) return "PERI_NO_2D";
+#endif
+#ifdef PERI_NO_3D
+    if (space == PERI_SOLID) return "PERI_NO_3D";
+#endif
+    (void)space;
+    return NULL;
+}
+
+static const char *peri__without_precision(int32_t precision) {
+#ifdef PERI_NO_F64
+    if (precision == PERI_F64) return "PERI_NO_F64";
+#endif
+#ifdef PERI_NO_MIXED
+    if (precision == PERI_MIXED) return "PERI_NO_MIXED";
+#endif
+#ifdef PERI_NO_F32
+    if (precision == PERI_F32) return "PERI_NO_F32";
+#endif
+    (void)precision;
+    return NULL;
+}
+
 static int32_t peri__check_desc(const peri_body_desc *desc, peri_error *error) {
     if (!desc) return peri__set_error(error, PERI_ERROR_ARGUMENT, "desc", -1, 0.0);
     if (desc->cookie != PERI_COOKIE_BODY) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     const char *bad = peri__bad_choice(desc);
     if (bad) return peri__set_error(error, PERI_ERROR_ARGUMENT, bad, -1, 0.0);
+    const char *without = peri__without_space(desc->space);
+    if (!without) without = peri__without_precision(desc->precision);
+    if (without) return peri__set_error(error, PERI_ERROR_LEFT_OUT, without, -1, 0.0);
     if (!(desc->horizon > 0.0 && peri__finite(desc->horizon)))
         return peri__set_error(error, PERI_ERROR_RANGE, "horizon", -1, desc->horizon);
     if (!(desc->thickness > 0.0 && peri__finite(desc->thickness)))

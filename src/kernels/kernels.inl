@@ -47,6 +47,12 @@
 #define PERI_D PERI_T_DIM
 #define PERI_SPEEDING ((peri_r)1e9)
 
+#if (PERI_T_DIM == 2 && defined(PERI_NO_2D)) || (PERI_T_DIM == 3 && defined(PERI_NO_3D)) ||                            \
+    (PERI_T_BOND == 64 && defined(PERI_NO_F64)) || (PERI_T_REAL == 32 && defined(PERI_NO_F32)) ||                      \
+    (PERI_T_REAL != PERI_T_BOND && defined(PERI_NO_MIXED))
+PERI_SHARED const peri__ops PERI_FN(ops) = { 0 }; /* left out: peri_body_create refuses it */
+#else
+
 #define peri_s peri_r
 #define PERI_S_DIM PERI_D
 #define PERI_S_FN PERI_FN
@@ -55,7 +61,9 @@
 #undef PERI_S_DIM
 #undef PERI_S_FN
 #include "rows.inl"
+#ifndef PERI_NO_STATICS
 #include "tangent.inl"
+#endif
 
 /* Sums of vectors have the type of the compiler, which differs from that of intrinsics where it must choose. */
 #define PERI_IF(condition, a, b) ((condition) ? (PERI_VECTOR)(a) : (PERI_VECTOR)(b))
@@ -126,13 +134,21 @@ static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
 
 #include "passes.inl"
 #include "march.inl"
+#ifndef PERI_NO_STATICS
 #include "solve.inl"
+#endif
 
 PERI_SHARED const peri__ops PERI_FN(ops) = {
     PERI_FN(pack), PERI_FN(pack_response), PERI_FN(gather_block), PERI_FN(gather_rows), PERI_FN(force_block), PERI_FN(exchange),
-    PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic), PERI_FN(tangent_gather), PERI_FN(tangent_force), PERI_FN(krylov_step),
-    PERI_FN(krylov_turn), PERI_FN(krylov_force), PERI_FN(krylov_blocks), PERI_FN(krylov_norm), PERI_FN(krylov_dot)
+    PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic),
+#ifdef PERI_NO_STATICS
+    NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL
+#else
+    PERI_FN(tangent_gather), PERI_FN(tangent_force), PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force),
+    PERI_FN(krylov_blocks), PERI_FN(krylov_norm), PERI_FN(krylov_dot)
+#endif
 };
+#endif
 
 #undef PERI_BY_VECTORS
 #undef peri_r

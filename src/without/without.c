@@ -1,0 +1,109 @@
+/* without.c - what a build leaves out by a switch: declared as ever, answering PERI_ERROR_LEFT_OUT with the switch as the field. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#if defined(PERI_NO_STATICS) || defined(PERI_NO_OUTPUT)
+static int32_t peri__without(peri_body *b, const char *name) {
+    return b ? peri__fail(b, PERI_ERROR_LEFT_OUT, name, -1, 0.0) : PERI_ERROR_ARGUMENT;
+}
+#endif
+
+#ifdef PERI_NO_STATICS
+PERI_API void peri_statics_init(peri_statics *st) {
+    if (st) memset(st, 0, sizeof *st);
+}
+
+PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_report *report) {
+    (void)st;
+    if (report) memset(report, 0, sizeof *report);
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
+PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double area, const double *normal, const double *value,
+                                             peri_load_fn fn, void *user) {
+    (void)set, (void)area, (void)normal, (void)value, (void)fn, (void)user;
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
+PERI_API int32_t peri_apply_pressure(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
+    (void)set, (void)pressure, (void)fn, (void)user;
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
+PERI_API int32_t peri_apply_bond_pressure(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
+    (void)set, (void)pressure, (void)fn, (void)user;
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
+PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
+    (void)in, (void)out, (void)count;
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
+PERI_API int32_t peri_assemble(peri_body *b, peri_matrix **matrix) {
+    if (matrix) *matrix = NULL;
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
+PERI_API void peri_matrix_destroy(peri_matrix *a) { (void)a; }
+
+PERI_API int64_t peri_matrix_rows(const peri_matrix *a) { return a ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_matrix_entries(const peri_matrix *a) { return a ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT; }
+
+PERI_API int32_t peri_read_matrix(const peri_matrix *a, int64_t *start, int32_t *column, double *value) {
+    (void)start, (void)column, (void)value;
+    return a ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT;
+}
+
+PERI_API int32_t peri_write_matrix(const peri_matrix *a, peri_write_fn write, void *user) {
+    (void)write, (void)user;
+    return a ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT;
+}
+#endif
+
+#ifdef PERI_NO_OUTPUT
+PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
+    (void)write, (void)user;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int32_t peri_write_history(peri_body *b, int32_t header, peri_write_fn write, void *user) {
+    (void)header, (void)write, (void)user;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+#ifndef PERI_NO_STDIO
+PERI_API int32_t peri_save_vtu(peri_body *b, const char *path) {
+    (void)path;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int32_t peri_save_history(peri_body *b, const char *path, int32_t append) {
+    (void)path, (void)append;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+#endif
+#endif
+
+#ifdef PERI_NO_ADVICE
+PERI_API void peri_plan_desc_init(peri_plan_desc *plan) {
+    if (plan) memset(plan, 0, sizeof *plan);
+}
+
+PERI_API void peri_goal_init(peri_goal *goal) {
+    if (goal) memset(goal, 0, sizeof *goal);
+}
+
+PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error) {
+    (void)plan;
+    if (report) memset(report, 0, sizeof *report);
+    return peri__set_error(error, PERI_ERROR_LEFT_OUT, "PERI_NO_ADVICE", -1, 0.0);
+}
+
+PERI_API int32_t peri_choose(const peri_goal *goal, peri_body_desc *body, peri_material *material, peri_choice *choice, peri_error *error) {
+    (void)goal, (void)body, (void)material, (void)choice;
+    return peri__set_error(error, PERI_ERROR_LEFT_OUT, "PERI_NO_ADVICE", -1, 0.0);
+}
+#endif
