@@ -1,4 +1,4 @@
-# Checks of the build and of the examples, read by run.sh. They use check, program and skip.
+# Checks of the build and of the examples, read by run.sh, and between them its test programs: what takes long runs beside them.
 
 # ---- the examples run as they are
 for source in examples/*.c; do
@@ -63,6 +63,7 @@ if command -v tcc > /dev/null; then
 else
     skip tcc "no tcc on this machine"
 fi
+queue_programs build/tests "" $longest $others
 run_queue
 
 # ---- the same bits, whatever the vectors and the compiler

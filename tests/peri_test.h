@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static int test_passed, test_failed, test_bad, test_long;
 static const char *test_filter;
@@ -57,12 +58,13 @@ static inline int64_t test_must(const peri_body *body, int64_t result, const cha
 }
 
 static inline void test_run(void (*function)(void), const char *name) {
+    const clock_t start = clock();
     if (test_filter && !strstr(name, test_filter)) return;
     test_bad = 0;
     function();
     if (test_bad) test_failed++;
     else test_passed++;
-    printf("  %s %s\n", test_bad ? "FAIL" : "pass", name);
+    printf("  %s %s %.2f s\n", test_bad ? "FAIL" : "pass", name, (double)(clock() - start) / CLOCKS_PER_SEC);
     (void)fflush(stdout);
 }
 

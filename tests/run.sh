@@ -1,72 +1,97 @@
 #!/bin/sh
-# Runs every test and closes with "N passed, N failed". What a machine lacks is skipped with a message.
+# Runs every test, shows the five that took longest and closes with "N passed, N failed". What a machine lacks is skipped with a message.
 #   run.sh          the tests of `make test`
 #   run.sh --long   the test programs with their long tables (make validate)
+# Seconds are those of the processors, of all threads and children together: they hold on a busy machine, too. Every case's are in
+# build/NAME.log; cases below a second are not shown.
 cd "$(dirname "$0")/.." || exit 1
+
+# ---- one job: build/NAME.log is what it said; in build/queue, NAME.sh is its command where it waits for its turn, NAME.program is there
+# ---- where it is a test program, and NAME.sum is what came of it: "passed failed seconds name"
+
+timed() { # timed NAME COMMAND...
+    job=$1
+    shift
+    ("$@" > "build/$job.log" 2>&1
+    echo $? > "build/queue/$job.status"
+    times > "build/queue/$job.times")
+}
+
+# from "0m0.01s 0m0.00s", those of the shell itself, and a second line, those of its children
+seconds() { awk -F '[ms ]+' '{s += 60 * $1 + $2 + 60 * $3 + $4} END {printf "%.1f", s}' "build/queue/$1.times"; }
+
+report() { # report NAME: what a job that has ended did, in one piece, for others end at the same time
+    log=build/$1.log
+    took=$(seconds "$1")
+    if [ -f "build/queue/$1.program" ]; then
+        sum=$(tail -n 1 "$log" | sed -n 's/^[^:]*: \([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p')
+        {
+            echo "== $1 ($took s)"
+            if [ -n "$long" ]; then cat "$log"; else grep -v '^  pass .* 0\.[0-9]* s$' "$log"; fi
+            [ -n "$sum" ] || echo "  FAIL: ended without a result"
+        } > "build/queue/$1.shown"
+        [ -n "$sum" ] || sum="0 1"
+    elif [ "$(cat "build/queue/$1.status")" -eq 0 ]; then
+        sum="1 0"
+        echo "pass $1 ($took s)" > "build/queue/$1.shown"
+    else
+        sum="0 1"
+        { echo "FAIL $1 ($took s)"; tail -n 20 "$log"; } > "build/queue/$1.shown"
+    fi
+    echo "$sum $took $1" > "build/queue/$1.sum"
+    cat "build/queue/$1.shown"
+}
+
+if [ "$1" = --job ]; then
+    long=$3
+    timed "$2" sh "build/queue/$2.sh"
+    report "$2"
+    exit 0
+fi
+
+# ---- what the lists of tests are written with
+
 long=$1
-passed=0
-failed=0
-
-tally() { # one "<program>: N passed, N failed" line, and what came before it
-    sum=$(tail -n 1 "$1" | sed -n 's/^[^:]*: \([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p')
-    if [ -z "$sum" ]; then
-        failed=$((failed + 1))
-        echo "  FAIL: ended without a result"
-    else
-        passed=$((passed + ${sum% *}))
-        failed=$((failed + ${sum#* }))
-    fi
-}
-
-show() { # show NAME: the log of a test program, and its tally
-    echo "== $1"
-    if [ -n "$long" ]; then cat "build/$1.log"; else grep -v '^  pass ' "build/$1.log"; fi
-    tally "build/$1.log"
-}
-
-program() { # program NAME COMMAND...
-    name=$1
-    shift
-    "$@" > "build/$name.log" 2>&1
-    show "$name"
-}
-
-programs() { # programs DIRECTORY PREFIX NAME...: two at a time
-    directory=$1
-    prefix=$2
-    shift 2
-    printf '%s\n' "$@" | xargs -P 2 -I % sh -c "$directory/% $long > build/$prefix%.log 2>&1"
-    for name; do show "$prefix$name"; done
-}
-
-check() { # check NAME COMMAND...: passes when the command does
-    name=$1
-    shift
-    "$@" > "build/$name.log" 2>&1
-    verdict "$name" $?
-}
-
-verdict() { # verdict NAME STATUS, of what has left its log
-    if [ "$2" -eq 0 ]; then
-        passed=$((passed + 1))
-        echo "pass $1"
-    else
-        failed=$((failed + 1))
-        echo "FAIL $1"
-        tail -n 20 "build/$1.log"
-    fi
-}
-
+jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null) || jobs=2
+all=""
 queued=""
+
 queue() { # queue NAME COMMAND: a check for run_queue, COMMAND one line of shell
     echo "$2" > "build/queue/$1.sh"
     queued="$queued $1"
 }
 
-run_queue() { # two at a time
-    printf '%s\n' $queued | xargs -P 2 -I % sh -c 'sh build/queue/%.sh > build/%.log 2>&1; echo $? > build/queue/%.status'
-    for name in $queued; do verdict "$name" "$(cat "build/queue/$name.status")"; done
+queue_programs() { # queue_programs DIRECTORY PREFIX NAME...: DIRECTORY/NAME under the name PREFIXNAME
+    directory=$1
+    prefix=$2
+    shift 2
+    for program; do
+        : > "build/queue/$prefix$program.program"
+        queue "$prefix$program" "$directory/$program $long"
+    done
+}
+
+run_queue() { # as many at a time as there are processors, in the order of the queue
+    [ -n "$queued" ] || return 0
+    printf '%s\n' $queued | xargs -P "$jobs" -I % sh tests/run.sh --job % "$long"
+    all="$all $queued"
     queued=""
+}
+
+programs() { # the same, and at once
+    queue_programs "$@"
+    run_queue
+}
+
+check() { # check NAME COMMAND...: passes when the command does
+    all="$all $1"
+    timed "$@"
+    report "$1"
+}
+
+program() { # program NAME COMMAND...: a test program with arguments
+    : > "build/queue/$1.program"
+    check "$@"
 }
 
 skip() { echo "skip $1: $2"; }
@@ -76,17 +101,27 @@ SANITIZE="-g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
 CC=${CC:-cc}
 can_sanitize() { echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o build/san/probe 2> /dev/null && build/san/probe; }
 
+# ---- the tests
+
+rm -rf build/queue
 mkdir -p build/queue build/checks build/san out
-# the longest first
-programs build/tests "" extremes test_kernels test_choose $(basename -s .c tests/test_*.c | grep -v -e test_kernels -e test_choose)
+longest="extremes test_kernels test_programs test_choose test_direction test_failure test_branching test_random"
+others=$(basename -s .c tests/test_*.c)
+for name in $longest; do others=$(printf '%s\n' $others | grep -v -x "$name"); done
 
 if [ -z "$long" ]; then
     . tests/checks.sh
-elif can_sanitize; then
-    check sanitized_library $CC $STRICT $SANITIZE -c peri_impl.c -o build/san/serial.o
-    check sanitized_extremes_build $CC $STRICT $SANITIZE -DLONGEST=200.0 -I. tests/extremes/*.c build/san/serial.o -o build/san/extremes -lm
-    program sanitized_extremes build/san/extremes
+else
+    programs build/tests "" $longest $others
+    if can_sanitize; then
+        check sanitized_library $CC $STRICT $SANITIZE -c peri_impl.c -o build/san/serial.o
+        check sanitized_extremes_build $CC $STRICT $SANITIZE -DLONGEST=200.0 -I. tests/extremes/*.c build/san/serial.o \
+            -o build/san/extremes -lm
+        program sanitized_extremes build/san/extremes
+    fi
 fi
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+for name in $all; do cat "build/queue/$name.sum" 2> /dev/null || echo "0 1 0 $name"; done > build/sums
+echo "the longest:"
+sort -k 3 -n -r build/sums | head -n 5 | awk '{printf "%8.1f s  %s\n", $3, $4}'
+awk '{passed += $1; failed += $2} END {printf "%d passed, %d failed\n", passed, failed; exit failed > 0}' build/sums

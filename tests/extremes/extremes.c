@@ -4,7 +4,6 @@
    A row counts as one test per precision. */
 #include "extremes.h"
 #include <stdarg.h>
-#include <time.h>
 
 #ifndef LONGEST
 #define LONGEST 10.0 /* [s] of a row in one precision, under sanitizers, too */
@@ -198,6 +197,7 @@ static void play(const char *subject, const extreme *row) {
     static const int32_t precisions[3] = {PERI_F64, PERI_MIXED, PERI_F32};
     static const char *const names[3] = {"double", "mixed", "single"};
     char line[3][96];
+    double spent = 0;
     int k, wrong = 0;
     for (k = 0; k < 3; ++k) {
         const clock_t start = clock();
@@ -205,6 +205,7 @@ static void play(const char *subject, const extreme *row) {
         const outcome o = row->play(row, precisions[k]);
         const double seconds = (double)(clock() - start) / (double)CLOCKS_PER_SEC;
         int good = o.status == row->status;
+        spent += seconds;
         if (row->status >= 0) good &= o.error <= row->bound[k];
         if (row->status < 0 && row->field) good &= strcmp(o.field, row->field) == 0;
         good &= extreme_memory.blocks == 0 && extreme_memory.wrong == 0 && (seconds <= LONGEST || extreme_long);
@@ -223,7 +224,7 @@ static void play(const char *subject, const extreme *row) {
             printf("\n    truth: %s\n", row->truth);
         }
     }
-    if (!wrong) printf("  pass %-12s %-58s %-14s %-14s %s\n", subject, row->name, line[0], line[1], line[2]);
+    if (!wrong) printf("  pass %-12s %-58s %-14s %-14s %-14s %.2f s\n", subject, row->name, line[0], line[1], line[2], spent);
     (void)fflush(stdout);
 }
 
