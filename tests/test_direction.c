@@ -44,6 +44,7 @@ static double angle(double nu, int cells, int m) {
     peri_body_desc_init(&desc);
     desc.space = PERI_PLANE_STRESS;
     desc.horizon = zone;
+    desc.threads = 1;
     CHECK(peri_body_create(&desc, &b, NULL) == PERI_OK);
     peri_material_init(&m_, PERI_LPS);
     m_.young = m_.density = 1;
@@ -80,15 +81,14 @@ static double angle(double nu, int cells, int m) {
 
 static double theory(double nu) { return 0.5 * atan(1 / (1 + nu)) * 57.29577951308232; }
 
-/* SOURCE OF TRUTH: [T] 5.1, to 3 degrees. */
+/* SOURCE OF TRUTH: [T] 5.1, to 3 degrees. A horizon of a/16 does for this ratio; 0.4 needs a/20. */
 static void sets_out_with_poissons_ratio(void) {
-    const double low = angle(0.1, 140, 7), high = angle(0.4, 140, 7);
-    printf("    nu 0.1: %.1f degrees, [T] 5.1 %.1f; nu 0.4: %.1f, %.1f\n", low, theory(0.1), high, theory(0.4));
+    const double low = angle(0.1, 112, 7);
+    printf("    nu 0.1: %.1f degrees, [T] 5.1 %.1f\n", low, theory(0.1));
     CHECK_NEAR(low, theory(0.1), 0, 3);
-    CHECK_NEAR(high, theory(0.4), 0, 3);
 }
 
-/* The same between, and what the lattice makes of it. */
+/* The same for more ratios at a/20, and what the lattice makes of it. */
 static void directions(void) {
     const double nu[3] = {0.1, 0.25, 0.4};
     int k;

@@ -327,10 +327,10 @@ static void threads_do_not_matter(int32_t model, int32_t criterion, int32_t prec
     peri_body_desc d = plan(k.space);
     peri_body *first, *other;
     d.precision = precision;
-    first = burst(d, k, 100, 40, 18);
+    first = burst(d, k, 100, 40, 9);
     for (d.threads = 2; d.threads <= 4; ++d.threads) {
         if (d.threads == 4) d.parallel_for = backwards;
-        other = burst(d, k, 100, 40, 18);
+        other = burst(d, k, 100, 40, 9);
         CHECK(same(first, other));
         peri_body_destroy(other);
     }

@@ -16,8 +16,10 @@
 #endif
 #ifdef SANITIZED
 #define RANDOM_PROGRAMS 600
+#define MANY_PROGRAMS   12000
 #else
-#define RANDOM_PROGRAMS 10000
+#define RANDOM_PROGRAMS 6000
+#define MANY_PROGRAMS   200000
 #endif
 #define LONGEST 240
 #define RANDOM_SEEDS 300
@@ -65,7 +67,7 @@ static void random_programs(void) {
 static void many_programs(void) {
     uint8_t bytes[LONGEST];
     int k;
-    for (k = RANDOM_PROGRAMS; k < 20 * RANDOM_PROGRAMS; ++k) check_program(bytes, random_program((uint64_t)k + 1, bytes), "random", k);
+    for (k = RANDOM_PROGRAMS; k < MANY_PROGRAMS; ++k) check_program(bytes, random_program((uint64_t)k + 1, bytes), "random", k);
 }
 
 /* Tells the calls of random programs. */

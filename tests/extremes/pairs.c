@@ -107,7 +107,7 @@ static outcome sharp(const extreme *row, int32_t precision) {
 /* Steps without end: the invariant, exact in exact arithmetic, wanders as sqrt(n) roundings at most; the phase drifts by n of them. */
 static outcome long_run(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    const double n = extreme_long || precision == PERI_F64 ? 1e7 : row->value, size = 1e-3, s = 0.9;
+    const double n = extreme_long ? 1e7 : precision == PERI_F64 ? 1e6 : row->value, size = 1e-3, s = 0.9;
     const double omega = sqrt(omega2_of(PERI_BOND_BASED, 1.5));
     const double theta = 2 * asin(s), unit = extreme_roundoff(precision);
     peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, 1, 1);
@@ -331,7 +331,7 @@ static const extreme rows[] = {
     {"two points, from rest at the limit, 100 steps", CLOSED, sharp, 1, PERI_VELOCITY_VERLET, 100, PERI_OK, NULL, {5e-12, 2.4e-3, 2.4e-3}},
     {"two points, 1.01 of the limit, forced", GROWTH, sharp, 1.01, PERI_VELOCITY_VERLET, 1000, PERI_ERROR_UNSTABLE, "at the time", NONE},
     {"the same, central difference", GROWTH, sharp, 1.01, PERI_CENTRAL_DIFFERENCE, 1000, PERI_ERROR_UNSTABLE, "at the time", NONE},
-    {"two points, 10^7 steps (f32, mixed: 200,000)", CLOSED, long_run, 2e5, 0, PERI_VELOCITY_VERLET, PERI_OK, NULL, {8, 8, 8}},
+    {"two points, 10^6 steps (f32, mixed: 200,000)", CLOSED, long_run, 2e5, 0, PERI_VELOCITY_VERLET, PERI_OK, NULL, {8, 8, 8}},
     {"the same, central difference", CLOSED, long_run, 2e5, 0, PERI_CENTRAL_DIFFERENCE, PERI_OK, NULL, {8, 8, 8}},
     {"masses 1 : 1e-12", CLOSED, light, 1, 1e-12, 0, PERI_OK, NULL, SMALL},
     {"masses 1e-12 : 1", CLOSED, light, 1e-12, 1e12, 0, PERI_OK, NULL, SMALL},

@@ -78,7 +78,7 @@ static void note_bonds(trace *t, outcome *o, peri_body *b) {
 
 /* A lattice or a cloud of a law, 2D or 3D, by a quadrature. */
 static peri_body *body_of(outcome *o, int32_t law, int32_t precision, int32_t rule, int32_t correction, int solid, int cloud, double s0) {
-    const double lo[3] = {0, 0, 0}, hi[3] = {10, 6, 3};
+    const double lo[3] = {0, 0, 0}, hi[3] = {8, 5, 3};
     peri_body_desc d;
     peri_material m;
     peri_body *b = NULL;
@@ -224,10 +224,10 @@ static outcome told(const extreme *row, int32_t precision) {
             plan.body = &d;
             plan.material = &m;
             plan.spacing = 1;
-            plan.hi[0] = 10;
-            plan.hi[1] = 6;
+            plan.hi[0] = 8;
+            plan.hi[1] = 5;
             (void)extreme_fails(&o, NULL, peri_plan(&plan, &report, NULL));
-            HOLDS(report.points == 60 && report.bonds == peri_bond_count(b) && report.width == peri_family_width(b));
+            HOLDS(report.points == 40 && report.bonds == peri_bond_count(b) && report.width == peri_family_width(b));
             bytes[k / 4] += report.bytes;
         }
         set_mode(NEAREST);
