@@ -10,7 +10,7 @@
                stiffness and one largest stretch, so that by linearity the whole path follows break by break, without load steps.
      ASTM E399 A3.5.3 (Srawley 1976, after Tada): K = P S/(B W^1.5) f(a/W), to 0.5 % for S = 4 W; Griffith: K^2 = E R in plane stress.
      lattice   energy of the bonds that cross a unit of a lattice plane, and Young's modulus along the lattice, as finite sums. */
-#include "peri_test.h"
+#include "specimen.h"
 
 #define YOUNG 35.77e9 /* [Pa]                                                                                             */
 #define G0 9.8        /* [J/m^2]                                                                                          */
@@ -287,32 +287,25 @@ static void bending_free(bending *t) {
 }
 
 static bending *bending_of(const beam *b, double deflection, int32_t geometry) {
-    const double lo[2] = {-0.5 * b->cols * b->h, 0}, hi[2] = {0.5 * b->cols * b->h, b->rows * b->h};
     double below[2], tip[2], down[2], c, s0;
     int32_t held[4], set;
     bending *t = (bending *)calloc(1, sizeof *t);
-    peri_body_desc d;
-    peri_material m;
+    specimen s = specimen_of(PERI_PLANE_STRESS, PERI_BOND_BASED, 0, b->h, b->ratio, b->cols, b->rows, 1);
     held_points(b, held);
     below[0] = tip[0] = down[0] = 0;
     below[1] = -b->h;
     tip[1] = b->notch * b->h;
     down[1] = -deflection;
     t->b = *b;
-    peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRESS;
-    d.geometry = geometry;
-    d.horizon = b->ratio * b->h;
-    d.thickness = DEPTH;
-    d.threads = 1;
-    CHECK(peri_body_create(&d, &t->body, NULL) == PERI_OK);
-    peri_material_init(&m, PERI_BOND_BASED);
-    m.young = YOUNG;
-    m.density = 2400;
-    m.fracture_energy = G0;
-    (void)MUST(t->body, peri_add_material(t->body, &m));
-    CHECK(peri_add_box(t->body, 0, lo, hi, b->h) == (int64_t)b->cols * b->rows);
-    (void)MUST(t->body, peri_build(t->body));
+    s.lo[0] = -0.5 * b->cols * b->h;
+    s.hi[0] = 0.5 * b->cols * b->h;
+    s.desc.geometry = geometry;
+    s.desc.thickness = DEPTH;
+    s.material.young = YOUNG;
+    s.material.density = 2400;
+    s.material.fracture_energy = G0;
+    t->body = specimen_make(&s);
+    CHECK(peri_point_count(t->body) == (int64_t)b->cols * b->rows);
     (void)MUST(t->body, peri_read_bond_constants(t->body, 0, 0, &c, &s0));
     CHECK_NEAR(c * DEPTH, micromodulus(b), 1e-12, 0); /* c is per true volume                                            */
     CHECK_NEAR(s0, limit_of(b), 1e-12, 0);

@@ -1,6 +1,7 @@
 /* test_branching.c - crack branching in a glass plate, the benchmark of [P] (PDMATLAB2D): against an independent textbook
    program, mirrored, shuffled, on other threads, in other units, again after a reset and in a clone. The scene and
    the textbook program are in test_glass.h. */
+#include "specimen.h"
 #include "test_glass.h"
 
 typedef struct event {
@@ -365,21 +366,19 @@ static void same_in_metres_millimetres_nanometres(void) { units(150); }
 /* 63 x 25 cells, horizon 3.5 cells, a notch along the middle row from the left edge to the middle point, pulled upwards. */
 static peri_body *odd_plate(const scene *s, int32_t precision) {
     const double lo[2] = {-0.5 * s->nx * s->cell, -0.5 * s->ny * s->cell}, hi[2] = {-lo[0], -lo[1]};
+    specimen p = specimen_of(PERI_PLANE_STRESS, PERI_BOND_BASED, 0, s->cell, s->horizon / s->cell, s->nx, s->ny, 1);
+    peri_body *b;
     const double a[2] = {lo[0], 0}, z[2] = {0, 0}, up[2] = {0, 4 * s->stress / s->cell};
-    peri_body_desc d;
-    peri_material m;
-    peri_body *b = NULL;
-    peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRESS;
-    d.horizon = s->horizon;
-    d.precision = precision;
-    peri_material_init(&m, PERI_BOND_BASED);
-    m.young = s->young;
-    m.density = s->density;
-    m.fracture_energy = s->g0;
-    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    CHECK(MUST(b, peri_add_box(b, (int32_t)MUST(b, peri_add_material(b, &m)), lo, hi, s->cell)) == s->nx * s->ny);
-    (void)MUST(b, peri_build(b));
+    memcpy(p.lo, lo, sizeof lo);
+    memcpy(p.hi, hi, sizeof hi);
+    p.desc.horizon = s->horizon;
+    p.desc.precision = precision;
+    p.desc.threads = 0;
+    p.material.young = s->young;
+    p.material.density = s->density;
+    p.material.fracture_energy = s->g0;
+    b = specimen_make(&p);
+    CHECK(peri_point_count(b) == s->nx * s->ny);
     (void)MUST(b, peri_cut_segment(b, a, z));
     (void)MUST(b, peri_apply_body_force(b, (int32_t)MUST(b, peri_select_box(b, NULL, a, hi)), up, NULL, NULL));
     return b;

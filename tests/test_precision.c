@@ -4,26 +4,13 @@
 
 /* A bar of points, held at one end. */
 static peri_body *bar(int32_t model, int32_t precision, int32_t geometry, int64_t length, int cloud, double s0) {
-    const double lo[3] = {0, 0, 0}, hi[3] = {(double)length, 5, 5};
-    peri_body_desc d;
-    peri_material m;
-    peri_body *b = NULL;
-    peri_body_desc_init(&d);
-    d.space = PERI_SOLID;
-    d.precision = precision;
-    d.geometry = geometry;
-    d.horizon = 2.2;
-    d.threads = 1;
-    CHECK(peri_body_create(&d, &b, NULL) == PERI_OK);
-    peri_material_init(&m, model);
-    m.young = 1;
-    m.density = 1;
-    m.critical_stretch = s0;
-    if (model != PERI_BOND_BASED) m.poisson = 0.3;
-    MUST(b, peri_add_material(b, &m));
-    MUST(b, cloud ? peri_add_perturbed_box(b, 0, lo, hi, 1.0, 0.5, 3) : peri_add_box(b, 0, lo, hi, 1.0));
-    MUST(b, peri_build(b));
-    return b;
+    specimen s = specimen_of(PERI_SOLID, model, 0.3, 1, 2.2, (int)length, 5, 5);
+    s.desc.precision = precision;
+    s.desc.geometry = geometry;
+    s.material.critical_stretch = s0;
+    s.scatter = cloud ? 0.5 : 0;
+    s.seed = 3;
+    return specimen_make(&s);
 }
 
 /* A slender bar bent by a small force at its end: single precision cannot reach such a residual, because displacements are large beside

@@ -34,28 +34,14 @@ static double distance(const double *x, int dim, int32_t i, int32_t j) {
 }
 
 static peri_body *breakable(const solid *s, int32_t criterion, double stretch, double energy, int nx, int ny, int nz) {
-    const double lo[3] = {0, 0, 0};
-    double hi[3];
-    peri_body_desc d;
-    peri_material m = solid_material(s);
-    peri_body *b = NULL;
-    peri_body_desc_init(&d);
-    d.space = s->space;
-    d.geometry = s->geometry;
-    d.horizon = s->ratio * s->spacing;
-    d.threads = 1;
-    if (s->space != PERI_SOLID) d.thickness = THICK;
-    m.criterion = criterion;
-    m.critical_stretch = stretch;
-    m.fracture_energy = energy;
-    hi[0] = nx * s->spacing;
-    hi[1] = ny * s->spacing;
-    hi[2] = nz * s->spacing;
-    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    (void)MUST(b, peri_add_material(b, &m));
-    (void)MUST(b, peri_add_box(b, 0, lo, hi, s->spacing));
-    (void)MUST(b, peri_build(b));
-    return b;
+    specimen p = specimen_of(s->space, s->model, s->nu, s->spacing, s->ratio, nx, ny, nz);
+    p.desc.geometry = s->geometry;
+    p.desc.thickness = thickness(s->space);
+    p.material = solid_material(s);
+    p.material.criterion = criterion;
+    p.material.critical_stretch = stretch;
+    p.material.fracture_energy = energy;
+    return specimen_make(&p);
 }
 
 /* ---- where the criteria are met ----------------------------------------------------------------------------------- */
@@ -363,30 +349,25 @@ static void what_breaks_is_governed(void) {
    in equilibrium, and for a linear body the ledger closes to the tolerance: work = elastic + fracture + what sprang free, which is never
    negative. */
 static void shatter(int32_t model, int32_t criterion, int32_t geometry, int32_t loose) {
-    const double lo[2] = {0, 0}, hi[2] = {16 * H, 12 * H}, up[2] = {0, 1.2 * H}, aside[2] = {0.5 * H, 0};
+    const double up[2] = {0, 1.2 * H}, aside[2] = {0.5 * H, 0};
     const double from[2] = {7 * H, 5 * H}, to[2] = {9 * H, 7 * H};
     solid s = solid_of(PERI_PLANE_STRESS, model, PERI_NO_CORRECTION);
-    peri_body_desc d;
-    peri_material m = solid_material(&s);
-    peri_body *b = NULL;
+    specimen p = specimen_of(s.space, model, s.nu, H, 3, 16, 12, 1);
+    peri_body *b;
     peri_statics st = statics_of(1e-8);
     peri_statics_report r;
     peri_energy e;
     double *u;
     int64_t i;
     int bad = 0;
-    peri_body_desc_init(&d);
-    d.space = s.space;
-    d.geometry = geometry;
-    d.horizon = 3 * H;
-    d.threads = 1;
-    m.criterion = criterion;
-    if (criterion == PERI_CRITERION_STRETCH) m.critical_stretch = LIMIT;
-    else m.fracture_energy = 1e-4;
-    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    (void)MUST(b, peri_add_material(b, &m));
-    (void)MUST(b, peri_add_perturbed_box(b, 0, lo, hi, H, 0.5, 9));
-    (void)MUST(b, peri_build(b));
+    p.desc.geometry = geometry;
+    p.material = solid_material(&s);
+    p.material.criterion = criterion;
+    if (criterion == PERI_CRITERION_STRETCH) p.material.critical_stretch = LIMIT;
+    else p.material.fracture_energy = 1e-4;
+    p.scatter = 0.5;
+    p.seed = 9;
+    b = specimen_make(&p);
     (void)MUST(b, peri_prescribe_displacement(b, slab(b, 1, 0, 3 * H), PERI_X | PERI_Y, NULL, NULL, NULL));
     (void)MUST(b, peri_prescribe_displacement(b, slab(b, 1, 9 * H, 12 * H), PERI_X | PERI_Y, up, NULL, NULL));
     (void)MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, from, to)), PERI_X, aside, NULL, NULL));

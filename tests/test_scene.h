@@ -2,7 +2,7 @@
 #ifndef TEST_SCENE_H
 #define TEST_SCENE_H
 
-#include "peri_test.h"
+#include "specimen.h"
 
 #define PI      3.14159265358979323846
 #define ULP64   1.1102230246251565e-16 /* unit roundoff: half the distance from 1 to the next double, float               */
@@ -45,11 +45,14 @@ static inline int32_t unbreakable(peri_body *b, double young, double density) {
 
 /* A block of nx x ny (x nz) cells of size H with one corner at the origin, horizon 3 H. */
 static inline peri_body *block(int32_t space, int32_t precision, int32_t geometry, int nx, int ny, int nz) {
-    const double lo[3] = {0, 0, 0};
-    const double hi[3] = {nx * H, ny * H, nz * H};
-    peri_body *b = empty(space, precision, geometry, 3 * H);
-    CHECK(MUST(b, peri_add_box(b, unbreakable(b, YOUNG, DENSITY), lo, hi, H)) == nx * ny * (space == PERI_SOLID ? nz : 1));
-    (void)MUST(b, peri_build(b));
+    specimen s = specimen_of(space, PERI_BOND_BASED, 0, H, 3, nx, ny, nz);
+    s.desc.precision = precision;
+    s.desc.geometry = geometry;
+    s.desc.thickness = thickness(space);
+    s.material.young = YOUNG;
+    s.material.density = DENSITY;
+    peri_body *b = specimen_make(&s);
+    CHECK(peri_point_count(b) == nx * ny * (space == PERI_SOLID ? nz : 1));
     return b;
 }
 

@@ -66,47 +66,32 @@ static inline void solid_stress(const solid *s, const double *eps, double *sigma
     for (k = 0; k < parts_of(dim); ++k) sigma[k] = 2 * mu * eps[k] + (k < dim ? lambda * trace : 0);
 }
 
-static inline peri_material solid_material(const solid *s) {
-    peri_material m;
-    peri_material_init(&m, s->model);
-    m.young = YOUNG;
-    m.density = DENSITY;
-    if (s->model != PERI_BOND_BASED) m.poisson = s->nu;
-    if (s->model == PERI_CORRESPONDENCE && s->stabilization >= 0) m.stabilization = s->stabilization;
-    return m;
+/* A block of nx x ny (x nz) cells with a corner at the origin. */
+static inline specimen solid_specimen(const solid *s, int nx, int ny, int nz) {
+    specimen p = specimen_of(s->space, s->model, s->nu, s->spacing, s->ratio, nx, ny, nz);
+    p.desc.correction = s->correction;
+    p.desc.geometry = s->geometry;
+    p.desc.precision = s->precision;
+    p.desc.influence = s->influence;
+    p.desc.quadrature = s->quadrature;
+    p.desc.thickness = thickness(s->space);
+    p.material.young = YOUNG;
+    p.material.density = DENSITY;
+    if (s->model == PERI_CORRESPONDENCE && s->stabilization >= 0) p.material.stabilization = s->stabilization;
+    return p;
 }
+
+static inline peri_material solid_material(const solid *s) { return solid_specimen(s, 1, 1, 1).material; }
 
 /* A body without points, with material 0. */
 static inline peri_body *solid_new(const solid *s) {
-    peri_body_desc d;
-    peri_material m = solid_material(s);
-    peri_body *b = NULL;
-    peri_body_desc_init(&d);
-    d.space = s->space;
-    d.correction = s->correction;
-    d.geometry = s->geometry;
-    d.precision = s->precision;
-    d.influence = s->influence;
-    d.quadrature = s->quadrature;
-    d.horizon = s->ratio * s->spacing;
-    d.threads = 1;
-    if (s->space != PERI_SOLID) d.thickness = THICK;
-    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    (void)MUST(b, peri_add_material(b, &m));
-    return b;
+    const specimen p = solid_specimen(s, 1, 1, 1);
+    return specimen_start(&p);
 }
 
-/* A built block of nx x ny (x nz) cells with a corner at the origin. */
 static inline peri_body *solid_block(const solid *s, int nx, int ny, int nz) {
-    const double lo[3] = {0, 0, 0};
-    double hi[3];
-    peri_body *b = solid_new(s);
-    hi[0] = nx * s->spacing;
-    hi[1] = ny * s->spacing;
-    hi[2] = nz * s->spacing;
-    (void)MUST(b, peri_add_box(b, 0, lo, hi, s->spacing));
-    (void)MUST(b, peri_build(b));
-    return b;
+    const specimen p = solid_specimen(s, nx, ny, nz);
+    return specimen_make(&p);
 }
 
 /* u = h x with h[dim*dim], row by row. */

@@ -47,24 +47,17 @@ static inline peri_material stuff(kind k) {
 
 /* Serial, horizon 3 H, thickness THICK. */
 static inline peri_body_desc plan(int32_t space) {
-    peri_body_desc d;
-    peri_body_desc_init(&d);
-    d.space = space;
-    d.horizon = 3 * H;
-    d.threads = 1;
-    if (space != PERI_SOLID) d.thickness = THICK;
-    return d;
+    specimen s = specimen_of(space, PERI_BOND_BASED, 0, H, 3, 1, 1, 1);
+    s.desc.thickness = thickness(space);
+    return s.desc;
 }
 
 /* A box of nx x ny (x nz) cells of size H with one corner at the origin, of one material, built. */
 static inline peri_body *make(const peri_body_desc *d, kind k, int nx, int ny, int nz) {
-    const double lo[3] = {0, 0, 0}, hi[3] = {nx * H, ny * H, nz * H};
-    peri_material m = stuff(k);
-    peri_body *b = NULL;
-    (void)MUST(NULL, peri_body_create(d, &b, NULL));
-    (void)MUST(b, peri_add_box(b, (int32_t)MUST(b, peri_add_material(b, &m)), lo, hi, H));
-    (void)MUST(b, peri_build(b));
-    return b;
+    specimen s = specimen_of(k.space, k.model, k.poisson, H, 3, nx, ny, nz);
+    s.desc = *d;
+    s.material = stuff(k);
+    return specimen_make(&s);
 }
 
 static inline peri_body *box(kind k, int32_t geometry, int nx, int ny, int nz) {

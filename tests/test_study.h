@@ -24,28 +24,18 @@ static const study_law GRADIENT = {PERI_CORRESPONDENCE, PERI_NO_CORRECTION, 0, "
 /* A square with cells x cells points at the centres of its cells, one corner at lo[2]; plane strain, small displacements. */
 static inline peri_body *study_square(const study_law *law, int shape, double ratio, int cells, const double *lo, double side, double young,
                                       double nu) {
-    const double spacing = side / cells;
-    double hi[2];
-    peri_body_desc d;
-    peri_material m;
-    peri_body *b = NULL;
-    peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRAIN;
-    d.geometry = PERI_LINEAR;
-    d.influence = study_influence[shape];
-    d.correction = law->correction;
-    d.horizon = ratio * spacing;
-    d.threads = 1;
-    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    peri_material_init(&m, law->model);
-    m.young = young;
-    m.poisson = nu;
-    m.density = 1;
-    if (law->model == PERI_CORRESPONDENCE) m.stabilization = law->stabilization;
-    hi[0] = lo[0] + side;
-    hi[1] = lo[1] + side;
-    CHECK(MUST(b, peri_add_box(b, (int32_t)MUST(b, peri_add_material(b, &m)), lo, hi, spacing)) == (int64_t)cells * cells);
-    (void)MUST(b, peri_build(b));
+    specimen s = specimen_of(PERI_PLANE_STRAIN, law->model, nu, side / cells, ratio, cells, cells, 1);
+    s.desc.geometry = PERI_LINEAR;
+    s.desc.influence = study_influence[shape];
+    s.desc.correction = law->correction;
+    s.material.young = young;
+    if (law->model == PERI_CORRESPONDENCE) s.material.stabilization = law->stabilization;
+    for (int d = 0; d < 2; ++d) {
+        s.lo[d] = lo[d];
+        s.hi[d] = lo[d] + side;
+    }
+    peri_body *b = specimen_make(&s);
+    CHECK(peri_point_count(b) == (int64_t)cells * cells);
     return b;
 }
 
