@@ -121,7 +121,7 @@ build/bench/cases_%.o: bench/cases.c $(wildcard bench/*.h) $(SOURCES)
 
 build/bench/textbook.o: FLAGS = -O2 $(NATIVE)
 build/bench/limits.o: FLAGS = -O3 $(NATIVE)
-build/bench/%.o: bench/%.c $(wildcard bench/*.h bench/*.inl tests/test_glass.h)
+build/bench/%.o: bench/%.c $(wildcard bench/*.h bench/*.inl tests/glass.h)
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(or $(FLAGS),-O2) $(OPENMP) -I. -c $< -o $@
 

@@ -1,5 +1,5 @@
 /* glass.c - the crack branching benchmark, from the source that the tests of branching share. */
-#include "../tests/test_glass.h"
+#include "../tests/glass.h"
 
 peri_body *glass_plate(int32_t precision, double *step, int64_t *steps);
 

@@ -3,14 +3,14 @@
 #define PERI_STATIC
 #define PERI_IMPLEMENTATION
 #include "../peri.h"
-#include "static_scene.h"
+#include "two_copies.h"
 
 double static_b_run(double *displacement, int32_t count);
 
 int main(void) {
     double a[2 * 64], b[2 * 64], momentum_a, momentum_b, want = 0.25 * 2.0 * 0.64 * 0.5;
     int k, failed = 0;
-    momentum_a = static_scene_run(a, 2 * 64);
+    momentum_a = two_copies_run(a, 2 * 64);
     momentum_b = static_b_run(b, 2 * 64);
     for (k = 0; k < 2 * 64; ++k)
         if (a[k] != b[k] || !(fabs(a[k]) < 1)) failed++;

@@ -2,7 +2,7 @@
 #define PERI_STATIC
 #define PERI_IMPLEMENTATION
 #include "../peri.h"
-#include "static_scene.h"
+#include "two_copies.h"
 
 double static_b_run(double *displacement, int32_t count);
-double static_b_run(double *displacement, int32_t count) { return static_scene_run(displacement, count); }
+double static_b_run(double *displacement, int32_t count) { return two_copies_run(displacement, count); }

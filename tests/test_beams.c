@@ -14,7 +14,7 @@
 
    WHERE THE ENDS ARE HELD  [T] holds "a horizon" of the beam itself (WITHIN); that shortens it. Else two horizons of more beam before x = 0
    are at rest (RIGID), which acts as if built in 0.1 to 0.3 horizons further back; or displaced as elasticity says (EXACT). */
-#include "peri_test.h"
+#include "specimen.h"
 
 #define YOUNG  70e9
 #define LENGTH 30e-3
@@ -109,30 +109,23 @@ static void weigh(beam *b) {
 static void build(beam *b) {
     const int between = (int)(LENGTH / DEPTH * b->rows + 0.5), before = b->ends == WITHIN ? 0 : 2 * b->ratio;
     const int both = b->kind == UNIFORM && before > 0; /* more beam at both ends, supports in columns of points */
-    double lo[2] = {0, -DEPTH / 2}, hi[2] = {LENGTH, DEPTH / 2};
-    peri_body_desc d;
-    peri_material m;
+    specimen s;
     b->h = DEPTH / b->rows;
-    lo[0] -= (before + 0.5 * both) * b->h;
-    hi[0] += both ? (before + 0.5) * b->h : 0;
     b->cols = between + before + (both ? before + 1 : 0);
-    peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRESS;
-    d.geometry = PERI_LINEAR;
-    d.correction = b->correction;
-    d.influence = b->influence;
-    d.quadrature = b->quadrature;
-    d.horizon = b->ratio * b->h;
-    d.threads = 1;
-    peri_material_init(&m, b->model);
-    m.young = YOUNG;
-    m.density = 2700;
-    if (b->model != PERI_BOND_BASED) m.poisson = b->nu;
-    if (b->stabilization >= 0) m.stabilization = b->stabilization;
-    (void)MUST(NULL, peri_body_create(&d, &b->body, NULL));
-    (void)MUST(b->body, peri_add_material(b->body, &m));
-    CHECK(MUST(b->body, peri_add_box(b->body, 0, lo, hi, b->h)) == b->cols * b->rows);
-    (void)MUST(b->body, peri_build(b->body));
+    s = specimen_of(PERI_PLANE_STRESS, b->model, b->nu, b->h, b->ratio, b->cols, b->rows, 1);
+    s.lo[0] = -(before + 0.5 * both) * b->h;
+    s.hi[0] = LENGTH + (both ? (before + 0.5) * b->h : 0);
+    s.lo[1] = -DEPTH / 2;
+    s.hi[1] = DEPTH / 2;
+    s.desc.geometry = PERI_LINEAR;
+    s.desc.correction = b->correction;
+    s.desc.influence = b->influence;
+    s.desc.quadrature = b->quadrature;
+    s.material.young = YOUNG;
+    s.material.density = 2700;
+    if (b->stabilization >= 0) s.material.stabilization = b->stabilization;
+    b->body = specimen_make(&s);
+    CHECK(peri_point_count(b->body) == b->cols * b->rows);
     b->x = get(b->body, PERI_POSITION);
 }
 

@@ -1,8 +1,8 @@
 /* test_branching.c - crack branching in a glass plate, the benchmark of [P] (PDMATLAB2D): against an independent textbook
    program, mirrored, shuffled, on other threads, in other units, again after a reset and in a clone. The scene and
-   the textbook program are in test_glass.h. */
+   the textbook program are in glass.h. */
 #include "specimen.h"
-#include "test_glass.h"
+#include "glass.h"
 
 typedef struct event {
     int32_t i, j;
@@ -84,7 +84,7 @@ static peri_body *full_run(void) {
     return full;
 }
 
-/* SOURCE OF TRUTH: the textbook program of test_glass.h, and the 992,916 directed bonds that [P]'s program reports. Broken bonds after
+/* SOURCE OF TRUTH: the textbook program of glass.h, and the 992,916 directed bonds that [P]'s program reports. Broken bonds after
    every step, 642 of the whole plate, and in the end bond by bond. */
 static void as_in_the_textbook(const scene *s, peri_body *b, const trace *run) {
     textbook t = textbook_make(s);

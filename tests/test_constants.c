@@ -4,7 +4,7 @@
    functions integrated by hand; the continuum values of [P] appendices D and F; and sums over lattice vectors written here,
    with the part of a cell inside a disk integrated by Gauss's rule over chords, not by a closed form. */
 #include "peri_test.h"
-#include "test_overlap.h"
+#include "disk_area.h"
 
 #define BAND 8 /* lattice vectors are kept for -BAND..BAND */
 

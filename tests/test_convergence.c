@@ -3,7 +3,7 @@
 
    SOURCE OF TRUTH: Hooke's law in plane strain for the displacements; the orders printed in [C] tables 3, 4 and 5; sums over the infinite
    lattice for the moduli to which a law converges that misses those of the solid. */
-#include "test_study.h"
+#include "study.h"
 
 #define SIDE  10e-3 /* [m], [C] table 1                                                                                      */
 #define STIFF 1000e9

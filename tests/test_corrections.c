@@ -2,7 +2,7 @@
 
    SOURCE OF TRUTH: the energy density of the solid, W = 1/2 lambda (tr eps)^2 + mu eps:eps, under uniform strains; conservation laws;
    Euler's theorem on the quadratic energy of small strains; Timoshenko's beam. */
-#include "test_solid.h"
+#include "solid.h"
 
 /* ---- uniform strains ---------------------------------------------------------------------------------------------- */
 
@@ -282,7 +282,7 @@ static void no_bond_pushes_when_pulled(void) {
                     int64_t n, i, j;
                     peri_body *b;
                     double *x, *u;
-                    s.nu = fixed_nu(space);
+                    s.nu = bond_nu(space);
                     s.ratio = space == PERI_SOLID ? 2.2 : 3;
                     b = cloud(&s, kind);
                     n = peri_point_count(b);

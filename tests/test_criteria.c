@@ -3,7 +3,7 @@
 
    Nothing here was recorded from the library. The truth is integrals over the horizon that are done here, and closed forms of two
    points and of uniform strain. */
-#include "test_states.h"
+#include "failure.h"
 
 /* ---- limits ------------------------------------------------------------------------------------------------------- */
 

@@ -3,7 +3,7 @@
 
    Nothing here was recorded from the library. Expected values are conservation laws, closed forms, or force loops written
    out below over all pairs (brute_*), with the micromodulus from the closed forms of [P] C.15, C.18 and [T] 1.24. */
-#include "test_scene.h"
+#include "scene.h"
 
 /* ---- conservation ------------------------------------------------------------------------------------------------- */
 

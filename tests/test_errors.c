@@ -2,7 +2,7 @@
 
    SOURCE OF TRUTH: peri.h: the texts of peri_status and of each function ("a call that fails has changed nothing").
    One story (build a body, load it, run it) is told twice, once with every wrong call in between; the bits must agree. */
-#include "test_refuse.h"
+#include "refusal.h"
 
 /* ---- descriptors -------------------------------------------------------------------------------------------------- */
 

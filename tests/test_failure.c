@@ -2,7 +2,7 @@
    can be done again to the last bit.
 
    Nothing here was recorded from the library. The truth is the first law and the contract of peri.h. */
-#include "test_states.h"
+#include "failure.h"
 
 /* ---- the ledger --------------------------------------------------------------------------------------------------- */
 

@@ -2,7 +2,7 @@
 
    SOURCE OF TRUTH: affine deformations. F is that of every bond, so the strain is 1/2(F + F^T) - 1 or 1/2(F^T F - 1), the stress of the
    material lambda tr + 2 mu in it, and its Cauchy stress F S F^T/det F (in 2D all in the plane). Forces: statics and conservation laws. */
-#include "test_solid.h"
+#include "solid.h"
 
 /* ---- closed forms ------------------------------------------------------------------------------------------------- */
 

@@ -2,7 +2,7 @@
 
    Nothing here was recorded from the library. The truth is that forces are the derivative of the energy, that rigid motions cost
    nothing, that momentum is conserved, and the operator itself, read column by column. */
-#include "test_states.h"
+#include "failure.h"
 
 /* ---- what is left of a family ------------------------------------------------------------------------------------- */
 

@@ -1,8 +1,8 @@
 /* test_laws.c - what each law makes of uniform strain and of a checkerboard, and where two laws are one.
 
    Nothing here was recorded from the library. The truth is classical elasticity (W and stress of a uniform strain), the published
-   formulas summed over an ideal lattice by test_laws.h, and an identity between two of the laws. */
-#include "test_laws.h"
+   formulas summed over an ideal lattice by published_laws.h, and an identity between two of the laws. */
+#include "published_laws.h"
 
 /* ---- uniform strain in the bulk ------------------------------------------------------------------------------------ */
 
@@ -232,7 +232,7 @@ static void print_table(int32_t space, double reach) {
     static const char *const names[] = {"", "none", "volume", "energy", "moment"};
     int model, correction;
     for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
-        printf("    %-13s m = %.0f  %-15s", space_names[space], reach, model_names[model]);
+        printf("    %-13s m = %.0f  %-15s", space_name[space], reach, law_name[model]);
         for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
             printf("  %s %.1e", names[correction], table[space][model][correction][(int)(reach + 0.5)]);
         printf("\n");

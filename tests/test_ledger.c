@@ -2,7 +2,7 @@
 
    Nothing here was recorded from the library. The truth is the first law: the error is what the time step left open, and for
    a second-order scheme it goes with dt^2. Kinetic, elastic and fracture energies are also summed here by brute force. */
-#include "test_scene.h"
+#include "scene.h"
 
 #define CRITICAL 0.02 /* stretch, where bonds break */
 

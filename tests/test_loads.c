@@ -2,7 +2,7 @@
 
    Nothing here was recorded from the library. Expected values are totals written in the contract, closed-form motions that
    velocity-Verlet follows exactly, Newton's laws, and sums over the points written out below. */
-#include "test_scene.h"
+#include "scene.h"
 
 static const double origin[3] = {0, 0, 0};
 

@@ -2,8 +2,8 @@
 
    SOURCE OF TRUTH: peri.h, field by field; the linear problem, whose answer is proportional to the load factor; a second body on which
    the same is done another way. */
-#include "test_solid.h"
-#include "test_static.h"
+#include "solid.h"
+#include "equilibrium.h"
 
 /* ---- a plate that is held, pulled by a constant load and moved by a callback -------------------------------------- */
 

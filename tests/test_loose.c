@@ -2,8 +2,8 @@
 
    SOURCE OF TRUTH: peri.h (peri_loose); rigid motions strain nothing, so balanced loads strain a free body as they do a held one;
    d'Alembert: a free body under any load is at rest in the frame that its own inertia makes; springs in series. */
-#include "test_solid.h"
-#include "test_static.h"
+#include "solid.h"
+#include "equilibrium.h"
 
 static const int32_t policies[] = {PERI_LOOSE_REFUSED, PERI_LOOSE_PINNED, PERI_LOOSE_BALANCED};
 

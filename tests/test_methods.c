@@ -1,8 +1,8 @@
 /* test_methods.c - what every method of the static solver must give alike, on small bodies of every law and space.
 
-   SOURCE OF TRUTH: the dense equilibrium of test_task.h; the definition of the residual in peri.h, worked out from the fields; Clapeyron's
+   SOURCE OF TRUTH: the dense equilibrium of held_body.h; the definition of the residual in peri.h, worked out from the fields; Clapeyron's
    theorem: the work of a linear body is half of force times way; conservation of momentum; "same bits for any number of threads". */
-#include "test_task.h"
+#include "held_body.h"
 
 /* ---- methods ------------------------------------------------------------------------------------------------------ */
 
@@ -73,7 +73,7 @@ static void methods(int32_t geometry, double size, double tolerance) {
                 seen = residual_of(&t);
                 if (test_long)
                     printf("    %-12s %-14s %-10s iterations %5d, Newton %2d, residual %.1e (told %.1e), off %.1e (bound %.1e) of %.1e\n",
-                           space_names[space], law_text(k), ways[w].name, (int)r.iterations, (int)r.newton, seen, r.residual, off, bound,
+                           space_name[space], law_text(k), ways[w].name, (int)r.iterations, (int)r.newton, seen, r.residual, off, bound,
                            most);
                 CHECK(off <= (geometry == PERI_LINEAR ? 1 : 2) * bound);
                 CHECK(seen <= 1.001 * tolerance && r.residual <= tolerance && r.steps == 1 && r.load_factor == 1 && r.loose == 0);
@@ -120,7 +120,7 @@ static void iterations_hardly_grow(void) {
     for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
         for (slit = 0; slit < 2; ++slit) {
             int64_t last = 0, blocks = 0;
-            printf("    %-14s %-6s", model_names[model], slit ? "slit" : "intact");
+            printf("    %-14s %-6s", law_name[model], slit ? "slit" : "intact");
             for (cells = 40; cells <= top; cells *= 2) {
                 int64_t n = iterations_of(model, cells, slit, PERI_MULTILEVEL);
                 int64_t slow = iterations_of(model, cells, slit, PERI_BLOCK_JACOBI);
@@ -165,7 +165,7 @@ static void energy_tolerance_estimates_the_error(void) {
                 }
                 CHECK(sqrt(off / whole) <= 6 * asked && n > before);
                 if (test_long)
-                    printf("    %s %s: asked %.0e, off by %.1e, %d iterations\n", space_names[space], law_text(k), asked,
+                    printf("    %s %s: asked %.0e, off by %.1e, %d iterations\n", space_name[space], law_text(k), asked,
                            sqrt(off / whole), (int)n);
                 before = n;
                 free(u);
@@ -308,7 +308,7 @@ static void single_precision_to_its_tolerance(void) {
                 u = get(f.body, PERI_DISPLACEMENT);
                 bound = t.soft * scale_of(&t) * 1.1e-4 + 1e-5 * largest(t.u, n);
                 if (test_long)
-                    printf("    %-12s %-14s off by %.1e of the largest displacement, bound %.1e\n", space_names[space], law_text(k),
+                    printf("    %-12s %-14s off by %.1e of the largest displacement, bound %.1e\n", space_name[space], law_text(k),
                            furthest(u, t.u, n) / largest(t.u, n), bound / largest(t.u, n));
                 CHECK(furthest(u, t.u, n) <= bound);
                 free(a);

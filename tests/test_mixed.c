@@ -2,7 +2,7 @@
 
    SOURCE OF TRUTH: the contract "each end of a bond gives its own half by its own material", so that a point's energy is that of its own
    law; conservation laws; the criteria as printed in peri.h, evaluated bond by bond from the prescribed displacement. */
-#include "test_solid.h"
+#include "solid.h"
 
 /* ---- bodies of several laws --------------------------------------------------------------------------------------- */
 
@@ -10,18 +10,11 @@
 static peri_body *pair_of(const solid *a, const solid *z, int n, void (*touch)(peri_material *left, peri_material *right)) {
     const double lo[3] = {0, 0, 0}, lo2[3] = {n * H, 0, 0}, hi[3] = {n * H, n * H, n * H}, hi2[3] = {2 * n * H, n * H, n * H};
     peri_material left = solid_material(a), right = solid_material(z);
-    peri_body_desc d;
-    peri_body *b = NULL;
-    peri_body_desc_init(&d);
-    d.space = a->space;
-    d.correction = a->correction;
-    d.geometry = a->geometry;
-    d.horizon = a->ratio * H;
-    d.threads = 1;
-    if (a->space != PERI_SOLID) d.thickness = THICK;
+    specimen s = solid_specimen(a, n, n, n);
+    peri_body *b;
     if (touch) touch(&left, &right);
-    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    (void)MUST(b, peri_add_material(b, &left));
+    s.material = left;
+    b = specimen_start(&s);
     (void)MUST(b, peri_add_material(b, &right));
     (void)MUST(b, peri_add_box(b, 0, lo, hi, H));
     (void)MUST(b, peri_add_box(b, 1, lo2, hi2, H));
@@ -45,7 +38,7 @@ static void pairs_of_laws_in_uniform_strain(void) {
                     int64_t i;
                     peri_body *b;
                     a.ratio = z.ratio = dim == 3 ? 2 : 3;
-                    if (first == PERI_BOND_BASED || second == PERI_BOND_BASED) a.nu = z.nu = fixed_nu(space);
+                    if (first == PERI_BOND_BASED || second == PERI_BOND_BASED) a.nu = z.nu = bond_nu(space);
                     reach = (springs ? 2 : 1) * a.ratio * H;
                     strain_matrix(dim, dim == 3 ? solid_strain : plane_strain, h);
                     want = solid_energy(&a, dim == 3 ? solid_strain : plane_strain);
@@ -182,7 +175,7 @@ static void breaks_as_told(int32_t first, int32_t second, void (*touch)(peri_mat
     int32_t pair[2] = {0, 1};
     peri_body *b;
     peri_run run;
-    a.nu = z.nu = fixed_nu(PERI_PLANE_STRAIN);
+    a.nu = z.nu = bond_nu(PERI_PLANE_STRAIN);
     horizon = a.ratio * H;
     lame(PERI_PLANE_STRAIN, a.nu, &lambda, &mu);
     big_b = 8 * mu;

@@ -16,7 +16,7 @@
               columns of the tensor method agree with the lattice: to 0.02 points where w is so steep that the edge of the horizon has no
               say, to 0.5 where it has (its volume correction is not printed alike in Fig. 3.7 and Fig. C.3); and E by double node agrees
               to 0.8 points where w has no pole. nu by the node methods does not: how the plate was held is not printed. */
-#include "peri_test.h"
+#include "specimen.h"
 
 #define YOUNG  71e9
 #define STRESS 100e6
@@ -132,36 +132,29 @@ static double lattice_moduli(const plate *p, double *young, double *poisson) {
 
 static int32_t build(plate *p, double length, double width) {
     static double in_mm;
-    peri_body_desc d;
-    peri_material m;
-    double lo[2], hi[2];
+    specimen s;
     int32_t status;
     p->h = p->horizon / p->ratio;
     p->cols = 2 * (int)(length / p->h / 2 + 0.5) + 1;
     p->rows = 2 * (int)(width / p->h / 2 + 0.5) + 1;
     p->centre = p->rows / 2 * p->cols + p->cols / 2;
-    hi[0] = 0.5 * p->cols * p->h;
-    hi[1] = 0.5 * p->rows * p->h;
-    lo[0] = -hi[0];
-    lo[1] = -hi[1];
     in_mm = p->horizon / MM;
-    peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRESS;
-    d.geometry = PERI_LINEAR;
-    d.correction = p->correction;
-    d.influence = p->influence == QUARTER ? PERI_INFLUENCE_USER : p->influence;
-    d.influence_fn = p->influence == QUARTER ? quarter_pole : half_pole;
-    d.influence_user = &in_mm;
-    d.quadrature = p->quadrature;
-    d.horizon = p->horizon;
-    d.threads = 1;
-    peri_material_init(&m, p->model);
-    m.young = YOUNG;
-    m.density = 2780;
-    if (p->model != PERI_BOND_BASED) m.poisson = p->nu;
-    (void)MUST(NULL, peri_body_create(&d, &p->body, NULL));
-    (void)MUST(p->body, peri_add_material(p->body, &m));
-    CHECK(MUST(p->body, peri_add_box(p->body, 0, lo, hi, p->h)) == p->cols * p->rows);
+    s = specimen_of(PERI_PLANE_STRESS, p->model, p->nu, p->h, p->ratio, p->cols, p->rows, 1);
+    for (int d = 0; d < 2; ++d) {
+        s.hi[d] *= 0.5;
+        s.lo[d] = -s.hi[d];
+    }
+    s.desc.geometry = PERI_LINEAR;
+    s.desc.correction = p->correction;
+    s.desc.influence = p->influence == QUARTER ? PERI_INFLUENCE_USER : p->influence;
+    s.desc.influence_fn = p->influence == QUARTER ? quarter_pole : half_pole;
+    s.desc.influence_user = &in_mm;
+    s.desc.quadrature = p->quadrature;
+    s.desc.horizon = p->horizon;
+    s.material.young = YOUNG;
+    s.material.density = 2780;
+    p->body = specimen_start(&s);
+    CHECK(MUST(p->body, peri_add_box(p->body, 0, s.lo, s.hi, p->h)) == p->cols * p->rows);
     status = peri_build(p->body);
     if (p->influence == HALF && p->ratio % 2 == 0) CHECK(status == PERI_ERROR_INFLUENCE); /* infinite at h/2, where points are */
     else (void)MUST(p->body, status);

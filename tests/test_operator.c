@@ -2,7 +2,7 @@
 
    Nothing here was recorded from the library. The truth is the principle that a force is -dE/du, conservation of momentum, objectivity,
    and linear algebra on operators assembled column by column. */
-#include "test_laws.h"
+#include "published_laws.h"
 
 static double thickness_of(const peri_body *b) { return peri_dimension(b) == 3 ? 1 : THICK; }
 
@@ -219,8 +219,8 @@ static void operator_of(const scene *linear, int32_t model, double nu, int broke
         CHECK(zeros == rigid);
         CHECK(least > -1e-12);
         CHECK(next > 1e-6);
-        if (test_long) printf("    %-12s %-14s nu %5.2f  skew %.0e  far %.0e  zeros %d  least %8.1e  next %.1e\n", space_names[s.space],
-                              model ? model_names[model] : "mixture", nu, skew, far, zeros, least, next);
+        if (test_long) printf("    %-12s %-14s nu %5.2f  skew %.0e  far %.0e  zeros %d  least %8.1e  next %.1e\n", space_name[s.space],
+                              model ? law_name[model] : "mixture", nu, skew, far, zeros, least, next);
     }
     free(k[0]);
     free(k[1]);

@@ -2,7 +2,7 @@
 
    SOURCE OF TRUTH: peri.h for what a view means and what is written; the VTK XML format (appended raw data: each array a UInt64
    byte count, then the numbers), which is parsed here from scratch; and consistency: file, view and read must agree. */
-#include "test_scene.h"
+#include "scene.h"
 #include <locale.h>
 
 typedef struct buffer {

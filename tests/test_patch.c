@@ -1,11 +1,11 @@
 /* test_patch.c - patch tests: bodies under tractions that uniform stress would put on them must be strained uniformly.
 
    SOURCE OF TRUTH: Hooke's law. The strain of a uniform stress is eps = (sigma - lambda/(D lambda + 2 mu) tr(sigma))/(2 mu), with the
-   in-plane lambda, mu (test_solid.h); it is compatible and, with tractions sigma n on all faces, in equilibrium, and the only solution but
+   in-plane lambda, mu (solid.h); it is compatible and, with tractions sigma n on all faces, in equilibrium, and the only solution but
    for rigid motions. For correspondence the consistent load vector is exact by theory: a uniform stress puts the force -sigma a_i on
    point i (DESIGN section 5), so any error beyond the solver's is a bug. Other laws have no exact form: their error is measured. */
-#include "test_solid.h"
-#include "test_static.h"
+#include "solid.h"
+#include "equilibrium.h"
 
 /* ---- a body and its stress ---------------------------------------------------------------------------------------- */
 

@@ -4,7 +4,7 @@
    life, peri_plan to what peri.h promises. For bonds of a lattice, the built body; for bodies too large to build, brute force over lattice
    vectors in long double, prod(n_d - |v_d|) each. For the stable step, peri_stable_step of the built body, and 2/sqrt(lambda) with
    lambda = 2 sum c V/|xi|/rho of a whole family written out. For the time of a step, orders of magnitude, and proportion to the points. */
-#include "test_scene.h"
+#include "scene.h"
 
 typedef struct pool {
     int64_t live, most, calls, fail_at;

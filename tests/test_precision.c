@@ -1,6 +1,6 @@
 /* test_precision.c - mixed precision: the state in double, bonds in single. SOURCE OF TRUTH: the same scene in double, conservation of
    momentum and energy, and Hooke's law. What the kernels do is checked in test_kernels.c. */
-#include "test_static.h"
+#include "equilibrium.h"
 
 /* A bar of points, held at one end. */
 static peri_body *bar(int32_t model, int32_t precision, int32_t geometry, int64_t length, int cloud, double s0) {

@@ -7,7 +7,7 @@
    Sources of truth: areas and volumes integrated here by Gauss's rule over chords and slices; Green's theorem for cells whose
    corners are found from their areas and centroids; pi d^2 and 4/3 pi d^3; conservation of momentum. */
 #include "peri_test.h"
-#include "test_overlap.h"
+#include "disk_area.h"
 
 #define N_MAX 2048
 

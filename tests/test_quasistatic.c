@@ -3,8 +3,8 @@
    SOURCE OF TRUTH: the criteria of peri.h with lattice sums of LPS under a uniform stretch; the energy of a bond-based bond, 1/2 c s^2
    |xi| V V, at the stretch at which it broke; "equilibrium is sought again, until none does": no intact bond is over its limit at any
    equilibrium; mirror symmetry; peri.h on PERI_ERROR_MEMORY. */
-#include "test_solid.h"
-#include "test_static.h"
+#include "solid.h"
+#include "equilibrium.h"
 
 typedef struct event {
     int32_t i, j;

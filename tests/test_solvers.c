@@ -1,9 +1,9 @@
 /* test_solvers.c - the linear solver and the stiffness, on small bodies of every law and space.
 
-   SOURCE OF TRUTH: Cholesky's factorisation, written in test_static.h, of the assembled stiffness with the supports taken out; finite
+   SOURCE OF TRUTH: Cholesky's factorisation, written in equilibrium.h, of the assembled stiffness with the supports taken out; finite
    differences of the forces, whose order is known; objectivity, f(Q y) = Q f(y). The stiffness itself is held against the forces, so no
    test rests on the solver alone. */
-#include "test_task.h"
+#include "held_body.h"
 
 /* ---- the dense answer --------------------------------------------------------------------------------------------- */
 
@@ -50,7 +50,7 @@ static void equals_a_dense_factorisation(void) {
                 for (moments = 0; moments <= 1; ++moments) {
                     scene s = small_scene(space, PERI_LINEAR, moments ? PERI_MOMENT_CORRECTION : PERI_NO_CORRECTION);
                     char what[80];
-                    (void)sprintf(what, "%s %s%s%s", space_names[space], law_text(k), broken ? ", cut" : "", moments ? ", moments" : "");
+                    (void)sprintf(what, "%s %s%s%s", space_name[space], law_text(k), broken ? ", cut" : "", moments ? ", moments" : "");
                     holds_dense(held_body(&s, law_of(k), 0.3, 0, broken), space, what);
                     if (k < LAWS && (!moments || test_long)) {
                         (void)strcat(what, ", lattice");
@@ -125,7 +125,7 @@ static void stiffness_of(int32_t space, int32_t geometry, int32_t correction) {
             scene s = small_scene(space, geometry, correction);
             peri_body *b = small_body(&s, law_of(k), 0.2, -1, broken);
             char what[80];
-            (void)sprintf(what, "%s %s %s correction %d%s", space_names[space], law_text(k),
+            (void)sprintf(what, "%s %s %s correction %d%s", space_name[space], law_text(k),
                           geometry == PERI_LINEAR ? "linear" : "nonlinear", (int)correction, broken ? ", cut" : "");
             check_stiffness(b, &s, 0.05 * H, what);
             peri_body_destroy(b);
@@ -182,7 +182,7 @@ static void stiffness_of_a_patchwork(void) {
                 peri_body *b;
                 if (quadrature == PERI_PARTIAL_CENTROID || (space == PERI_SOLID && quadrature > PERI_PARTIAL_VOLUME)) continue;
                 b = patchwork(&s, quadrature);
-                (void)sprintf(what, "%s patchwork, quadrature %d", space_names[space], (int)quadrature);
+                (void)sprintf(what, "%s patchwork, quadrature %d", space_name[space], (int)quadrature);
                 check_stiffness(b, &s, 0.05 * H, what);
                 peri_body_destroy(b);
             }
@@ -251,7 +251,7 @@ static void product_is_the_difference_of_forces(void) {
                     if (geometry == PERI_LINEAR) CHECK(error[0] < 1e-12 && error[2] < 1e-11);
                     else if (!(error[0] > 1e-7 && error[0] / error[1] > 3.7 && error[0] / error[1] < 4.3 && error[1] / error[2] > 3.9
                                && error[1] / error[2] < 4.1)) {
-                        printf("    %s %s%s: errors %.3g %.3g %.3g\n", space_names[space], law_text(k), broken ? ", cut" : "", error[0],
+                        printf("    %s %s%s: errors %.3g %.3g %.3g\n", space_name[space], law_text(k), broken ? ", cut" : "", error[0],
                                error[1], error[2]);
                         test_bad++;
                     }

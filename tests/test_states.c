@@ -2,7 +2,7 @@
 
    SOURCE OF TRUTH: peri.h: the ranges of the fields, the names of the errors, "a call that fails has changed nothing", "keeps dim + 1
    numbers per bond". */
-#include "test_states.h"
+#include "failure.h"
 
 /* ---- refusals ----------------------------------------------------------------------------------------------------- */
 

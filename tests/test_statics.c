@@ -2,8 +2,8 @@
 
    SOURCE OF TRUTH: rotations strain nothing; the closed form of the uniform deformation of a Saint Venant-Kirchhoff solid; the elastica
    (Bisshop, Drucker 1945) and Euler's load of a clamped column; balance of forces and moments; peri.h for all that it promises. */
-#include "test_solid.h"
-#include "test_static.h"
+#include "solid.h"
+#include "equilibrium.h"
 
 /* Displacements of supports as a map of the reference places, u = h(time) x with h row by row. */
 typedef struct affine {

@@ -3,7 +3,7 @@
    SOURCE OF TRUTH: elastodynamics. Plane waves have the speeds sqrt((lambda + 2 mu)/rho) and sqrt(mu/rho); a strip guides the lowest
    symmetric wave of the Rayleigh-Lamb equation, sqrt(E/rho) where it is thin. On a lattice, the exact dispersion of each law follows
    from its energy by a sum over the family, done here from the formulas of peri.h. */
-#include "test_solid.h"
+#include "solid.h"
 
 enum { LONGITUDINAL, TRANSVERSE, GUIDED };
 

@@ -4,7 +4,7 @@
    SOURCE OF TRUTH: Westergaard's functions, checked below by Navier's equation and by what they give on the crack; Sneddon's ellipse for
    the opening; the trends of [C] tables 7 and 8. [C] table 6 has a crack of 700 mm in 160 m, which no grid of it resolves: here the
    domain is 16 cracks wide. */
-#include "test_study.h"
+#include "study.h"
 
 #define SIDE     160.0 /* [m]                                                                                            */
 #define HALF     5.0   /* half the crack                                                                                  */

@@ -1,8 +1,8 @@
-/* test_states.h - bodies of the state-based laws for the tests of their failure, their states and their memory. */
-#ifndef TEST_STATES_H
-#define TEST_STATES_H
+/* failure.h - bodies of the state-based laws for the tests of their failure, their states and their memory. */
+#ifndef FAILURE_H
+#define FAILURE_H
 
-#include "test_scene.h"
+#include "scene.h"
 
 #define CRITICAL 0.02 /* stretch, where bonds break */
 
@@ -11,10 +11,7 @@ typedef struct kind { /* what is simulated; limit: critical stretch, or fracture
     double  poisson, limit;
 } kind;
 
-static const char *const law_name[5] = {"", "bond-based", "LPS", "Oterkus", "corresp."};
 static const char *const criterion_name[4] = {"", "stretch", "bond energy", "node energy"};
-
-static inline int dim_of(int32_t space) { return space == PERI_SOLID ? 3 : 2; }
 
 /* G0 whose bond-based critical stretch for w = 1 is CRITICAL: limits of all criteria are then of the same size. */
 static inline double toughness(int32_t space) {
@@ -64,22 +61,6 @@ static inline peri_body *box(kind k, int32_t geometry, int nx, int ny, int nz) {
     peri_body_desc d = plan(k.space);
     d.geometry = geometry;
     return make(&d, k, nx, ny, nz);
-}
-
-/* lambda (of the plane), mu; D^2 times `bulk` is the energy density of twice the isotropic unit strain: W = bulk (D s)^2/2. */
-typedef struct moduli {
-    double lambda, mu, bulk, a, b; /* A, B of LPS */
-} moduli;
-
-static inline moduli moduli_of(int32_t space, double nu) {
-    moduli m;
-    int dim = dim_of(space);
-    m.mu = YOUNG / (2 * (1 + nu));
-    m.lambda = space == PERI_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
-    m.bulk = m.lambda + 2 * m.mu / dim;
-    m.a = dim == 3 ? 3 * m.bulk - 5 * m.mu : 2 * m.lambda - 2 * m.mu;
-    m.b = dim == 3 ? 15 * m.mu : 8 * m.mu;
-    return m;
 }
 
 /* Points between the planes x = from and x = to. */

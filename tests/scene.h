@@ -1,6 +1,6 @@
-/* test_scene.h - small bodies for the tests of motion, and the few lines around the calls that they all need. */
-#ifndef TEST_SCENE_H
-#define TEST_SCENE_H
+/* scene.h - small bodies for the tests of motion, and the few lines around the calls that they all need. */
+#ifndef SCENE_H
+#define SCENE_H
 
 #include "specimen.h"
 
@@ -13,6 +13,37 @@
 #define THICK   0.5 /* of the 2D bodies                                                                                   */
 
 static inline double thickness(int32_t space) { return space == PERI_SOLID ? 1.0 : THICK; }
+
+static const char *const law_name[] = {"", "bond-based", "LPS", "Oterkus", "correspondence"};
+static const char *const space_name[] = {"", "plane stress", "plane strain", "solid"};
+
+static inline int dim_of(int32_t space) { return space == PERI_SOLID ? 3 : 2; }
+
+/* Poisson ratio of central springs: 1/3 in plane stress, else 1/4 ([T] 1.2, [P] A). */
+static inline double bond_nu(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
+
+/* Entry (a, b) of a tensor field: xx yy xy, or xx yy zz xy yz xz. */
+static inline int packed(int dim, int a, int b) {
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    return dim == 2 ? (a == b ? a : 2) : place[a][b];
+}
+
+/* Of the solid of modulus YOUNG, in 2D of its plane: W = 1/2 lambda (tr eps)^2 + mu eps:eps, bulk = lambda + 2 mu/D, so that an isotropic
+   strain s has the energy 1/2 bulk (D s)^2; a and b: A, B of LPS (DESIGN section 2). */
+typedef struct moduli {
+    double lambda, mu, bulk, a, b;
+} moduli;
+
+static inline moduli moduli_of(int32_t space, double nu) {
+    const int dim = dim_of(space);
+    moduli m;
+    m.mu = YOUNG / (2 * (1 + nu));
+    m.lambda = space == PERI_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
+    m.bulk = m.lambda + 2 * m.mu / dim;
+    m.a = dim == 3 ? 3 * m.bulk - 5 * m.mu : 2 * m.lambda - 2 * m.mu;
+    m.b = dim == 3 ? 15 * m.mu : 8 * m.mu;
+    return m;
+}
 
 /* Micromodulus for a constant influence function: plane stress and strain [P] C.15, C.18 (per thickness), 3D [T] 1.24. */
 static inline double micromodulus(int32_t space, double young, double horizon) {

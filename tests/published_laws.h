@@ -1,15 +1,13 @@
-/* test_laws.h - bodies of every law for test_laws.c and test_operator.c, and the lattice sums of the published laws that they are held
+/* published_laws.h - bodies of every law for test_laws.c and test_operator.c, and the lattice sums of the published laws that they are held
    against, written from the texts: peri.h (laws, influence functions), DESIGN section 2 (A, B), [C] eqs. 8-17 (Oterkus). */
-#ifndef TEST_LAWS_H
-#define TEST_LAWS_H
+#ifndef PUBLISHED_LAWS_H
+#define PUBLISHED_LAWS_H
 
-#include "test_scene.h"
+#include "scene.h"
 
 #define LAWS 4
 
 static const int32_t models[LAWS] = {PERI_BOND_BASED, PERI_LPS, PERI_OTERKUS, PERI_CORRESPONDENCE};
-static const char *const model_names[] = {"", "bond-based", "LPS", "Oterkus", "correspondence"};
-static const char *const space_names[] = {"", "plane stress", "plane strain", "solid"};
 
 typedef struct scene {
     int32_t space, geometry, influence, correction, precision;
@@ -27,26 +25,17 @@ static inline scene scene_of(int32_t space, int32_t geometry, int32_t influence,
     return s;
 }
 
-static inline int dim_of(int32_t space) { return space == PERI_SOLID ? 3 : 2; }
-
 static inline peri_body *scene_body(const scene *s) {
-    peri_body_desc d;
+    specimen p = specimen_of(s->space, PERI_BOND_BASED, 0, H, s->reach, 1, 1, 1);
     peri_body *b = NULL;
-    peri_body_desc_init(&d);
-    d.space = s->space;
-    d.precision = s->precision;
-    d.geometry = s->geometry;
-    d.influence = s->influence;
-    d.correction = s->correction;
-    d.horizon = s->reach * H;
-    d.threads = 1;
-    if (s->space != PERI_SOLID) d.thickness = THICK;
-    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
+    p.desc.precision = s->precision;
+    p.desc.geometry = s->geometry;
+    p.desc.influence = s->influence;
+    p.desc.correction = s->correction;
+    p.desc.thickness = thickness(s->space);
+    (void)MUST(NULL, peri_body_create(&p.desc, &b, NULL));
     return b;
 }
-
-/* Poisson ratio of central springs: 1/3 in plane stress, else 1/4 ([T] 1.2, [P] A). */
-static inline double bond_nu(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
 
 /* An unbreakable material; nu is not used where it is bond-based, `stable` < 0 leaves the default of the stabilization. */
 static inline int32_t add_law(peri_body *b, int32_t model, double nu, double stable) {
@@ -57,20 +46,6 @@ static inline int32_t add_law(peri_body *b, int32_t model, double nu, double sta
     if (model != PERI_BOND_BASED) m.poisson = nu;
     if (stable >= 0) m.stabilization = stable;
     return (int32_t)MUST(b, peri_add_material(b, &m));
-}
-
-/* ---- the solid ---------------------------------------------------------------------------------------------------- */
-
-typedef struct moduli {
-    double lambda, mu, bulk; /* of the plane in 2D: W = 1/2 lambda tr^2 + mu eps:eps; bulk = lambda + 2 mu/D */
-} moduli;
-
-static inline moduli moduli_of(int32_t space, double nu) {
-    moduli m;
-    m.mu = YOUNG / (2 * (1 + nu));
-    m.lambda = space == PERI_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
-    m.bulk = m.lambda + 2 * m.mu / dim_of(space);
-    return m;
 }
 
 /* ---- the family of a lattice point -------------------------------------------------------------------------------- */
@@ -213,8 +188,7 @@ static inline void stiffness_of_law(const scene *s, const sums *o, int32_t model
     if (model == PERI_CORRESPONDENCE || s->correction == PERI_MOMENT_CORRECTION) {
         stiffness_of_solid(dim, e, out);
     } else if (model == PERI_LPS) {
-        double a = dim == 3 ? 3 * e.bulk - 5 * e.mu : 2 * e.lambda - 2 * e.mu, b = dim == 3 ? 15 * e.mu : 8 * e.mu;
-        stiffness_of_sums(dim, a * dim / (o->m * o->m), (double(*)[3])o->t, b / o->m, &o->q, out);
+        stiffness_of_sums(dim, e.a * dim / (o->m * o->m), (double(*)[3])o->t, e.b / o->m, &o->q, out);
     } else if (model == PERI_OTERKUS) {
         int none_to_shear = dim * (dim + 2) * o->shear < 0.2 * o->m;
         double b = none_to_shear ? dim * (dim + 2) * e.mu / (2 * o->m) : e.mu / (2 * o->shear);
@@ -242,12 +216,6 @@ static inline void contract(int dim, const tensor4 *t, double eps[3][3], double 
 
 static inline double largest_entry(const tensor4 *t) {
     return largest(&t->c[0][0][0][0], 81);
-}
-
-/* Entry (a, b) of a tensor field: xx yy xy, or xx yy zz xy yz xz. */
-static inline int packed(int dim, int a, int b) {
-    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    return dim == 2 ? (a == b ? a : 2) : place[a][b];
 }
 
 /* ---- uniform deformation ------------------------------------------------------------------------------------------- */

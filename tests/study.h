@@ -1,9 +1,9 @@
-/* test_study.h - what the two parts of the convergence study [C] share: square lattices of any law, one linear solve, the order of a
+/* study.h - what the two parts of the convergence study [C] share: square lattices of any law, one linear solve, the order of a
    series of errors. */
-#ifndef TEST_STUDY_H
-#define TEST_STUDY_H
+#ifndef STUDY_H
+#define STUDY_H
 
-#include "test_scene.h"
+#include "scene.h"
 
 enum { CONST, INV, LINEAR, QUADR, CUBIC, SHAPES }; /* the influence functions of [C] table 2 */
 static const int32_t study_influence[SHAPES] = {PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_INVERSE, PERI_INFLUENCE_LINEAR,

@@ -1,9 +1,9 @@
-/* test_static.h - what the tests of statics share: a solve in one line, the assembled stiffness as a dense matrix, its factorisation, and
+/* equilibrium.h - what the tests of statics share: a solve in one line, the assembled stiffness as a dense matrix, its factorisation, and
    equilibria found with that alone. */
-#ifndef TEST_STATIC_H
-#define TEST_STATIC_H
+#ifndef EQUILIBRIUM_H
+#define EQUILIBRIUM_H
 
-#include "test_scene.h"
+#include "scene.h"
 
 static inline peri_statics statics_of(double tolerance) {
     peri_statics s;

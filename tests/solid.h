@@ -1,20 +1,16 @@
-/* test_solid.h - a body of any law in a few lines, and the solid that it stands for: its moduli, energy and stress. */
-#ifndef TEST_SOLID_H
-#define TEST_SOLID_H
+/* solid.h - a body of any law in a few lines, and the solid that it stands for: its moduli, energy and stress. */
+#ifndef SOLID_H
+#define SOLID_H
 
-#include "test_scene.h"
+#include "scene.h"
 
 typedef struct solid {
     int32_t space, model, correction, geometry, precision, influence, quadrature;
     double  nu, stabilization, ratio, spacing; /* stabilization < 0: the default; ratio = horizon/spacing                   */
 } solid;
 
-static const char *const law_name[] = {"", "bond-based", "LPS", "Oterkus", "correspondence"};
 static const char *const correction_name[] = {"", "none", "volume", "energy", "moment"};
-static const char *const space_name[] = {"", "plane stress", "plane strain", "solid"};
 
-static inline double fixed_nu(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
-static inline int dim_of(int32_t space) { return space == PERI_SOLID ? 3 : 2; }
 static inline int parts_of(int dim) { return dim == 3 ? 6 : 3; }
 
 /* Small strains, double, full volumes, constant influence, horizon 3; Poisson ratio 0.3 where the law lets one choose. */
@@ -27,7 +23,7 @@ static inline solid solid_of(int32_t space, int32_t model, int32_t correction) {
     s.precision = PERI_F64;
     s.influence = PERI_INFLUENCE_CONSTANT;
     s.quadrature = PERI_FULL_VOLUME;
-    s.nu = model == PERI_BOND_BASED ? fixed_nu(space) : 0.3;
+    s.nu = model == PERI_BOND_BASED ? bond_nu(space) : 0.3;
     s.stabilization = -1;
     s.ratio = 3;
     s.spacing = H;
@@ -36,34 +32,28 @@ static inline solid solid_of(int32_t space, int32_t model, int32_t correction) {
 
 /* Lame's constants such that sigma = lambda tr(eps) + 2 mu eps with the in-plane strains (plane stress: lambda' of E, nu). */
 static inline void lame(int32_t space, double nu, double *lambda, double *mu) {
-    *mu = YOUNG / (2 * (1 + nu));
-    *lambda = space == PERI_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
-}
-
-/* Place of component (a, c) in a field of tensors: xx yy xy, xx yy zz xy yz xz. */
-static inline int packed(int dim, int a, int c) {
-    if (a == c) return a;
-    if (dim == 2) return 2;
-    return a + c == 1 ? 3 : a + c == 3 ? 4 : 5;
+    const moduli e = moduli_of(space, nu);
+    *lambda = e.lambda;
+    *mu = e.mu;
 }
 
 /* W = 1/2 lambda (tr eps)^2 + mu eps:eps, and sigma. eps packed. */
 static inline double solid_energy(const solid *s, const double *eps) {
-    double lambda, mu, trace = 0, norm = 0;
+    const moduli e = moduli_of(s->space, s->nu);
+    double trace = 0, norm = 0;
     int dim = dim_of(s->space), k;
-    lame(s->space, s->nu, &lambda, &mu);
     for (k = 0; k < parts_of(dim); ++k) {
         if (k < dim) trace += eps[k];
         norm += (k < dim ? 1 : 2) * eps[k] * eps[k];
     }
-    return 0.5 * lambda * trace * trace + mu * norm;
+    return 0.5 * e.lambda * trace * trace + e.mu * norm;
 }
 static inline void solid_stress(const solid *s, const double *eps, double *sigma) {
-    double lambda, mu, trace = 0;
+    const moduli e = moduli_of(s->space, s->nu);
+    double trace = 0;
     int dim = dim_of(s->space), k;
-    lame(s->space, s->nu, &lambda, &mu);
     for (k = 0; k < dim; ++k) trace += eps[k];
-    for (k = 0; k < parts_of(dim); ++k) sigma[k] = 2 * mu * eps[k] + (k < dim ? lambda * trace : 0);
+    for (k = 0; k < parts_of(dim); ++k) sigma[k] = 2 * e.mu * eps[k] + (k < dim ? e.lambda * trace : 0);
 }
 
 /* A block of nx x ny (x nz) cells with a corner at the origin. */

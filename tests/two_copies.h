@@ -1,12 +1,12 @@
-/* static_scene.h - the scene that static_a.c and static_b.c each run with their own copy of the library: a square, half of it
+/* two_copies.h - the scene that static_a.c and static_b.c each run with their own copy of the library: a square, half of it
    thrown to the right, so that it stretches and rings. Returns the momentum in x: half the points at 0.5, mass 0.64*0.5*2. */
-#ifndef STATIC_SCENE_H
-#define STATIC_SCENE_H
+#ifndef TWO_COPIES_H
+#define TWO_COPIES_H
 
 #include <math.h>
 #include <stdio.h>
 
-static double static_scene_run(double *displacement, int32_t count) {
+static double two_copies_run(double *displacement, int32_t count) {
     const double lo[2] = {0, 0}, hi[2] = {0.8, 0.8}, middle[2] = {0.4, 0.8}, v[2] = {0.5, 0};
     double momentum[2] = {0, 0};
     peri_body_desc d;

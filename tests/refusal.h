@@ -1,8 +1,8 @@
-/* test_refuse.h - calls that must fail: the code, the whole record, and which codes were seen. */
-#ifndef TEST_REFUSE_H
-#define TEST_REFUSE_H
+/* refusal.h - calls that must fail: the code, the whole record, and which codes were seen. */
+#ifndef REFUSAL_H
+#define REFUSAL_H
 
-#include "test_scene.h"
+#include "scene.h"
 
 static int reached[64]; /* by code + 32 */
 static peri_error seen; /* the record of the last refusal */

@@ -1,15 +1,15 @@
-/* test_task.h - small bodies of every law, held, moved and blown at, with the equilibrium that a dense factorisation finds: for
+/* held_body.h - small bodies of every law, held, moved and blown at, with the equilibrium that a dense factorisation finds: for
    test_solvers.c and test_methods.c. */
-#ifndef TEST_TASK_H
-#define TEST_TASK_H
+#ifndef HELD_BODY_H
+#define HELD_BODY_H
 
-#include "test_laws.h"
-#include "test_static.h"
+#include "published_laws.h"
+#include "equilibrium.h"
 
 #define ALL_LAWS 5 /* models[], and the four side by side */
 
 static inline int32_t law_of(int k) { return k < LAWS ? models[k] : 0; }
-static inline const char *law_text(int k) { return k < LAWS ? model_names[models[k]] : "mixed"; }
+static inline const char *law_text(int k) { return k < LAWS ? law_name[models[k]] : "mixed"; }
 
 /* A random body force on all points, from the numbers in user; in statics `time` is the load factor. */
 typedef struct wind {

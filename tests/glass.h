@@ -1,12 +1,12 @@
-/* test_glass.h - crack branching in a glass plate, the benchmark of [P] (PDMATLAB2D): its numbers, an independent textbook
+/* glass.h - crack branching in a glass plate, the benchmark of [P] (PDMATLAB2D): its numbers, an independent textbook
    program for it, and the same scene built through the library.
 
    The scene: (-0.05, 0.05) x (-0.02, 0.02) m, 300 x 120 cells, points at centres, whole cells, constant influence, horizon 3
    cells = 1 mm, plane stress, E = 72 GPa, rho = 2440, G0 = 3.8, notch from the left edge to the centre at mid-height, +-2 MPa
    on the outermost rows as body force stress/cell from t = 0, bonds with an end at |y| > 0.02 - horizon do not fail, steps of
    67 ns to 43 us (642 steps), bonds break after the drift. With 150 x 60 cells everything is doubled but the plate. */
-#ifndef TEST_GLASS_H
-#define TEST_GLASS_H
+#ifndef GLASS_H
+#define GLASS_H
 
 #include "peri_test.h"
 

@@ -1,7 +1,7 @@
-/* test_overlap.h - areas of rectangles in disks, by Gauss's rule over chords: for the tests of quadrature, and on purpose by
+/* disk_area.h - areas of rectangles in disks, by Gauss's rule over chords: for the tests of quadrature, and on purpose by
    another method than the library's closed forms. */
-#ifndef TEST_OVERLAP_H
-#define TEST_OVERLAP_H
+#ifndef DISK_AREA_H
+#define DISK_AREA_H
 
 #include <math.h>
 
