@@ -2,7 +2,7 @@
 
    SOURCE OF TRUTH: peri.h: every number below a PERI_..._COUNT_ is a choice, the count itself is none. A field does not depend on what was
    in the caller's buffer. The moments of an influence function are those of the forces that it makes: [P] C.18, c I_2 = 3E/(pi h^3). */
-#include "test_scene.h"
+#include "scene.h"
 
 #define UNWRITTEN 6.02214076e123
 
