@@ -66,7 +66,7 @@
                      "fp-contract=off")
 #endif
 
-/* PERI_KERNELS: the texts of the kernels on columns and on the list that are compiled (k_vector.inl): 1 plain C99, one lane at a time;
+/* PERI_KERNELS: the texts of the kernels on columns and on the list that are compiled (vector.inl): 1 plain C99, one lane at a time;
    2 the vectors of gcc and clang, 16 bytes; 3 on x86-64 SSE2, AVX2 and AVX-512, of which the best is chosen at run time, elsewhere as 2.
    1 is for builds without optimisation, which would take a minute, and with gcc's address sanitizer, minutes; and all that other
    compilers can. Products and sums stay apart (no contraction), so that every text gives the same bits. gcc gets its options here, whatever
