@@ -63,7 +63,7 @@ if command -v tcc > /dev/null; then
 else
     skip tcc "no tcc on this machine"
 fi
-queue_programs build/tests "" $longest $others
+queue_programs build/tests "" $longest $shorter
 run_queue
 
 # ---- the same bits, whatever the vectors and the compiler

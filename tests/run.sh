@@ -106,13 +106,13 @@ can_sanitize() { echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o buil
 rm -rf build/queue
 mkdir -p build/queue build/checks build/san out
 longest="extremes test_kernels test_programs test_choose test_direction test_failure test_branching test_random"
-others=$(basename -s .c tests/test_*.c)
-for name in $longest; do others=$(printf '%s\n' $others | grep -v -x "$name"); done
+shorter=$(basename -s .c tests/test_*.c)
+for name in $longest; do shorter=$(printf '%s\n' $shorter | grep -v -x "$name"); done
 
 if [ -z "$long" ]; then
     . tests/checks.sh
 else
-    programs build/tests "" $longest $others
+    programs build/tests "" $longest $shorter
     if can_sanitize; then
         check sanitized_library $CC $STRICT $SANITIZE -c peri_impl.c -o build/san/serial.o
         check sanitized_extremes_build $CC $STRICT $SANITIZE -DLONGEST=200.0 -I. tests/extremes/*.c build/san/serial.o \

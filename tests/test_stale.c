@@ -3,7 +3,7 @@
    Two sources of truth. (1) A body that nobody has read: what a body says after a change has the same bits whether or not it was read
    before, through a clone or not, from a frame or not. (2) A body built anew: of families without the bonds that are gone, with the
    displacement and velocity written into it; it has no past that it could forget to bring up to date. */
-#include "test_scene.h"
+#include "scene.h"
 
 #define NX    11
 #define NY    7
