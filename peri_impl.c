@@ -24,6 +24,7 @@
 #include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
 #include "src/base/inline.h"       /* what is small and used everywhere                                            */
 #include "src/laws/law.h"          /* what laws differ in, and the list of them                                    */
+#include "src/laws/criteria.h"     /* when bonds break, and the list of criteria                              */
 #include "src/base/base.c"         /* the instruction set, constants, small arithmetic                             */
 #include "src/base/text.c"         /* numbers to text                                                              */
 #include "src/base/real.c"         /* access to reals of either precision                                          */

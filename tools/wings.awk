@@ -1,8 +1,10 @@
 # wings.awk - no arrow upwards between the folders of src/: `awk -f tools/wings.awk peri_impl.c src/*/*`. The order of the folders is that
 # of their first parts in peri_impl.c, headers aside, which may be read earlier. A function, variable, macro, type or constant that a
 # folder defines may be used in that folder and in those after it. A name that several folders define belongs to the first of them,
-# prototypes aside: they define nothing. Names that macros make (PERI_FN of the kernels) are not followed.
-# Also counts where laws are told apart by name or flag outside src/laws; -v laws=refuse names each place and fails.
+# prototypes aside: they define nothing. Names that macros make (PERI_FN of the kernels) are not followed, and macros that an .inl text
+# takes from those that include it are its parameters.
+# Also counts where laws are told apart by name or flag outside src/laws (a name as data tells nothing apart); -v laws=refuse names each
+# place and fails.
 
 # The line without comments and without the insides of strings; in_comment goes on from line to line.
 function stripped(line, out, at) {
@@ -112,7 +114,7 @@ END {
     for (k = 1; k <= count; k++) {
         line = text[k]
         if (from[k] != "src/laws")
-            while (match(line, /(PERI_(BOND_BASED|LPS|OTERKUS|CORRESPONDENCE)|(->|\.)(ordinary|tensors|dilates|states))([^A-Za-z0-9_]|$)/)) {
+            while (match(line, /((([=!]=|[<>]=?|case) *)PERI_(BOND_BASED|LPS|OTERKUS|CORRESPONDENCE)|PERI_(BOND_BASED|LPS|OTERKUS|CORRESPONDENCE) *([=!]=|[<>])|(->|\.)(ordinary|tensors|dilates|states))([^A-Za-z0-9_]|$)/)) {
                 told++
                 if (laws == "refuse") print "lint: " where[k] ": a law by name: " substr(line, RSTART, RLENGTH)
                 line = substr(line, RSTART + RLENGTH)
@@ -121,6 +123,7 @@ END {
         while (match(line, /(peri|PERI)_[A-Za-z0-9_]+/)) {
             name = substr(line, RSTART, RLENGTH)
             line = substr(line, RSTART + RLENGTH)
+            if (name ~ /^PERI_/ && where[k] ~ /\.inl:/) continue
             if ((name in home) && rank[home[name]] > rank[from[k]]) {
                 print "lint: " where[k] ": arrow up: " name " belongs to " home[name]
                 bad = 1

@@ -153,7 +153,7 @@ static void peri__open_candidate(peri__candidate *c, const peri__recipe *r, cons
     c->body.correction = r->correction;
     c->material = *material;
     c->material.model = r->model;
-    c->material.poisson = r->model == PERI_BOND_BASED ? (double)NAN : peri__poisson(material, body->space);
+    c->material.poisson = peri__is_pairwise(r->model) ? (double)NAN : peri__poisson(material, body->space);
     c->material.stabilization = r->stabilization;
     peri_plan_desc_init(&c->plan);
     memcpy(c->plan.lo, goal->lo, sizeof goal->lo);
@@ -196,7 +196,7 @@ static double peri__allowed_resolution(peri__candidate *c, const peri_goal *goal
 
 static int peri__recipe_serves(const peri__recipe *r, const peri_body_desc *body, const peri_material *material) {
     if (peri__without_precision(r->precision)) return 0;
-    if (r->model != PERI_BOND_BASED) return 1;
+    if (!peri__is_pairwise(r->model)) return 1;
     return fabs(peri__poisson(material, body->space) - peri__bond_poisson(body->space)) <= 1e-9 &&
            material->criterion == PERI_CRITERION_STRETCH;
 }

@@ -72,7 +72,7 @@ static int32_t peri__lay_sketch(peri__sketch *s) {
     peri__clear_parts(&s->parts);
     int32_t status = peri__fill_units(b, m);
     if (status == PERI_OK) status = peri__constants(b, material, m->stress, m->length, s->cloud.edge, &s->pair);
-    m->breakable = s->pair.s0 < PERI_NEVER || s->pair.bond_energy < PERI_NEVER || s->pair.node_energy < PERI_NEVER;
+    m->breakable = peri__is_breakable(&s->pair);
     return status;
 }
 
@@ -173,7 +173,7 @@ static void peri__mark_lanes(peri__sketch *s, void *there) {
     l->begin = l->first = (int64_t *)there;
     l->column = (peri__column *)there;
     l->table = (peri__stencil_bond *)there;
-    l->ends = s->model.works ? (peri__stencil_ends *)there : NULL;
+    l->ends = s->model.keeps & PERI__KEEPS_WORK ? (peri__stencil_ends *)there : NULL;
 }
 
 /* Marks what peri__new_state takes. */

@@ -60,10 +60,22 @@ typedef struct peri__setup {
     int32_t      ibond_width;
 } peri__setup;
 
+typedef enum peri__keep { /* what bodies keep for criteria, and kernels bring up to date                                   */
+    PERI__KEEPS_NOTHING = 0,
+    PERI__KEEPS_WORK = 1,       /* the work done on every bond                                                           */
+    PERI__KEEPS_NODE_ENERGY = 2 /* the energy of every point over the volume of its family                               */
+} peri__keep;
+
 typedef struct peri__pair { /* constants of the bonds between two materials, in inner units                               */
-    double c, s0; /* c: of the end whose row this is; the same from both where both are bond-based                       */
-    double bond_energy, node_energy; /* w0 of the energy criteria; PERI_NEVER where neither material has them            */
+    double c; /* of the end whose row this is; the same from both where both laws are pairwise                           */
+    double limit[PERI_CRITERION_COUNT_]; /* by criterion; PERI_NEVER where neither material has it                       */
 } peri__pair;
+
+typedef enum peri__gather { /* what a point makes of its family before forces can be had                                  */
+    PERI__NO_GATHER = 0,
+    PERI__DILATATION = 1,
+    PERI__GRADIENT = 2
+} peri__gather;
 
 typedef struct peri__law { /* the elasticity of a material, inner units                                                   */
     int32_t model;
@@ -164,8 +176,7 @@ typedef struct peri__model {
     int32_t    mixed;    /* 1 where laws in use differ                                                                   */
     int32_t    gauge;    /* of laws that do not                                                                          */
     int32_t    gathers;  /* bits of peri__gather: what some law in use asks for                                          */
-    int32_t    works;   /* 1 where some bond breaks by its energy                                                        */
-    int32_t    nodes;   /* 1 where some bond breaks by the energy of its ends                                            */
+    int32_t    keeps;   /* bits of peri__keep: what criteria in use ask for                                              */
     peri__law  laws[PERI_MATERIAL_LIMIT];
     double     rho[PERI_MATERIAL_LIMIT];
     int32_t    breakable; /* 1 where some pair has a finite s0                                                           */
@@ -430,7 +441,7 @@ struct peri_body {
     void     *work;          /* real work done on bonds, by peri__bond_slot; NULL, like the next, without that criterion   */
     void     *pull;          /* real force density of bonds when last worked out: on the list [entries][dim], on columns [columns][dim]
                                 [PERI_LANES]                                                                             */
-    void     *worked;        /* real [dim][stride] displacement then                                                     */
+    void     *worked;        /* real [dim][stride] displacement then, with a margin before and after                     */
     void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u,    */
     void     *change_f;      /* of the force, both laid out as u with its margins,                                         */
     void     *change_response; /* and of the response                                                                     */

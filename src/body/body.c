@@ -138,8 +138,7 @@ static void peri__release_model(const peri_body *b, peri__model *m) {
 
 /* What a material that is used asks of the body. */
 static void peri__note_law(peri__model *m, const peri__law *law, int32_t criterion) {
-    if (criterion == PERI_CRITERION_BOND_ENERGY) m->works = 1;
-    if (criterion == PERI_CRITERION_NODE_ENERGY) m->nodes = 1;
+    m->keeps |= peri__keeps(criterion);
     if (m->law != 0 && m->law != law->model) m->mixed = 1;
     m->pairwise = law->pairwise && (m->law == 0 || m->pairwise);
     m->gathers |= law->gather;
@@ -187,7 +186,7 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
             peri__pair *pair = &m->pairs[i * n + j];
             status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, own, pair);
             if (status < 0) return status;
-            if (pair->s0 < PERI_NEVER || pair->bond_energy < PERI_NEVER || pair->node_energy < PERI_NEVER) m->breakable = 1;
+            if (peri__is_breakable(pair)) m->breakable = 1;
         }
     return PERI_OK;
 }
@@ -228,7 +227,7 @@ static int64_t peri__stride(int64_t points) { return ((points + PERI_LANES - 1) 
 static void peri__fit_model(const peri_body *b, peri__model *m) {
     m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
     m->words = (m->width + 31) / 32;
-    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed && !m->works && !m->nodes)
+    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed && !m->keeps)
         m->slots = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
 }
 
@@ -381,7 +380,7 @@ static int32_t peri__update_classes(peri_body *b) {
         for (int32_t q = 0; q < b->classes; ++q) {
             peri__pair *pair = &b->pairs[p * b->classes + q];
             *pair = m->pairs[p % n * n + q % n];
-            if (p >= n || q >= n) pair->s0 = pair->bond_energy = pair->node_energy = PERI_NEVER;
+            for (int32_t k = 0; (p >= n || q >= n) && k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = PERI_NEVER;
         }
     for (int64_t i = 0; b->cls && i < m->points; ++i)
         b->cls[i] = (uint8_t)(m->material[i] + (b->no_fail && b->no_fail[i] ? n : 0));

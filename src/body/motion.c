@@ -54,7 +54,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
     if (b->work) {
         memset(b->work, 0, (size_t)peri__bond_slots(m) * peri__real(b));
         memset(b->pull, 0, (size_t)(peri__bond_slots(m) * m->dim) * peri__real(b));
-        memset(b->worked, 0, vector);
+        memset(b->worked, 0, (size_t)peri__vector_reals(m) * peri__real(b));
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);

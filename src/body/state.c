@@ -26,7 +26,7 @@ static peri__step peri__no_step(const peri_body *b) {
     s.central = b->central;
     s.work = b->work;
     s.pull = b->pull;
-    s.worked = b->worked;
+    if (b->worked) s.worked = (const char *)b->worked + (size_t)m->margin * peri__real(b);
     s.node = b->node;
     s.linear = b->desc.geometry == PERI_LINEAR;
     return s;
@@ -42,7 +42,7 @@ static double peri__kinetic_energy(peri_body *b) {
 static double peri__most_node_energy(const peri__step *s) {
     double most = 0.0;
     for (int64_t i = 0; i < s->model->points; ++i)
-        if (s->node[i] > most && peri__least_node_energy(s, i) < PERI_NEVER) most = s->node[i];
+        if (s->node[i] > most && peri__least_limit(s, i, PERI_CRITERION_NODE_ENERGY) < PERI_NEVER) most = s->node[i];
     return most;
 }
 
@@ -63,7 +63,7 @@ static void peri__sum_bonds(const peri_body *b, peri__step *step, peri__sums *su
 static void peri__bond_forces(peri_body *b, peri__step *step) {
     const peri__model *m = b->model;
     peri__sum_bonds(b, step, b->sums);
-    if (step->working) memcpy(b->worked, b->u, (size_t)(m->stride * m->dim) * peri__real(b));
+    if (step->working) memcpy((char *)b->worked + (size_t)m->margin * peri__real(b), b->u, (size_t)(m->stride * m->dim) * peri__real(b));
 }
 
 /* Energy of the intact bonds under the displacements u, laid out as b->u; per point to density[points] where it is not NULL. */

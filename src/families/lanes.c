@@ -397,7 +397,7 @@ static void peri__fill_ends(const peri__model *m, const peri__vector *row, peri_
     if (m->laws[own].pairwise) spring[0] = peri__quotient(m->b32, 0.5 * m->pairs[row->key[5]].c, row->length);
     if (m->laws[other].pairwise) spring[1] = peri__quotient(m->b32, 0.5 * m->pairs[other * m->materials + own].c, row->length);
     ends->spring = m->b32 ? (double)((float)spring[0] + (float)spring[1]) : spring[0] + spring[1]; /* as the rows add them */
-    ends->energy = m->pairs[row->key[5]].bond_energy * row->bond.share;
+    ends->energy = m->pairs[row->key[5]].limit[PERI_CRITERION_BOND_ENERGY] * row->bond.share;
 }
 
 static int32_t peri__keep_lanes(peri__draft *d) {
@@ -408,8 +408,9 @@ static int32_t peri__keep_lanes(peri__draft *d) {
     l->vectors = d->count;
     l->column = (peri__column *)peri__copy(&m->memory, d->column, l->kept, sizeof *l->column);
     l->table = (peri__stencil_bond *)peri__new(&m->memory, l->vectors, sizeof *l->table);
-    if (m->mixed || m->works) l->ends = (peri__stencil_ends *)peri__new(&m->memory, l->vectors, sizeof *l->ends);
-    if (!l->column || !l->table || (!l->ends && (m->mixed || m->works))) return PERI_ERROR_MEMORY;
+    const int ends = m->mixed || m->keeps & PERI__KEEPS_WORK;
+    if (ends) l->ends = (peri__stencil_ends *)peri__new(&m->memory, l->vectors, sizeof *l->ends);
+    if (!l->column || !l->table || (!l->ends && ends)) return PERI_ERROR_MEMORY;
     for (int32_t k = 0; k < l->vectors; ++k) {
         const peri__vector *row = &d->row[k];
         peri__stencil_bond *entry = &l->table[k];
@@ -419,7 +420,7 @@ static int32_t peri__keep_lanes(peri__draft *d) {
         entry->share = row->bond.share;
         entry->inverse = m->b32 ? (double)(1 / (float)row->length) : 1 / row->length; /* as the rows take it */
         entry->c = m->pairs[row->key[5]].c;
-        entry->s0 = m->pairs[row->key[5]].s0;
+        entry->s0 = m->pairs[row->key[5]].limit[PERI_CRITERION_STRETCH];
         if (l->ends) peri__fill_ends(m, row, &l->ends[k]);
     }
     for (int64_t c = 0; c < l->kept; ++c)

@@ -95,7 +95,7 @@ static uint32_t PERI_FN(near_node_energy)(const peri__step *o, int64_t g) {
     uint32_t near = 0;
     for (int l = 0; l < PERI_LANES && g * PERI_LANES + l < m->points; ++l) {
         const int64_t i = g * PERI_LANES + l;
-        near |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > peri__least_node_energy(o, i)) << l;
+        near |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY)) << l;
     }
     return near;
 }

@@ -86,22 +86,21 @@ static int PERI_FN(is_over_for_other)(const peri__step *s, int64_t i, int64_t j,
     return bond.along > s0 * bond.length * bond.reach;
 }
 
-/* Does bond k of row i meet a criterion? `plain`: there is only the critical stretch. */
+#define PERI_CRITERION_ROLE_OVER
+#include "../laws/stretch.inl"
+#include "../laws/bond_energy.inl"
+#include "../laws/node_energy.inl"
+#undef PERI_CRITERION_ROLE_OVER
+
+/* Does bond k of row i meet a criterion? `plain`: there is only the critical stretch, and no centroids. */
 PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                  const int plain) {
-    const peri__model *m = s->model;
-    const int64_t j = row->ids[k];
-    const peri__pair *pair = PERI_FN(pair)(s, i, j);
-    int over;
-    if (plain) return bond->along > (peri_b)pair->s0 * bond->length * bond->reach;
-    if (m->centroid && j < i) over = PERI_FN(is_over_for_other)(s, i, j, (peri_b)pair->s0);
-    else over = bond->along > (peri_b)pair->s0 * bond->length * bond->reach;
-    if (!(bond->along > 0)) return over;
-    if (s->work) {
-        const double share = row->part ? (double)row->part[k] : m->volume[j];
-        over |= (double)((const peri_r *)s->work)[peri__bond_slot(m, i, row, k)] > pair->bond_energy * share;
-    }
-    if (s->node) over |= 0.5 * (s->node[i] + s->node[j]) > pair->node_energy;
+    int over = 0;
+    if (plain)
+        return bond->along > (peri_b)PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_STRETCH] * bond->length * bond->reach;
+#define PERI_CASE(name, number) over |= PERI_FN(over_##name)(s, i, row, k, bond);
+    PERI_CRITERION_LIST(PERI_CASE)
+#undef PERI_CASE
     return over;
 }
 

@@ -11,12 +11,6 @@
 #ifndef PERI_LAW_H
 #define PERI_LAW_H
 
-typedef enum peri__gather { /* what a point makes of its family before forces can be had                                  */
-    PERI__NO_GATHER = 0,
-    PERI__DILATATION = 1,
-    PERI__GRADIENT = 2
-} peri__gather;
-
 #define PERI_LAW_ROLE_TRAITS
 #include "bond_based.inl"
 #include "lps.inl"

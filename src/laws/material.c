@@ -42,6 +42,13 @@ static void peri__set_traits(peri__law *law, int32_t model) {
     }
 }
 
+static int peri__is_pairwise(int32_t model) {
+    peri__law law;
+    law.a = 0.0;
+    peri__set_traits(&law, model);
+    return law.pairwise;
+}
+
 /* The elasticity of a material in units of stress. A vanishes to the last bit at the Poisson ratio of a bond-based material. */
 static peri__law peri__law_of(const peri_material *m, int32_t space, double stress) {
     peri__law law;
@@ -87,11 +94,52 @@ static int32_t peri__fill_units(peri_body *b, peri__model *m) {
     return PERI_OK;
 }
 
-/* Energy criteria: the work w0 on a bond such that all bonds across a unit of area take G0 ([T] 1.100; in 3D the same integral over
-   the ball: G0 = w0 int_0^h dz int_z^h 2 pi r^2 (1 - z/r) dr = w0 pi h^4/4). Per unit thickness in 2D. */
+/* w0 of the energy criteria, see bond_energy.inl. Per unit thickness in 2D. */
 static double peri__critical_energy(const peri_material *m, int32_t space, double horizon) {
     double h3 = horizon * horizon * horizon;
     return space == PERI_SOLID ? 4.0 * m->fracture_energy / (PERI_PI * h3 * horizon) : 1.5 * m->fracture_energy / h3;
+}
+
+typedef struct peri__fracture { /* what limits follow from                                                                */
+    const peri_material *material;
+    int32_t space;
+    double  horizon; /* inner units                                                                                      */
+    double  unit;    /* of energy per area                                                                               */
+    double  energy;  /* G0, inner units                                                                                  */
+    double  c;       /* of a pairwise law with the same central bonds                                                    */
+    double  moment;  /* of the influence function: I4 in 3D, I3 in the plane, see peri__constants                        */
+} peri__fracture;
+
+#define PERI_CRITERION_ROLE_LIMIT
+#include "stretch.inl"
+#include "bond_energy.inl"
+#include "node_energy.inl"
+#undef PERI_CRITERION_ROLE_LIMIT
+
+static double peri__limit_of(const peri__fracture *fracture) {
+    switch (fracture->material->criterion) {
+#define PERI_CASE(name, number) case number: return peri__limit_##name(fracture);
+        PERI_CRITERION_LIST(PERI_CASE)
+#undef PERI_CASE
+    default: return PERI_NEVER;
+    }
+}
+
+/* What the criterion of a material asks the body to keep. */
+static int32_t peri__keeps(int32_t criterion) {
+    switch (criterion) {
+#define PERI_CASE(name, number) case number: return PERI__KEEPS_##name;
+        PERI_CRITERION_LIST(PERI_CASE)
+#undef PERI_CASE
+    default: return PERI__KEEPS_NOTHING;
+    }
+}
+
+/* Can bonds of this pair break? */
+static int peri__is_breakable(const peri__pair *pair) {
+    int breakable = 0;
+    for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) breakable |= pair->limit[k] < PERI_NEVER;
+    return breakable;
 }
 
 /* What only some models can have. */
@@ -172,7 +220,7 @@ static int32_t peri__constants(peri_body *b, const peri_material *m, double stre
     int32_t space = b->desc.space, states = m->model != PERI_BOND_BASED;
     int solid = space == PERI_SOLID, stretch = m->criterion == PERI_CRITERION_STRETCH;
     double h = b->desc.horizon / length, modulus = peri__young(m, space) / stress, ic = 1.0, is = 1.0;
-    pair->s0 = pair->bond_energy = pair->node_energy = PERI_NEVER;
+    for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = PERI_NEVER;
     pair->c = 0.0;
     if (!states || (stretch && m->fracture_energy > 0.0)) {
         if (!peri__moment(&b->desc, (solid ? 3 : 2) + states, edge, &ic) || !peri__moment(&b->desc, (solid ? 4 : 3) + states, edge, &is))
@@ -184,15 +232,9 @@ static int32_t peri__constants(peri_body *b, const peri_material *m, double stre
             pair->c = (space == PERI_PLANE_STRAIN ? 3.2 : 3.0) * modulus / (PERI_PI * ic * h * h * h);
         }
     }
-    if (!stretch) {
-        double critical = peri__critical_energy(m, space, h) / (stress * length);
-        if (m->criterion == PERI_CRITERION_BOND_ENERGY) pair->bond_energy = critical;
-        else pair->node_energy = critical;
-    } else if (m->fracture_energy > 0.0) {
-        double g0 = m->fracture_energy / (stress * length);
-        pair->s0 = sqrt(solid ? 2.0 * g0 / (PERI_PI * pair->c * is * h * h * h * h * h) : g0 / (pair->c * is * h * h * h * h));
-    }
-    if (m->critical_stretch > 0.0) pair->s0 = m->critical_stretch;
+    const peri__fracture fracture = { m, space, h, stress * length, m->fracture_energy / (stress * length), pair->c, is };
+    if (m->fracture_energy > 0.0) pair->limit[m->criterion] = peri__limit_of(&fracture);
+    if (m->critical_stretch > 0.0) pair->limit[PERI_CRITERION_STRETCH] = m->critical_stretch;
     return PERI_OK;
 }
 
@@ -208,9 +250,7 @@ static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double s
             return peri__constants(b, &face->material, stress, length, edge, pair);
     }
     *pair = *p;
-    pair->s0 = peri__lower(p->s0, q->s0);
-    pair->bond_energy = peri__lower(p->bond_energy, q->bond_energy);
-    pair->node_energy = peri__lower(p->node_energy, q->node_energy);
+    for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = peri__lower(p->limit[k], q->limit[k]);
     if (i != j && b->materials[i].model == PERI_BOND_BASED && b->materials[j].model == PERI_BOND_BASED)
         pair->c = 2.0 * p->c * q->c / (p->c + q->c);
     return PERI_OK;
@@ -239,7 +279,8 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
     const double unit = stress / length / length / length / (solid ? length : b->desc.thickness), micromodulus = pair.c * unit;
     if (c && !(micromodulus >= DBL_MIN && peri__finite(micromodulus))) return peri__fail(b, PERI_ERROR_RANGE, "c", -1, micromodulus);
     if (c) *c = micromodulus;
-    if (s0) *s0 = pair.s0 < PERI_NEVER ? pair.s0 : HUGE_VAL;
+    const double stretch = pair.limit[PERI_CRITERION_STRETCH];
+    if (s0) *s0 = stretch < PERI_NEVER ? stretch : HUGE_VAL;
     return PERI_OK;
 }
 

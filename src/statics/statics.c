@@ -49,19 +49,22 @@ static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
 
 /* ---- fracture ----------------------------------------------------------------------------------------------------- */
 
+#define PERI_CRITERION_ROLE_EXCESS
+#include "../laws/stretch.inl"
+#include "../laws/bond_energy.inl"
+#include "../laws/node_energy.inl"
+#undef PERI_CRITERION_ROLE_EXCESS
+
 /* By how much the criterion of bond k of row i is passed: its value over its limit, 0 where it is not longer than at rest. */
 static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, int64_t k) {
-    const peri__model *m = b->model;
     const int64_t j = row->ids[k];
     const peri__pair *pair = b->cls ? &b->pairs[b->cls[i] * b->classes + b->cls[j]] : b->pairs;
-    double stretch = peri__stretch(b, i, row, k), excess = 0.0;
-    if (!(stretch > 0.0)) return 0.0;
-    if (pair->s0 < PERI_NEVER) excess = stretch / pair->s0;
-    if (b->work && pair->bond_energy < PERI_NEVER) {
-        double share = row->part ? (double)row->part[k] : m->volume[j];
-        excess = fmax(excess, peri__get_real(b->work, b->f32, peri__bond_slot(m, i, row, k)) / (pair->bond_energy * share));
-    }
-    if (b->node && pair->node_energy < PERI_NEVER) excess = fmax(excess, 0.5 * (b->node[i] + b->node[j]) / pair->node_energy);
+    double excess = 0.0;
+    if (!(peri__stretch(b, i, row, k) > 0.0)) return 0.0;
+#define PERI_CASE(name, number) \
+    if (pair->limit[number] < PERI_NEVER) excess = fmax(excess, peri__excess_##name(b, i, row, k, pair->limit[number]));
+    PERI_CRITERION_LIST(PERI_CASE)
+#undef PERI_CASE
     return excess;
 }
 
@@ -185,7 +188,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
         if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
         if (status == PERI_OK) status = s->settings->method == PERI_RELAXATION ? peri__relax(s) : peri__newton(s);
         if (status != PERI_OK) break;
-        if (m->works) {
+        if (m->keeps & PERI__KEEPS_WORK) {
             peri__step step = peri__no_step(b);
             step.working = 1;
             memcpy(b->f, s->k.z, peri__vector_bytes(b));

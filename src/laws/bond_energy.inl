@@ -1,0 +1,28 @@
+/* bond_energy.inl - a bond breaks when the work done on it passes w0 V V ([T] 1.100). */
+#ifdef PERI_CRITERION_ROLE_KEEPS
+enum { PERI__KEEPS_bond_energy = PERI__KEEPS_WORK };
+#endif
+
+#ifdef PERI_CRITERION_ROLE_LIMIT
+/* w0 such that all bonds across a unit of area take G0: in 3D G0 = w0 int_0^h dz int_z^h 2 pi r^2 (1 - z/r) dr = w0 pi h^4/4. */
+static double peri__limit_bond_energy(const peri__fracture *g) {
+    return peri__critical_energy(g->material, g->space, g->horizon) / g->unit;
+}
+#endif
+
+#ifdef PERI_CRITERION_ROLE_OVER
+PERI_INLINE int PERI_FN(over_bond_energy)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const int64_t j = row->ids[k];
+    if (!s->work || !(bond->along > 0)) return 0;
+    const double share = row->part ? (double)row->part[k] : s->model->volume[j];
+    return (double)((const peri_r *)s->work)[peri__bond_slot(s->model, i, row, k)]
+         > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_BOND_ENERGY] * share;
+}
+#endif
+
+#ifdef PERI_CRITERION_ROLE_EXCESS
+static double peri__excess_bond_energy(const peri_body *b, int64_t i, const peri__row *row, int64_t k, double limit) {
+    const double share = row->part ? (double)row->part[k] : b->model->volume[row->ids[k]];
+    return peri__get_real(b->work, b->f32, peri__bond_slot(b->model, i, row, k)) / (limit * share);
+}
+#endif

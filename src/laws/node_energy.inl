@@ -1,0 +1,23 @@
+/* node_energy.inl - a bond breaks when the mean energy of its ends, 2 W over the volume of the family, passes w0 ([T] 1.102). */
+#ifdef PERI_CRITERION_ROLE_KEEPS
+enum { PERI__KEEPS_node_energy = PERI__KEEPS_NODE_ENERGY };
+#endif
+
+#ifdef PERI_CRITERION_ROLE_LIMIT
+static double peri__limit_node_energy(const peri__fracture *g) {
+    return peri__critical_energy(g->material, g->space, g->horizon) / g->unit;
+}
+#endif
+
+#ifdef PERI_CRITERION_ROLE_OVER
+PERI_INLINE int PERI_FN(over_node_energy)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const int64_t j = row->ids[k];
+    return s->node && bond->along > 0 && 0.5 * (s->node[i] + s->node[j]) > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_NODE_ENERGY];
+}
+#endif
+
+#ifdef PERI_CRITERION_ROLE_EXCESS
+static double peri__excess_node_energy(const peri_body *b, int64_t i, const peri__row *row, int64_t k, double limit) {
+    return 0.5 * (b->node[i] + b->node[row->ids[k]]) / limit;
+}
+#endif

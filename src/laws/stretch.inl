@@ -1,0 +1,28 @@
+/* stretch.inl - a bond breaks beyond its critical stretch ([T] 1.39, [P] C.20). */
+#ifdef PERI_CRITERION_ROLE_KEEPS
+enum { PERI__KEEPS_stretch = PERI__KEEPS_NOTHING };
+#endif
+
+#ifdef PERI_CRITERION_ROLE_LIMIT
+/* s0^2 = 2 G0/(pi c I4 h^5) in 3D, G0/(c I3 h^4) in the plane: the bonds across a unit of area then take G0. */
+static double peri__limit_stretch(const peri__fracture *g) {
+    const double h = g->horizon;
+    return sqrt(g->space == PERI_SOLID ? 2.0 * g->energy / (PERI_PI * g->c * g->moment * h * h * h * h * h)
+                                       : g->energy / (g->c * g->moment * h * h * h * h));
+}
+#endif
+
+#ifdef PERI_CRITERION_ROLE_OVER
+PERI_INLINE int PERI_FN(over_stretch)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const int64_t j = row->ids[k];
+    const peri_b s0 = (peri_b)PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_STRETCH];
+    if (s->model->centroid && j < i) return PERI_FN(is_over_for_other)(s, i, j, s0);
+    return bond->along > s0 * bond->length * bond->reach;
+}
+#endif
+
+#ifdef PERI_CRITERION_ROLE_EXCESS
+static double peri__excess_stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k, double limit) {
+    return peri__stretch(b, i, row, k) / limit;
+}
+#endif
