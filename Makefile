@@ -134,9 +134,17 @@ $(TRADEOFF:%=build/bench/%.o): bench/tradeoff.h peri.h
 build/bench/tradeoff: $(TRADEOFF:%=build/bench/%.o) build/libperi.a
 	$(CC) $(OPENMP) $^ -o $@ -lm
 
-demo: build/examples/branching
+# the demo takes of the library what its scene requires: the plane, in double precision, in motion
+build/demo/peri.o: $(SOURCES)
+	@mkdir -p $(@D)
+	$(COMPILE) -DPERI_NO_3D -DPERI_NO_MIXED -DPERI_NO_F32 -DPERI_NO_STATICS -DPERI_NO_ADVICE -c peri_impl.c -o $@
+
+build/demo/branching: build/examples/branching.o build/demo/peri.o
+	$(CC) $(OPENMP) $^ -o $@ -lm
+
+demo: build/demo/branching
 	@mkdir -p out
-	build/examples/branching
+	build/demo/branching
 
 examples: $(EXAMPLES:%=build/examples/%)
 	@mkdir -p out

@@ -173,7 +173,7 @@ static void peri__mark_lanes(peri__sketch *s, void *there) {
     l->begin = l->first = (int64_t *)there;
     l->column = (peri__column *)there;
     l->table = (peri__stencil_bond *)there;
-    l->ends = s->model.keeps & PERI__KEEPS_WORK ? (peri__stencil_ends *)there : NULL;
+    l->ends = s->model.seen_by & PERI__BY_WORK ? (peri__stencil_ends *)there : NULL;
 }
 
 /* Marks what peri__new_state takes. */

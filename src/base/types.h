@@ -60,15 +60,17 @@ typedef struct peri__setup {
     int32_t      ibond_width;
 } peri__setup;
 
-typedef enum peri__keep { /* what bodies keep for criteria, and kernels bring up to date                                   */
-    PERI__KEEPS_NOTHING = 0,
-    PERI__KEEPS_WORK = 1,       /* the work done on every bond                                                           */
-    PERI__KEEPS_NODE_ENERGY = 2 /* the energy of every point over the volume of its family                               */
-} peri__keep;
+typedef enum peri__seen { /* how passes on vectors see that a bond may be over a criterion; rows decide                   */
+    PERI__BY_STRETCH = 0,     /* its stretch nears the limit: nothing need be kept                                        */
+    PERI__BY_WORK = 1,        /* the work done on it does: bodies keep that of every bond                                 */
+    PERI__BY_NODE_ENERGY = 2, /* the energy of its ends does: bodies keep that of every point over the volume of its family */
+    PERI__BY_ROWS = 4         /* not at all: every bond is looked at by rows                                              */
+} peri__seen;
 
 typedef struct peri__pair { /* constants of the bonds between two materials, in inner units                               */
     double c; /* of the end whose row this is; the same from both where both laws are pairwise                           */
     double limit[PERI_CRITERION_COUNT_]; /* by criterion; PERI_NEVER where neither material has it                       */
+    double s0; /* the least limit of those seen by stretch: over it a bond breaks                                        */
 } peri__pair;
 
 typedef enum peri__gather { /* what a point makes of its family before forces can be had                                  */
@@ -176,7 +178,7 @@ typedef struct peri__model {
     int32_t    mixed;    /* 1 where laws in use differ                                                                   */
     int32_t    gauge;    /* of laws that do not                                                                          */
     int32_t    gathers;  /* bits of peri__gather: what some law in use asks for                                          */
-    int32_t    keeps;   /* bits of peri__keep: what criteria in use ask for                                              */
+    int32_t    seen_by;   /* bits of peri__seen: how criteria in use are seen                                              */
     peri__law  laws[PERI_MATERIAL_LIMIT];
     double     rho[PERI_MATERIAL_LIMIT];
     int32_t    breakable; /* 1 where some pair has a finite s0                                                           */

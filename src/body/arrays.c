@@ -124,10 +124,10 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE),
-        PERI_ARRAY_(work, bonds, real, (m->keeps & PERI__KEEPS_WORK) != 0, PERI__DAMAGE),
-        PERI_ARRAY_(pull, bonds * m->dim, real, (m->keeps & PERI__KEEPS_WORK) != 0, PERI__DAMAGE),
-        PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->keeps & PERI__KEEPS_WORK) != 0, PERI__DAMAGE),
-        PERI_ARRAY_(node, n, sizeof(double), (m->keeps & PERI__KEEPS_NODE_ENERGY) != 0, PERI__DAMAGE),
+        PERI_ARRAY_(work, bonds, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
+        PERI_ARRAY_(pull, bonds * m->dim, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
+        PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
+        PERI_ARRAY_(node, n, sizeof(double), (m->seen_by & PERI__BY_NODE_ENERGY) != 0, PERI__DAMAGE),
     };
 #undef PERI_ARRAY_
     memcpy(list, arrays, sizeof arrays);

@@ -138,7 +138,7 @@ static void peri__release_model(const peri_body *b, peri__model *m) {
 
 /* What a material that is used asks of the body. */
 static void peri__note_law(peri__model *m, const peri__law *law, int32_t criterion) {
-    m->keeps |= peri__keeps(criterion);
+    m->seen_by |= peri__seen_by(criterion);
     if (m->law != 0 && m->law != law->model) m->mixed = 1;
     m->pairwise = law->pairwise && (m->law == 0 || m->pairwise);
     m->gathers |= law->gather;
@@ -227,7 +227,7 @@ static int64_t peri__stride(int64_t points) { return ((points + PERI_LANES - 1) 
 static void peri__fit_model(const peri_body *b, peri__model *m) {
     m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
     m->words = (m->width + 31) / 32;
-    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed && !m->keeps)
+    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed && !m->seen_by)
         m->slots = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
 }
 
@@ -380,7 +380,7 @@ static int32_t peri__update_classes(peri_body *b) {
         for (int32_t q = 0; q < b->classes; ++q) {
             peri__pair *pair = &b->pairs[p * b->classes + q];
             *pair = m->pairs[p % n * n + q % n];
-            for (int32_t k = 0; (p >= n || q >= n) && k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = PERI_NEVER;
+            for (int32_t k = 0; (p >= n || q >= n) && k < PERI_CRITERION_COUNT_; ++k) pair->s0 = pair->limit[k] = PERI_NEVER;
         }
     for (int64_t i = 0; b->cls && i < m->points; ++i)
         b->cls[i] = (uint8_t)(m->material[i] + (b->no_fail && b->no_fail[i] ? n : 0));

@@ -40,7 +40,7 @@ static int32_t peri__make_force(peri_body *b) {
     int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) {
-        step.working = m->keeps & PERI__KEEPS_WORK;
+        step.working = m->seen_by & PERI__BY_WORK;
         peri__bond_forces(b, &step);
         status = peri__meet_supports(b);
     }

@@ -103,7 +103,7 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     }
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
     step.breaking = b->alive != NULL && m->breakable;
-    step.working = m->keeps & PERI__KEEPS_WORK;
+    step.working = m->seen_by & PERI__BY_WORK;
     step.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
     peri__bond_forces(b, &step);
     if (step.breaking) {

@@ -408,7 +408,7 @@ static int32_t peri__keep_lanes(peri__draft *d) {
     l->vectors = d->count;
     l->column = (peri__column *)peri__copy(&m->memory, d->column, l->kept, sizeof *l->column);
     l->table = (peri__stencil_bond *)peri__new(&m->memory, l->vectors, sizeof *l->table);
-    const int ends = m->mixed || m->keeps & PERI__KEEPS_WORK;
+    const int ends = m->mixed || m->seen_by & PERI__BY_WORK;
     if (ends) l->ends = (peri__stencil_ends *)peri__new(&m->memory, l->vectors, sizeof *l->ends);
     if (!l->column || !l->table || (!l->ends && ends)) return PERI_ERROR_MEMORY;
     for (int32_t k = 0; k < l->vectors; ++k) {
@@ -420,7 +420,7 @@ static int32_t peri__keep_lanes(peri__draft *d) {
         entry->share = row->bond.share;
         entry->inverse = m->b32 ? (double)(1 / (float)row->length) : 1 / row->length; /* as the rows take it */
         entry->c = m->pairs[row->key[5]].c;
-        entry->s0 = m->pairs[row->key[5]].limit[PERI_CRITERION_STRETCH];
+        entry->s0 = m->pairs[row->key[5]].s0;
         if (l->ends) peri__fill_ends(m, row, &l->ends[k]);
     }
     for (int64_t c = 0; c < l->kept; ++c)

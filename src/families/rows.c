@@ -94,7 +94,16 @@ PERI_SHARED int64_t peri__pull_slot(const peri__model *m, int64_t slot, int32_t 
     return (slot / PERI_LANES * m->dim + d) * PERI_LANES + slot % PERI_LANES;
 }
 
-/* The least limit of a criterion that a bond of point i may have. */
+/* The least critical stretch that a bond of point i may have. */
+PERI_SHARED double peri__least_stretch(const peri__step *s, int64_t i) {
+    const peri__pair *pairs = s->cls ? &s->pairs[s->cls[i] * s->classes] : s->pairs;
+    double least = pairs->s0;
+    for (int32_t k = 1; s->cls && k < s->classes; ++k)
+        if (pairs[k].s0 < least) least = pairs[k].s0;
+    return least;
+}
+
+/* And the least limit of a criterion that a bond of point i may have. */
 PERI_SHARED double peri__least_limit(const peri__step *s, int64_t i, int32_t criterion) {
     const peri__pair *pairs = s->cls ? &s->pairs[s->cls[i] * s->classes] : s->pairs;
     double least = pairs->limit[criterion];

@@ -67,7 +67,7 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, i
     const int several = PERI_D == 2 ? slots > 4 : m->materials > 1;
     const peri_r *pack = (const peri_r *)o->pack, *mine = pack + place * slots;
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
-    const double s0 = o->breaking ? peri__least_limit(o, i, PERI_CRITERION_STRETCH) * (1.0 - PERI_NEAR) : PERI_NEVER;
+    const double s0 = o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER;
     const PERI_VECTOR limit = PERI_V(set1)((peri_b)s0);
     const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
     const PERI_VECTOR pi = PERI_V(set1)(!pairwise ? (peri_b)mine[2 * PERI_D] : 0);
@@ -212,7 +212,7 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *o, int
     const int linear = o->linear;
     const peri_r *pack = (const peri_r *)o->pack, *mine = pack + place * PERI_TENSOR_SLOTS, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
-    const peri_b s0 = (peri_b)(o->breaking ? peri__least_limit(o, i, PERI_CRITERION_STRETCH) * (1.0 - PERI_NEAR) : PERI_NEVER);
+    const peri_b s0 = (peri_b)(o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER);
     const PERI_VECTOR limit = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
     peri_r own[PERI_TENSOR_SLOTS] = { 0 };
     PERI_STATE sum[PERI_D][PERI_PIECES];

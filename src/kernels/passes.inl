@@ -103,6 +103,7 @@ static uint32_t PERI_FN(near_node_energy)(const peri__step *o, int64_t g) {
 /* The force on group g by columns; returns a bit for each point that must be done by rows. */
 static uint32_t PERI_FN(group_force)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
     const peri__model *m = o->model;
+    if (m->seen_by & PERI__BY_ROWS && o->breaking) return 0xFFFFu;
     if (m->pairwise) return PERI_BY_VECTORS(m, pairwise)(o, g, f);
     uint32_t near = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
     if (m->lanes.ends) return near | PERI_BY_VECTORS(m, mixed)(o, g, f);
@@ -117,7 +118,7 @@ static void PERI_FN(finish_by_rows)(const peri__step *o, int64_t g, uint32_t by_
     peri_r *force = (peri_r *)o->f + first;
     peri__step rest = *o;
     uint32_t broke = 0;
-    rest.working = 0; /* that is done */
+    if (!(m->seen_by & PERI__BY_ROWS && o->breaking)) rest.working = 0; /* that is done */
     for (int l = 0; l < PERI_LANES && first + l < m->points; ++l) {
         const int64_t broken = sums->n;
         if (by_row >> l & 1) PERI_FN(force_rows)(&rest, first + l, first + l + 1, sums);

@@ -87,17 +87,14 @@ static int PERI_FN(is_over_for_other)(const peri__step *s, int64_t i, int64_t j,
 }
 
 #define PERI_CRITERION_ROLE_OVER
-#include "../laws/stretch.inl"
-#include "../laws/bond_energy.inl"
-#include "../laws/node_energy.inl"
+#include "../laws/criteria.inl"
 #undef PERI_CRITERION_ROLE_OVER
 
-/* Does bond k of row i meet a criterion? `plain`: there is only the critical stretch, and no centroids. */
+/* Does bond k of row i meet a criterion? `plain`: all are seen by stretch, and there are no centroids. */
 PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                  const int plain) {
     int over = 0;
-    if (plain)
-        return bond->along > (peri_b)PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_STRETCH] * bond->length * bond->reach;
+    if (plain) return bond->along > (peri_b)PERI_FN(pair)(s, i, row->ids[k])->s0 * bond->length * bond->reach;
 #define PERI_CASE(name, number) over |= PERI_FN(over_##name)(s, i, row, k, bond);
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
@@ -233,7 +230,7 @@ static void PERI_FN(point_force)(const peri__step *s, int64_t i, peri_r *f, peri
     peri_r impulse[PERI_D] = { 0 };
     peri__row row;
     peri__row_of(m, i, &row);
-    const int plain = !s->linear && !m->centroid && !s->work && !s->node;
+    const int plain = !s->linear && !m->centroid && !m->seen_by;
     if (!m->pairwise) {
         if (m->mixed || m->gathers & PERI__GRADIENT) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1, 0);
         else if (plain) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 1);

@@ -1,6 +1,6 @@
 /* bond_energy.inl - a bond breaks when the work done on it passes w0 V V ([T] 1.100). */
-#ifdef PERI_CRITERION_ROLE_KEEPS
-enum { PERI__KEEPS_bond_energy = PERI__KEEPS_WORK };
+#ifdef PERI_CRITERION_ROLE_TRAITS
+enum { PERI__SEEN_bond_energy = PERI__BY_WORK };
 #endif
 
 #ifdef PERI_CRITERION_ROLE_LIMIT

@@ -21,7 +21,7 @@ static void PERI_S_FN(strain_change)(int dim, int linear, peri_s h[PERI_S_DIM][P
 }
 
 #define PERI_LAW_ROLE_STRESS
-#include "correspondence.inl"
+#include "laws.inl"
 #undef PERI_LAW_ROLE_STRESS
 
 /* P of the law of a point, of the strain e (lost) at H; laws without a gradient count as Saint Venant-Kirchhoff's. */

@@ -7,26 +7,14 @@
    H = (sum w eta xi V) K^-1. The constants d, p/theta, q, k and K^-1 are calibrated on the live family (calibration.c). A pairwise law has
    none: its q is c/(2 |xi|), c of the pair of materials.
 
-   A law is one file, included in three roles: its traits (here), its calibration, and of laws with a gradient its stress. */
+   A law is one file and its place in laws.inl, included in three roles: its traits (here), its calibration, and of laws with a gradient its
+   stress. */
 #ifndef PERI_LAW_H
 #define PERI_LAW_H
 
 #define PERI_LAW_ROLE_TRAITS
-#include "bond_based.inl"
-#include "lps.inl"
-#include "oterkus.inl"
-#include "correspondence.inl"
+#include "laws.inl"
 #undef PERI_LAW_ROLE_TRAITS
-
-/* X(name, number) for every law */
-#define PERI_LAW_LIST(X)            \
-    X(bond_based, PERI_BOND_BASED)  \
-    X(lps, PERI_LPS)                \
-    X(oterkus, PERI_OTERKUS)        \
-    PERI_GRADIENT_LAW_LIST(X)
-
-/* and for those with a gradient */
-#define PERI_GRADIENT_LAW_LIST(X) X(correspondence, PERI_CORRESPONDENCE)
 
 PERI_SAME_COUNT(law, PERI_LAW_LIST, PERI_MODEL_COUNT_ - 1);
 

@@ -5,26 +5,6 @@
 
 #define PERI_COOKIE_MATERIAL (UINT64_C(0x7065726900010000) + sizeof(peri_material))
 
-PERI_API void peri_material_init(peri_material *m, int32_t model) {
-    if (!m) return;
-    memset(m, 0, sizeof *m);
-    m->cookie = PERI_COOKIE_MATERIAL;
-    m->model = model;
-    m->poisson = (double)NAN;
-    m->criterion = PERI_CRITERION_STRETCH;
-    m->stabilization = model == PERI_CORRESPONDENCE ? 0.2 : 0.0;
-}
-
-static double peri__bond_poisson(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
-
-static double peri__poisson(const peri_material *m, int32_t space) {
-    return m->model == PERI_BOND_BASED ? peri__bond_poisson(space) : m->poisson;
-}
-
-static double peri__young(const peri_material *m, int32_t space) {
-    return m->young > 0.0 ? m->young : 3.0 * (1.0 - 2.0 * peri__poisson(m, space)) * m->bulk;
-}
-
 /* What a law differs in. Where p is proportional to A and that vanishes nothing is gathered. */
 static void peri__set_traits(peri__law *law, int32_t model) {
     law->model = model;
@@ -47,6 +27,33 @@ static int peri__is_pairwise(int32_t model) {
     law.a = 0.0;
     peri__set_traits(&law, model);
     return law.pairwise;
+}
+
+static int peri__has_gradient(int32_t model) {
+    peri__law law;
+    law.a = 0.0;
+    peri__set_traits(&law, model);
+    return (law.gather & PERI__GRADIENT) != 0;
+}
+
+PERI_API void peri_material_init(peri_material *m, int32_t model) {
+    if (!m) return;
+    memset(m, 0, sizeof *m);
+    m->cookie = PERI_COOKIE_MATERIAL;
+    m->model = model;
+    m->poisson = (double)NAN;
+    m->criterion = PERI_CRITERION_STRETCH;
+    m->stabilization = peri__has_gradient(model) ? 0.2 : 0.0;
+}
+
+static double peri__bond_poisson(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
+
+static double peri__poisson(const peri_material *m, int32_t space) {
+    return m->model == PERI_BOND_BASED ? peri__bond_poisson(space) : m->poisson;
+}
+
+static double peri__young(const peri_material *m, int32_t space) {
+    return m->young > 0.0 ? m->young : 3.0 * (1.0 - 2.0 * peri__poisson(m, space)) * m->bulk;
 }
 
 /* The elasticity of a material in units of stress. A vanishes to the last bit at the Poisson ratio of a bond-based material. */
@@ -111,9 +118,7 @@ typedef struct peri__fracture { /* what limits follow from                      
 } peri__fracture;
 
 #define PERI_CRITERION_ROLE_LIMIT
-#include "stretch.inl"
-#include "bond_energy.inl"
-#include "node_energy.inl"
+#include "criteria.inl"
 #undef PERI_CRITERION_ROLE_LIMIT
 
 static double peri__limit_of(const peri__fracture *fracture) {
@@ -125,14 +130,22 @@ static double peri__limit_of(const peri__fracture *fracture) {
     }
 }
 
-/* What the criterion of a material asks the body to keep. */
-static int32_t peri__keeps(int32_t criterion) {
+/* How the criterion of a material is seen. */
+static int32_t peri__seen_by(int32_t criterion) {
     switch (criterion) {
-#define PERI_CASE(name, number) case number: return PERI__KEEPS_##name;
+#define PERI_CASE(name, number) case number: return PERI__SEEN_##name;
         PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
-    default: return PERI__KEEPS_NOTHING;
+    default: return PERI__BY_STRETCH;
     }
+}
+
+static void peri__set_stretch(peri__pair *pair) {
+    pair->s0 = PERI_NEVER;
+#define PERI_CASE(name, number)                                                                                        \
+    if ((int)PERI__SEEN_##name == (int)PERI__BY_STRETCH && pair->limit[number] < pair->s0) pair->s0 = pair->limit[number];
+    PERI_CRITERION_LIST(PERI_CASE)
+#undef PERI_CASE
 }
 
 /* Can bonds of this pair break? */
@@ -148,7 +161,7 @@ static int32_t peri__check_model(peri_body *b, const peri_material *m) {
     PERI_NEED(b, peri__one_of(m->model, PERI_MODEL_COUNT_), "model");
     PERI_NEED(b, peri__one_of(m->criterion, PERI_CRITERION_COUNT_), "criterion");
     PERI_NEED_NUMBER(b, m->stabilization >= 0.0, m->stabilization);
-    if (m->model != PERI_CORRESPONDENCE && m->stabilization != 0.0)
+    if (!peri__has_gradient(m->model) && m->stabilization != 0.0)
         return peri__fail(b, PERI_ERROR_MODEL, "stabilization", -1, m->stabilization);
     if (m->criterion != PERI_CRITERION_STRETCH && (bonds || !(m->fracture_energy > 0.0)))
         return peri__fail(b, PERI_ERROR_CRITERION, bonds ? "criterion" : "fracture_energy", -1, m->criterion);
@@ -218,7 +231,8 @@ PERI_API int32_t peri_set_interface(peri_body *b, int32_t i, int32_t j, const pe
 static int32_t peri__constants(peri_body *b, const peri_material *m, double stress, double length, double edge,
                                peri__pair *pair) {
     int32_t space = b->desc.space, states = m->model != PERI_BOND_BASED;
-    int solid = space == PERI_SOLID, stretch = m->criterion == PERI_CRITERION_STRETCH;
+    /* the limits of energies need no c */
+    int solid = space == PERI_SOLID, stretch = !(peri__seen_by(m->criterion) & (PERI__BY_WORK | PERI__BY_NODE_ENERGY));
     double h = b->desc.horizon / length, modulus = peri__young(m, space) / stress, ic = 1.0, is = 1.0;
     for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = PERI_NEVER;
     pair->c = 0.0;
@@ -235,6 +249,7 @@ static int32_t peri__constants(peri_body *b, const peri_material *m, double stre
     const peri__fracture fracture = { m, space, h, stress * length, m->fracture_energy / (stress * length), pair->c, is };
     if (m->fracture_energy > 0.0) pair->limit[m->criterion] = peri__limit_of(&fracture);
     if (m->critical_stretch > 0.0) pair->limit[PERI_CRITERION_STRETCH] = m->critical_stretch;
+    peri__set_stretch(pair);
     return PERI_OK;
 }
 
@@ -251,6 +266,7 @@ static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double s
     }
     *pair = *p;
     for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = peri__lower(p->limit[k], q->limit[k]);
+    peri__set_stretch(pair);
     if (i != j && b->materials[i].model == PERI_BOND_BASED && b->materials[j].model == PERI_BOND_BASED)
         pair->c = 2.0 * p->c * q->c / (p->c + q->c);
     return PERI_OK;

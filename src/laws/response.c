@@ -75,10 +75,7 @@ typedef struct peri__response { /* see peri__constant                           
 #undef PERI_S_FN
 
 #define PERI_LAW_ROLE_CALIBRATION
-#include "bond_based.inl"
-#include "lps.inl"
-#include "oterkus.inl"
-#include "correspondence.inl"
+#include "laws.inl"
 #undef PERI_LAW_ROLE_CALIBRATION
 
 /* What a law makes of a family, all zero where that has no bonds. 0 where a law with a gradient has a family that spans too little: it acts

@@ -1,6 +1,6 @@
 /* stretch.inl - a bond breaks beyond its critical stretch ([T] 1.39, [P] C.20). */
-#ifdef PERI_CRITERION_ROLE_KEEPS
-enum { PERI__KEEPS_stretch = PERI__KEEPS_NOTHING };
+#ifdef PERI_CRITERION_ROLE_TRAITS
+enum { PERI__SEEN_stretch = PERI__BY_STRETCH };
 #endif
 
 #ifdef PERI_CRITERION_ROLE_LIMIT

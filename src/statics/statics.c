@@ -50,9 +50,7 @@ static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
 /* ---- fracture ----------------------------------------------------------------------------------------------------- */
 
 #define PERI_CRITERION_ROLE_EXCESS
-#include "../laws/stretch.inl"
-#include "../laws/bond_energy.inl"
-#include "../laws/node_energy.inl"
+#include "../laws/criteria.inl"
 #undef PERI_CRITERION_ROLE_EXCESS
 
 /* By how much the criterion of bond k of row i is passed: its value over its limit, 0 where it is not longer than at rest. */
@@ -188,7 +186,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
         if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
         if (status == PERI_OK) status = s->settings->method == PERI_RELAXATION ? peri__relax(s) : peri__newton(s);
         if (status != PERI_OK) break;
-        if (m->keeps & PERI__KEEPS_WORK) {
+        if (m->seen_by & PERI__BY_WORK) {
             peri__step step = peri__no_step(b);
             step.working = 1;
             memcpy(b->f, s->k.z, peri__vector_bytes(b));

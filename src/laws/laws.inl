@@ -1,0 +1,17 @@
+/* laws.inl - the laws there are, in the role that is asked for, and the list of them. */
+#include "bond_based.inl"
+#include "lps.inl"
+#include "oterkus.inl"
+#include "correspondence.inl"
+
+#ifndef PERI_LAW_LIST
+/* X(name, number) for every law */
+#define PERI_LAW_LIST(X)            \
+    X(bond_based, PERI_BOND_BASED)  \
+    X(lps, PERI_LPS)                \
+    X(oterkus, PERI_OTERKUS)        \
+    PERI_GRADIENT_LAW_LIST(X)
+
+/* and for those with a gradient */
+#define PERI_GRADIENT_LAW_LIST(X) X(correspondence, PERI_CORRESPONDENCE)
+#endif
