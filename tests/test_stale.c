@@ -307,11 +307,15 @@ static void compare_all(peri_body *read, const peri_body *unread, int past, int 
     }
 }
 
+/* Half of the pasts of every change in the usual run: the other half in the scene after. All with --long. */
+static int is_spared(kind k, int past, int what) { return !test_long && (past + what + k.model + k.kernel) % 2; }
+
 static void same_bits(kind k) {
     for (int past = 0; past < PASTS; ++past) {
         peri_body *built = body_of(k, past), *read = body_of(k, past);
         look_at_all(read);
         for (int what = 0; what < CHANGES; ++what) {
+            if (is_spared(k, past, what)) continue;
             peri_body *b = copy_of(read), *unread = copy_of(built);
             CHECK(apply(b, (change)what) == apply(unread, (change)what));
             compare_all(b, unread, past, what);
