@@ -36,20 +36,21 @@
 /* ---- geometry: points, cells, and the parts of cells within a horizon ------------------ */
 #include "src/geometry/points.c"   /* boxes, balls, shapes, arrays    -> points and cells                          */
 #include "src/geometry/overlap.c"  /* disk and polygon, ball and box  -> exact partial areas and volumes           */
-#include "src/geometry/parts.c"    /* a cell and a horizon            -> the part within                           */
+#include "src/geometry/partial_volumes.c"    /* a cell and a horizon            -> the part within                           */
 
 /* ---- families: who is bonded, with what weight, and where that is kept ----------------- */
 #include "src/families/influence.c"  /* w(q) and its moments                                                       */
 #include "src/families/search.c"     /* points                        -> those within reach of each other          */
-#include "src/families/quadrature.c" /* bonds                         -> lengths and weights                       */
+#include "src/families/weights.c" /* bonds                         -> lengths and weights                       */
 #include "src/families/neighbors.c"  /* points                        -> families (Ibond)                          */
 #include "src/families/correction.c" /* weights                       -> weights that surfaces need                */
-#include "src/families/lanes.c"      /* points of lattices            -> families by columns, Ibond compressed     */
+#include "src/families/stencil.c"      /* points of lattices            -> families by columns, Ibond compressed     */
 #include "src/families/rows.c"       /* the family of a point, wherever it is stored                               */
 
 /* ---- laws: what materials make of live families ---------------------------------------- */
 #include "src/laws/material.c"     /* engineering constants           -> those of the laws, critical values        */
-#include "src/laws/response.c"     /* live families                   -> constants of state-based laws             */
+#include "src/laws/calibration.c"  /* live families                   -> constants of state-based laws             */
+#include "src/laws/stiffness.c"    /* live families                   -> row sums that bound the frequency            */
 
 /* ---- kernels: one text, six instantiations -> peri__ops_d2 ... -------------------------- */
 #ifdef PERI_SPLIT                  /* objects of their own (src/kernels/unit.c)                                    */
@@ -103,7 +104,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 /* ---- statics --------------------------------------------------------------------------- */
 #ifndef PERI_NO_STATICS
 #include "src/statics/tangent.c"   /* products with the tangent stiffness, its diagonal                            */
-#include "src/statics/loose.c"     /* parts and points that can move without resistance                            */
+#include "src/statics/rigid_modes.c"     /* parts and points that can move without resistance                            */
 #include "src/statics/grids.c"     /* regular grids: smoothing, V-cycle                                            */
 #include "src/statics/multilevel.c" /* elasticity on coarser grids, as a preconditioner                            */
 #include "src/statics/conjugate.c" /* conjugate gradients                                                          */
@@ -122,7 +123,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 
 /* ---- advice ---------------------------------------------------------------------------- */
 #ifndef PERI_NO_ADVICE
-#include "src/advice/sketch.c"     /* a body that is only described  -> its bonds and columns                      */
+#include "src/advice/estimate.c"     /* a body that is only described  -> its bonds and columns                      */
 #include "src/advice/plan.c"       /* what a scene would cost                                                      */
 #include "src/advice/choose.c"     /* the knobs for an accuracy or a budget                                        */
 #endif

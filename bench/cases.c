@@ -11,9 +11,9 @@
 
 static void look_inside(const peri_body *body, bench_facts *facts) {
     const peri__model *m = body->model;
-    facts->columns = m->lanes.columns;
-    facts->kept = m->lanes.kept;
-    facts->slots = m->slots;
+    facts->columns = m->stencil.columns;
+    facts->kept = m->stencil.kept;
+    facts->slots = m->record_reals;
 }
 
 static peri_body *build(const bench_case *c, bench_facts *facts) {

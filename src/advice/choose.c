@@ -5,8 +5,8 @@
 
 #define PERI_COOKIE_GOAL (UINT64_C(0x7065726900060000) + sizeof(peri_goal))
 #define PERI_RESOLUTIONS 10
-#define PERI_MARGIN 2.5      /* problems differ: what is expected over what was measured                                     */
-#define PERI_POISSON_LOW 0.0 /* ratios that the table holds for                                                              */
+#define PERI_MARGIN 2.5      /* problems differ: what is expected over what was measured                                 */
+#define PERI_POISSON_LOW 0.0 /* ratios that the table holds for                                                          */
 #define PERI_POISSON_HIGH 0.45
 
 PERI_API void peri_goal_init(peri_goal *g) {
@@ -28,7 +28,7 @@ typedef struct peri__recipe {
     double      ratio;         /* horizon over spacing                                                                    */
     double      stabilization;
     double      nanoseconds;   /* of a bond and a step, mean of 2D and 3D, measured on one machine: only their ratios count */
-    float       plane[PERI_QUANTITY_COUNT_ - 1][PERI_RESOLUTIONS]; /* by peri_quantity less 1                                    */
+    float       plane[PERI_QUANTITY_COUNT_ - 1][PERI_RESOLUTIONS]; /* by peri_quantity less 1                            */
     float       solid[2][PERI_RESOLUTIONS];                 /* deformation, waves                                         */
 } peri__recipe;
 

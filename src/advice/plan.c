@@ -18,10 +18,10 @@ PERI_API void peri_plan_desc_init(peri_plan_desc *p) {
     p->amount = 1.0;
 }
 
-/* ---- the sketch --------------------------------------------------------------------------------------------------- */
+/* ---- the estimate --------------------------------------------------------------------------------------------------- */
 
 /* The units, the points and the constants of the body to be, from its cells. */
-static int32_t peri__lay_sketch(peri__sketch *s) {
+static int32_t peri__lay_out_estimate(peri__estimate *s) {
     peri_body *b = &s->body;
     peri__model *m = &s->model;
     const peri_material *material = &b->materials[0];
@@ -69,14 +69,14 @@ static int32_t peri__lay_sketch(peri__sketch *s) {
     s->cloud.edge = 0.5 * m->spacing / m->horizon;
     peri__gauss(s->cloud.gauss_x, s->cloud.gauss_w);
     peri__set_reach(&s->cloud);
-    peri__clear_parts(&s->parts);
+    peri__clear_partial_volumes(&s->parts);
     int32_t status = peri__fill_units(b, m);
     if (status == PERI_OK) status = peri__constants(b, material, m->stress, m->length, s->cloud.edge, &s->pair);
     m->breakable = peri__is_breakable(&s->pair);
     return status;
 }
 
-static int32_t peri__open_sketch(peri__sketch *s, const peri_plan_desc *plan) {
+static int32_t peri__open_estimate(peri__estimate *s, const peri_plan_desc *plan) {
     peri_body *b = &s->body;
     memset(s, 0, sizeof *s);
     peri__start_body(b, plan->body);
@@ -91,18 +91,18 @@ static int32_t peri__open_sketch(peri__sketch *s, const peri_plan_desc *plan) {
     double volume = 1.0;
     for (int32_t d = 0; d < b->dim; ++d) volume *= s->piece.cell[d];
     if (!(volume > 0.0 && peri__finite(volume))) return peri__fail(b, PERI_ERROR_RANGE, "spacing", -1, volume);
-    if (plan->source == PERI_SOURCE_POINTS) s->loose = 0.5;
+    if (plan->source == PERI_SOURCE_POINTS) s->jitter = 0.5;
     /* vertices move evenly by up to a quarter, centroids by the mean of 2^dim of them, and neighbours apart by two of these */
-    if (plan->source == PERI_SOURCE_PERTURBED) s->loose = 0.25 * plan->amount * (b->dim == 3 ? 0.5 : sqrt(0.5));
+    if (plan->source == PERI_SOURCE_PERTURBED) s->jitter = 0.25 * plan->amount * (b->dim == 3 ? 0.5 : sqrt(0.5));
     s->piece.lattice = plan->source == PERI_SOURCE_BOX;
     b->setup.pieces = &s->piece;
     b->setup.piece_count = 1;
     b->setup.piece_capacity = 8;
-    return peri__lay_sketch(s);
+    return peri__lay_out_estimate(s);
 }
 
 /* Families, or why there are none. */
-static int32_t peri__sketch_families(peri__sketch *s) {
+static int32_t peri__estimate_families(peri__estimate *s) {
     peri_body *b = &s->body;
     peri__model *m = &s->model;
     peri__count_bonds(s);
@@ -117,18 +117,18 @@ static int32_t peri__sketch_families(peri__sketch *s) {
 
 /* ---- bytes -------------------------------------------------------------------------------------------------------- */
 
-/* What peri__build_lanes takes beside what it makes. */
-static int64_t peri__draft_bytes(const peri__sketch *s) {
-    const int64_t points = s->model.points, groups = (points + PERI_LANES - 1) / PERI_LANES;
+/* What peri__build_stencil takes beside what it makes. */
+static int64_t peri__builder_bytes(const peri__estimate *s) {
+    const int64_t points = s->model.points, groups = (points + PERI_GROUP - 1) / PERI_GROUP;
     int64_t slots = 16, room = 8;
     while (slots < 2 * groups) slots *= 2;
-    while (room < s->model.lanes.kept) room *= 2;
-    int64_t bytes = (int64_t)peri__block_bytes(1, sizeof(peri__draft)) + (int64_t)peri__block_bytes(slots, sizeof(int32_t));
+    while (room < s->model.stencil.kept) room *= 2;
+    int64_t bytes = (int64_t)peri__block_bytes(1, sizeof(peri__builder)) + (int64_t)peri__block_bytes(slots, sizeof(int32_t));
     return bytes + (int64_t)peri__block_bytes(room, sizeof(peri__column));
 }
 
 /* What peri_build takes to search families: the places twice, and the cells. The order of points is the model's where that has a list. */
-static int64_t peri__search_bytes(const peri__sketch *s, int listed) {
+static int64_t peri__search_bytes(const peri__estimate *s, int listed) {
     const peri__model *m = &s->model;
     double extent[3] = { 0.0, 0.0, 0.0 };
     int64_t cells[3];
@@ -139,25 +139,25 @@ static int64_t peri__search_bytes(const peri__sketch *s, int listed) {
          + (int64_t)peri__block_bytes(peri__divide(extent, s->cloud.reach2, m->points, cells) + 1, sizeof(int32_t));
 }
 
-static int64_t peri__model_bytes(const peri__sketch *s) {
+static int64_t peri__model_bytes(const peri__estimate *s) {
     int64_t held[PERI__PURPOSES] = { 0 };
     peri__count_model(&s->body, &s->model, held);
     return peri__held_total(held);
 }
 
-static int64_t peri__body_bytes(const peri__sketch *s) {
+static int64_t peri__body_bytes(const peri__estimate *s) {
     int64_t held[PERI__PURPOSES] = { 0 };
     peri__count_body(&s->body, held);
     return peri__held_total(held);
 }
 
 /* Marks the arrays of the list as there. `other`: a place that is not that of the weights. */
-static void peri__mark_list(peri__sketch *s, void *there, void *other) {
+static void peri__mark_list(peri__estimate *s, void *there, void *other) {
     const peri_body_desc *desc = &s->body.desc;
     peri__model *m = &s->model;
     const int centroids = desc->quadrature == PERI_PARTIAL_CENTROID;
     m->bonds = s->bonds;
-    m->entries = s->bonds + PERI_LANES;
+    m->entries = s->bonds + PERI_GROUP;
     m->order = s->width <= PERI_VECTOR_LIMIT ? (int32_t *)there : NULL;
     m->start = (int64_t *)there;
     m->ids = (int32_t *)there;
@@ -165,11 +165,11 @@ static void peri__mark_list(peri__sketch *s, void *there, void *other) {
     m->back = s->corrected && !m->pairwise ? other : there;
     m->bond = centroids || s->width > PERI_VECTOR_LIMIT ? there : NULL;
     m->centroid = centroids ? there : NULL;
-    m->part = desc->quadrature != PERI_FULL_VOLUME ? (float *)there : NULL;
+    m->partial_volume = desc->quadrature != PERI_FULL_VOLUME ? (float *)there : NULL;
 }
 
-static void peri__mark_lanes(peri__sketch *s, void *there) {
-    peri__lanes *l = &s->model.lanes;
+static void peri__mark_stencil(peri__estimate *s, void *there) {
+    peri__stencil *l = &s->model.stencil;
     l->begin = l->first = (int64_t *)there;
     l->column = (peri__column *)there;
     l->table = (peri__stencil_bond *)there;
@@ -177,7 +177,7 @@ static void peri__mark_lanes(peri__sketch *s, void *there) {
 }
 
 /* Marks what peri__new_state takes. */
-static void peri__mark_state(peri__sketch *s, void *there) {
+static void peri__mark_state(peri__estimate *s, void *there) {
     peri_body *b = &s->body;
     peri__array arrays[PERI_ARRAYS];
     b->model = &s->model;
@@ -185,21 +185,21 @@ static void peri__mark_state(peri__sketch *s, void *there) {
     peri__list_arrays(b, arrays);
     for (int k = 0; k < PERI_ARRAYS; ++k) {
         const int flags = arrays[k].place == offsetof(peri_body, alive)
-                       || (arrays[k].place == offsetof(peri_body, lanes_alive) && s->model.lanes.columns > 0);
+                       || (arrays[k].place == offsetof(peri_body, masks) && s->model.stencil.columns > 0);
         if (arrays[k].wanted || (flags && s->model.breakable)) peri__set_array(b, &arrays[k], there);
     }
 }
 
 /* The bytes after peri_build, and the most until then: while families are made, or at the end. */
-static void peri__plan_bytes(peri__sketch *s, const peri_plan_desc *plan, peri_plan_report *report) {
+static void peri__plan_bytes(peri__estimate *s, const peri_plan_desc *plan, peri_plan_report *report) {
     void *there = s->x, *other = s->volume;
     peri__model *m = &s->model;
     peri__setup *setup = &s->body.setup;
-    const int lanes = peri__sketch_lanes(s), listed = lanes <= 0 || s->corrected;
-    const int64_t groups = (m->points + PERI_LANES - 1) / PERI_LANES, sums = (int64_t)peri__block_bytes(m->blocks, sizeof(peri__sums));
+    const int stencil = peri__estimate_stencil(s), listed = stencil <= 0 || s->corrected;
+    const int64_t groups = (m->points + PERI_GROUP - 1) / PERI_GROUP, sums = (int64_t)peri__block_bytes(m->blocks, sizeof(peri__sums));
     const int64_t bare = (int64_t)peri__block_bytes(1, sizeof(peri_body));
-    int64_t most, draft = lanes < 0 ? 0 : peri__draft_bytes(s);
-    if (lanes == 0) draft += 2 * (int64_t)peri__block_bytes(groups, sizeof(int64_t));
+    int64_t most, builder = stencil < 0 ? 0 : peri__builder_bytes(s);
+    if (stencil == 0) builder += 2 * (int64_t)peri__block_bytes(groups, sizeof(int64_t));
     setup->point_capacity = m->points;
     setup->local = setup->volume = (double *)there;
     setup->material = (uint8_t *)there;
@@ -212,15 +212,15 @@ static void peri__plan_bytes(peri__sketch *s, const peri_plan_desc *plan, peri_p
     m->x = there;
     m->count = (int32_t *)there;
     m->pairs = &s->pair;
-    if (lanes > 0) peri__mark_lanes(s, there);
-    most = peri__model_bytes(s) + (s->corrected ? 0 : draft);
+    if (stencil > 0) peri__mark_stencil(s, there);
+    most = peri__model_bytes(s) + (s->corrected ? 0 : builder);
     if (listed) {
         peri__mark_list(s, there, other);
         int64_t factors = s->corrected ? (int64_t)peri__block_bytes(m->entries, sizeof(double)) : 0;
-        const int64_t bytes = peri__model_bytes(s) + (s->corrected && draft > factors ? draft : factors);
+        const int64_t bytes = peri__model_bytes(s) + (s->corrected && builder > factors ? builder : factors);
         if (bytes > most) most = bytes;
     }
-    if (listed && lanes > 0) {
+    if (listed && stencil > 0) {
         peri__mark_list(s, NULL, NULL);
         m->entries = 0;
     }
@@ -230,14 +230,14 @@ static void peri__plan_bytes(peri__sketch *s, const peri_plan_desc *plan, peri_p
     const int64_t made = peri__body_bytes(s) + peri__model_bytes(s);
     report->peak = made + sums > most ? made + sums : most;
     report->bytes = made - (given - bare);
-    report->columns = m->lanes.columns;
+    report->columns = m->stencil.columns;
     s->piece.vertices = NULL; /* what weighs bonds would look at them */
 }
 
 /* ---- the stable step ---------------------------------------------------------------------------------------------- */
 
 /* Lengths and weights of the bonds of a whole family. */
-static int32_t peri__weigh_sketch(peri__sketch *s) {
+static int32_t peri__weigh_estimate(peri__estimate *s) {
     const int32_t dim = s->model.dim;
     double total = 0.0, stiff = 0.0;
     for (int64_t k = 0; k < s->vector_count; ++k) {
@@ -254,7 +254,7 @@ static int32_t peri__weigh_sketch(peri__sketch *s) {
 }
 
 /* The point that bond k of p leads to. 0 where that is outside. */
-static int peri__leads(const peri__sketch *s, const int64_t *p, int64_t k, int64_t *to) {
+static int peri__leads(const peri__estimate *s, const int64_t *p, int64_t k, int64_t *to) {
     for (int d = 0; d < 3; ++d) {
         to[d] = p[d] + s->vector[k][d];
         if (to[d] < 0 || to[d] >= s->n[d]) return 0;
@@ -262,42 +262,42 @@ static int peri__leads(const peri__sketch *s, const int64_t *p, int64_t k, int64
     return 1;
 }
 
-static void peri__vector_of_bond(const peri__sketch *s, int64_t k, double *xi) {
+static void peri__vector_of_bond(const peri__estimate *s, int64_t k, double *xi) {
     for (int d = 0; d < 3; ++d) xi[d] = d < s->model.dim ? s->vector[k][d] * (s->piece.cell[d] / s->model.length) : 0.0;
 }
 
-/* The row sum of the stiffness over rho of the bond-based point in the middle, as peri__rate_block has it. */
-static double peri__middle_rate(const peri__sketch *s) {
+/* The row sum of the stiffness over rho of the bond-based point in the middle, as peri__row_sum_block has it. */
+static double peri__middle_row_sum(const peri__estimate *s) {
     const int64_t middle[3] = { (s->n[0] - 1) / 2, (s->n[1] - 1) / 2, (s->n[2] - 1) / 2 };
     int64_t to[3];
-    double rate = 0.0;
+    double row_sum = 0.0;
     for (int64_t k = 0; k < s->vector_count; ++k)
-        if (peri__leads(s, middle, k, to)) rate += 2.0 * s->pair.c * fabs(s->weight[k]) / s->length[k];
-    return rate;
+        if (peri__leads(s, middle, k, to)) row_sum += 2.0 * s->pair.c * fabs(s->weight[k]) / s->length[k];
+    return row_sum;
 }
 
-typedef struct peri__kindred { /* points that see the same faces, mirrored or not                                         */
-    peri__response r;
-    double         lean, sum, wide; /* see response.c                                                                    */
-} peri__kindred;
+typedef struct peri__sample { /* points that see the same faces, mirrored or not                                         */
+    peri__calibration r;
+    double         gather_diagonal, sum, gather_row_sum; /* see stiffness.c */
+} peri__sample;
 
-static double peri__gauge_of(const peri__sketch *s, const peri__kindred *a, const double *xi, double bond) {
+static double peri__gather_weight_of(const peri__estimate *s, const peri__sample *a, const double *xi, double bond) {
     const int32_t dim = s->model.dim;
     double square = 0.0;
-    if (!(s->model.laws[0].gather & PERI__GRADIENT)) return a->r.dilate * peri__law_gauge(&s->model.laws[0], bond);
+    if (!(s->model.laws[0].gather & PERI__GRADIENT)) return a->r.theta_factor * peri__law_gauge(&s->model.laws[0], bond);
     for (int32_t p = 0; p < dim; ++p) {
         double sum = 0.0;
-        for (int32_t q = 0; q < dim; ++q) sum += a->r.inverse[peri__packed(dim, p, q)] * xi[q];
+        for (int32_t q = 0; q < dim; ++q) sum += a->r.shape_inverse[peri__packed(dim, p, q)] * xi[q];
         square += sum * sum;
     }
     return sqrt(square);
 }
 
-/* As peri__set_constants and peri__set_wide of the whole family of p. */
-static void peri__fill_kindred(const peri__sketch *s, const int64_t *p, peri__kindred *a) {
+/* As peri__set_constants and peri__set_gather_row_sum of the whole family of p. */
+static void peri__fill_sample(const peri__estimate *s, const int64_t *p, peri__sample *a) {
     const peri__law *law = &s->model.laws[0];
     const int tensor = (law->gather & PERI__GRADIENT) != 0;
-    double lean[3] = { 0.0, 0.0, 0.0 }, xi[3], stiff = 0.0;
+    double gather_diagonal[3] = { 0.0, 0.0, 0.0 }, xi[3], stiff = 0.0;
     int64_t to[3];
     peri__moments sum;
     memset(&sum, 0, sizeof sum);
@@ -306,25 +306,25 @@ static void peri__fill_kindred(const peri__sketch *s, const int64_t *p, peri__ki
         peri__vector_of_bond(s, k, xi);
         peri__add_moments(&sum, s->model.dim, xi, s->length[k], s->weight[k]);
     }
-    if (!peri__respond(law, s->model.dim, &sum, &a->r)) a->r.spring = sum.m > 0.0 ? law->b / sum.m : 0.0;
+    if (!peri__calibrate(law, s->model.dim, &sum, &a->r)) a->r.spring = sum.m > 0.0 ? law->b / sum.m : 0.0;
     a->sum = 0.0;
     for (int64_t k = 0; k < s->vector_count; ++k) {
         if (!peri__leads(s, p, k, to)) continue;
         peri__vector_of_bond(s, k, xi);
-        const double gauge = peri__gauge_of(s, a, xi, s->length[k]);
+        const double gauge = peri__gather_weight_of(s, a, xi, s->length[k]);
         a->sum += fabs(s->weight[k]) * gauge;
-        for (int d = 0; d < 3; ++d) lean[d] += s->weight[k] * (tensor ? xi[d] : gauge * xi[d] / s->length[k]);
+        for (int d = 0; d < 3; ++d) gather_diagonal[d] += s->weight[k] * (tensor ? xi[d] : gauge * xi[d] / s->length[k]);
     }
-    a->lean = tensor ? peri__gauge_of(s, a, lean, 1.0) : sqrt(peri__dot(lean, lean, 3));
+    a->gather_diagonal = tensor ? peri__gather_weight_of(s, a, gather_diagonal, 1.0) : sqrt(peri__dot(gather_diagonal, gather_diagonal, 3));
     if (tensor) stiff = law->lambda > 0.0 ? s->model.dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
-    else if (a->r.dilate > 0.0) stiff = a->r.press / a->r.dilate;
-    a->wide = stiff > 0.0 ? stiff * (a->lean + a->sum) : 0.0;
+    else if (a->r.theta_factor > 0.0) stiff = a->r.pressure_factor / a->r.theta_factor;
+    a->gather_row_sum = stiff > 0.0 ? stiff * (a->gather_diagonal + a->sum) : 0.0;
 }
 
-/* The largest rate of a state-based body, as peri__set_rate has it. Points within a horizon of faces are the stiffest; mirrored ones
+/* The largest row_sum of a state-based body, as peri__set_row_sum has it. Points within a horizon of faces are the stiffest; mirrored ones
    are alike, so one corner is enough. */
-static double peri__corner_rate(const peri__sketch *s) {
-    peri__kindred kin[PERI_CLASS_LIMIT];
+static double peri__corner_row_sum(const peri__estimate *s) {
+    peri__sample sample[PERI_CLASS_LIMIT];
     int64_t kinds[3], p[3], to[3], all = 1;
     double largest = 0.0, xi[3];
     for (int d = 0; d < 3; ++d) all *= kinds[d] = 1 + peri__min(s->far[d], (s->n[d] - 1) / 2);
@@ -332,11 +332,11 @@ static double peri__corner_rate(const peri__sketch *s) {
         p[0] = k % kinds[0];
         p[1] = k / kinds[0] % kinds[1];
         p[2] = k / kinds[0] / kinds[1];
-        peri__fill_kindred(s, p, &kin[k]);
+        peri__fill_sample(s, p, &sample[k]);
     }
     for (int64_t k = 0; k < all; ++k) {
-        const peri__kindred *a = &kin[k];
-        double rate = a->lean * a->wide;
+        const peri__sample *a = &sample[k];
+        double row_sum = a->gather_diagonal * a->gather_row_sum;
         p[0] = k % kinds[0];
         p[1] = k / kinds[0] % kinds[1];
         p[2] = k / kinds[0] / kinds[1];
@@ -346,23 +346,23 @@ static double peri__corner_rate(const peri__sketch *s) {
             int64_t at = 0;
             for (int d = 2; d >= 0; --d) {
                 const int64_t back = s->n[d] - 1 - to[d];
-                if (back < to[d]) xi[d] = -xi[d]; /* mirrored, as its kindred is */
+                if (back < to[d]) xi[d] = -xi[d]; /* mirrored, as its sample is */
                 at = at * kinds[d] + peri__min(kinds[d] - 1, peri__min(to[d], back));
             }
-            const peri__kindred *c = &kin[at];
-            rate += 2.0 * fabs(s->weight[v]) * (a->r.spring + a->r.vector + c->r.spring + c->r.vector);
-            if (c->wide > 0.0) rate += fabs(s->weight[v]) * peri__gauge_of(s, c, xi, s->length[v]) * c->wide;
+            const peri__sample *c = &sample[at];
+            row_sum += 2.0 * fabs(s->weight[v]) * (a->r.spring + a->r.stabilization + c->r.spring + c->r.stabilization);
+            if (c->gather_row_sum > 0.0) row_sum += fabs(s->weight[v]) * peri__gather_weight_of(s, c, xi, s->length[v]) * c->gather_row_sum;
         }
-        if (rate > largest) largest = rate;
+        if (row_sum > largest) largest = row_sum;
     }
     return largest;
 }
 
 /* The stable step [T]. With many bonds to a family this hardly depends on how many: coarser cells then stand for them. */
-static int32_t peri__plan_step(peri__sketch *s, double *step) {
+static int32_t peri__plan_step(peri__estimate *s, double *step) {
     const double most = s->body.dim == 3 ? 5.0 : 15.0;
     int64_t all = 1;
-    s->loose = 0.0;
+    s->jitter = 0.0;
     for (int d = 0; d < 3; ++d) all *= 1 + s->far[d];
     if (s->vector_count == 0 || (!s->model.pairwise && all > PERI_CLASS_LIMIT)) {
         const double coarser = s->model.horizon / s->model.spacing / most;
@@ -373,16 +373,16 @@ static int32_t peri__plan_step(peri__sketch *s, double *step) {
             s->piece.cells[d] = fit > least ? fit : least;
             s->piece.cell[d] = extent / (double)s->piece.cells[d];
         }
-        int32_t status = peri__lay_sketch(s);
+        int32_t status = peri__lay_out_estimate(s);
         if (status < 0) return status;
         peri__count_bonds(s);
         peri__list_vectors(s);
     }
-    int32_t status = peri__weigh_sketch(s);
+    int32_t status = peri__weigh_estimate(s);
     if (status < 0) return status;
-    const double rate = !s->model.pairwise ? peri__corner_rate(s) : peri__middle_rate(s);
-    if (!(rate > 1e-30 && rate < 1e30)) return peri__fail(&s->body, PERI_ERROR_RANGE, "horizon", -1, s->body.desc.horizon);
-    *step = 2.0 / sqrt(rate) * s->model.time;
+    const double row_sum = !s->model.pairwise ? peri__corner_row_sum(s) : peri__middle_row_sum(s);
+    if (!(row_sum > 1e-30 && row_sum < 1e30)) return peri__fail(&s->body, PERI_ERROR_RANGE, "horizon", -1, s->body.desc.horizon);
+    *step = 2.0 / sqrt(row_sum) * s->model.time;
     return PERI_OK;
 }
 
@@ -391,14 +391,14 @@ static int32_t peri__plan_step(peri__sketch *s, double *step) {
 static double peri__clock(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
 /* Cells of the small body: long rows that fill groups as those of the scene do, and as many of them as give some bonds. */
-static void peri__small_body(const peri__sketch *s, int64_t *cells) {
+static void peri__small_body(const peri__estimate *s, int64_t *cells) {
     int64_t edge = 7, points = 0, grows = 1;
     while (grows && points * s->width < PERI_MEASURED_BONDS) {
         points = 1;
         grows = 0;
         ++edge;
         for (int d = 0; d < 3; ++d) {
-            const int64_t n = s->n[d], most = d > 0 ? edge : (s->n[2] > 1 ? 4 : 16) * PERI_LANES + n % PERI_LANES;
+            const int64_t n = s->n[d], most = d > 0 ? edge : (s->n[2] > 1 ? 4 : 16) * PERI_GROUP + n % PERI_GROUP;
             cells[d] = peri__min(n, most);
             points *= cells[d];
             grows |= d > 0 && n > edge;
@@ -429,7 +429,7 @@ static double peri__measure_steps(peri_body *b) {
 }
 
 /* Builds and advances a small body like the scene's. The time goes by the columns or the bonds. */
-static int32_t peri__measure_plan(const peri__sketch *s, const peri_plan_desc *plan, peri_plan_report *report, peri_error *error) {
+static int32_t peri__measure_plan(const peri__estimate *s, const peri_plan_desc *plan, peri_plan_report *report, peri_error *error) {
     int64_t cells[3];
     peri_body_desc desc = *plan->body;
     peri_body *b;
@@ -449,7 +449,7 @@ static int32_t peri__measure_plan(const peri__sketch *s, const peri_plan_desc *p
     if (status >= 0) status = peri_build(b);
     if (status >= 0) {
         const double seconds = peri__measure_steps(b), step = peri_stable_step(b);
-        const int64_t columns = b->model->lanes.columns;
+        const int64_t columns = b->model->stencil.columns;
         if (seconds < 0.0) status = (int64_t)seconds;
         else if (columns > 0 && report->columns > 0) report->seconds = seconds * ((double)report->columns / (double)columns);
         else report->seconds = seconds * ((double)report->bonds / (double)b->model->bonds);
@@ -461,7 +461,7 @@ static int32_t peri__measure_plan(const peri__sketch *s, const peri_plan_desc *p
 }
 
 PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report, peri_error *error) {
-    peri__sketch s;
+    peri__estimate s;
     (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
     if (report) memset(report, 0, sizeof *report);
     if (!plan || !report) return peri__set_error(error, PERI_ERROR_ARGUMENT, plan ? "report" : "plan", -1, 0.0);
@@ -469,8 +469,8 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
     if (!plan->body) return peri__set_error(error, PERI_ERROR_ARGUMENT, "body", -1, 0.0);
     int32_t status = peri__check_desc(plan->body, error);
     if (status < 0) return status;
-    status = peri__open_sketch(&s, plan);
-    if (status == PERI_OK) status = peri__sketch_families(&s);
+    status = peri__open_estimate(&s, plan);
+    if (status == PERI_OK) status = peri__estimate_families(&s);
     if (status == PERI_OK) {
         peri_plan_report made;
         memset(&made, 0, sizeof made);
@@ -489,7 +489,7 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
         return status;
     }
     if (plan->measure) {
-        status = peri__open_sketch(&s, plan);
+        status = peri__open_estimate(&s, plan);
         if (status == PERI_OK) peri__count_bonds(&s);
         status = peri__measure_plan(&s, plan, report, error);
         if (status < 0) memset(report, 0, sizeof *report);

@@ -13,13 +13,55 @@
    coordinates of a lattice are small half-integers: exact in single precision too. `real` is the type of the state, `bond` that of what
    bonds are reckoned with (peri_r and peri_b of kernels.inl); they differ in mixed precision.
 
+   Words, one meaning each. Bodies and families:
+     model     peri__model: the discretisation that peri_build makes. The constitutive law of a material is its law
+     law       peri__law: the elasticity of a material; its number is the `model` of peri_material
+     family    the points within the horizon of a point; its bonds are directed, from the point outwards
+     row       the family of one point, in one form wherever it is stored (peri__row)
+     list      families as rows one after the other; an entry is an index into it, a place a point's index in the order of its rows
+     record    what passes over the list need of a neighbour, side by side: record_reals reals per place
+     stencil   families of points of lattices, stored by columns: a sparse matrix in sliced ELLPACK (SELL) form with a table of vectors
+     group     PERI_GROUP points with successive ids: what a column holds one bond each of. A lane is one of them
+     column    bonds of a group along one vector. `columns` counts those of all groups, `kept` those stored: equal groups share them
+     vector    in the stencil: a row of its table, what bonds along one lattice vector share. Else an array [dim][stride] over the points
+     mask      of a column: a bit per point of the group whose bond carries force; `member`: whose bond exists
+     block     PERI_BLOCK points, the unit of parallel work; of a matrix: the dim x dim entries of a pair of points
+     plane     one component of an array for all points, `stride` reals long; `margin` reals lie before and after
+     partial volume   beta V_j, what counts of cell j in the family of i; weight: w times that
+     pair      constants of bonds between two classes; a point's class is its material, apart where bonds are not to fail
+     piece     points that were added by one call; cloud: the points while families are sought
+     builder   what the building of the stencil needs and drops; quantum: the unit in which it compares reals
+   Laws, for a point and its live family:
+     gauge     g of a law, |xi| or 1: theta weighs bonds with it
+     gather    the pass that makes theta, or H, of the displacements; the response is what the law makes of them: p, or Q
+     calibration   the constants of the law on the bonds that are left: theta_factor, pressure_factor, spring, stabilization, shape_inverse
+     pairwise  of a law: its bonds know of no other bond (bond-based). ordinary: theta is gathered; tensor: H is, a law with a gradient
+     collapsed stress   the stress that the bonds of a point carry: sum T xi V, T its half of their force densities
+     row sum   of the absolute stiffness of a point over rho: bounds the square of the highest frequency
+     gather_row_sum   kappa_i R_i, what a point adds to the row sums of others by theta or H; gather_diagonal: |G_ii|; see stiffness.c
+     central   of a group: some points in it or beside it act by springs alone, since their families span too little
+   Motion and failure:
+     operands  peri__operands: all that a pass over the points may read or write
+     dying     bonds whose criterion was met in the last pass; alive: those that carry force; uncut: those not cut before the start
+     work      done on a bond; pull: its force density at the last count; node: the energy of the ends of bonds
+     stale     of derived quantities: they no longer belong to the state. stale.c says which follow from which
+     ledger    the sums of energy that balance: external work, damping, fracture, obstacles
+   Statics:
+     constrained   of a degree of freedom (dof): it moves as a support prescribes; the others are free
+     floating part connected points that some rigid-body modes leave without resistance
+     singular  of a point: its bonds resist only in some of its free directions
+     tangent   the derivative of the forces; product: what it makes of a change of the displacements
+     level     a grid of the multigrid preconditioner; node_blocks: what couples its nodes
+   Advice:
+     estimate  peri__estimate: a body that is only described, and the counts found of it; jitter: how far its points may be off their sites
+
    Who owns what: peri__model is what peri_build makes and nothing changes afterwards; clones share it by count.
    peri_body holds the rest. */
 #ifndef PERI_TYPES_H
 #define PERI_TYPES_H
 
 #define PERI_BLOCK 64          /* points per task; totals are summed block by block, whatever the threads                */
-#define PERI_LANES 16          /* component planes of vectors are padded to a multiple of this                           */
+#define PERI_GROUP 16          /* points per group of the stencil; component planes are padded to a multiple of it       */
 #define PERI_MATERIAL_LIMIT 120 /* a point's class is material + (no-fail ? materials : 0), in 8 bits                    */
 #define PERI_NEVER 1e30        /* critical stretch of bonds that do not break; finite, so that 0*PERI_NEVER is 0         */
 
@@ -81,7 +123,7 @@ typedef enum peri__gather { /* what a point makes of its family before forces ca
 
 typedef struct peri__law { /* the elasticity of a material, inner units                                                   */
     int32_t model;
-    int32_t gather, gauge, pairwise; /* what its points gather; g = |xi|^gauge; 1: no constants, c of the pair. See law.h    */
+    int32_t gather, gauge, pairwise; /* what its points gather; g = |xi|^gauge; 1: no constants, c of the pair. See law.h */
     double  young, lambda, mu; /* lambda: of the plane, lambda' = E nu/(1-nu^2) in plane stress                          */
     double  a, b;              /* A, B of LPS                                                                            */
     double  bulk;              /* lambda + 2 mu/D: W = D^2/2 bulk e^2 under the strain e in all directions               */
@@ -91,12 +133,12 @@ typedef struct peri__law { /* the elasticity of a material, inner units         
 /* What the live family of a point makes of its law: planes of body->constant. The half of a bond that point i gives is
    w [(p g + q e) M + Q xi + k eta] with g = |xi|, Oterkus 1. */
 typedef enum peri__constant {
-    PERI__DILATE,  /* theta = dilate * sum w g e V                                                                       */
-    PERI__PRESS,   /* p = press * theta                                                                                  */
+    PERI__THETA_FACTOR,  /* theta = theta_factor * sum w g e V                                                           */
+    PERI__PRESSURE_FACTOR,   /* p = pressure_factor * theta */
     PERI__SPRING,  /* q                                                                                                  */
-    PERI__VECTOR,  /* k; planes from here on only where a material is of the correspondence model                        */
-    PERI__INVERSE, /* K^-1: xx yy xy, or xx yy zz xy yz xz                                                               */
-    PERI__CONSTANTS = PERI__INVERSE + 6
+    PERI__STABILIZATION,  /* k; planes from here on only where a material is of the correspondence model                 */
+    PERI__SHAPE_INVERSE, /* K^-1: xx yy xy, or xx yy zz xy yz xz                                                         */
+    PERI__CONSTANTS = PERI__SHAPE_INVERSE + 6
 } peri__constant;
 
 typedef struct peri__interface {
@@ -106,25 +148,25 @@ typedef struct peri__interface {
 
 typedef struct peri__ops peri__ops;
 
-typedef struct peri__stencil_bond { /* what bonds along one lattice vector between two materials share, rounded as bond       */
-    double xi[3], length, weight, share, inverse; /* weight: w beta V_j; share: beta V_j; inverse: 1/|xi|                 */
+typedef struct peri__stencil_bond { /* what bonds along one lattice vector between two materials share, rounded as bond  */
+    double xi[3], length, weight, partial_volume, inverse; /* weight: w beta V_j; partial_volume: beta V_j; inverse: 1/|xi| */
     double c, s0;                                 /* of the pair                                                         */
 } peri__stencil_bond;
 
-typedef struct peri__stencil_ends { /* and what their ends are, where laws differ or bonds break by their energy             */
-    double gauge, other_gauge; /* g of the own end and of the other; 0 of a pairwise law                                   */
+typedef struct peri__stencil_ends { /* and what their ends are, where laws differ or bonds break by their energy         */
+    double gauge, other_gauge; /* g of the own end and of the other; 0 of a pairwise law                                 */
     double spring;             /* c/(2 |xi|) of the pairwise ends                                                         */
     double energy;             /* critical energy density of the bond, times beta V_j                                     */
 } peri__stencil_ends;
 
 #define PERI_VECTOR_LIMIT 1024 /* rows of the table; so no family on columns is larger                                    */
 
-typedef struct peri__column { /* the bonds of a group of PERI_LANES points along one vector                               */
+typedef struct peri__column { /* the bonds of a group of PERI_GROUP points along one vector                               */
     int32_t  offset;         /* neighbour's id less own                                                                  */
     uint16_t vector, member; /* row of the table; which points of the group have the bond                                */
 } peri__column;
 
-typedef struct peri__lanes { /* see lanes.c                                                                               */
+typedef struct peri__stencil { /* see stencil.c                                                                          */
     int64_t       groups, reach;  /* reach: largest offset                                                               */
     int64_t       columns, kept;  /* of all groups, each counted for itself; and those in `column`                       */
     int64_t      *begin;          /* [groups+1] columns of the groups before                                             */
@@ -133,15 +175,15 @@ typedef struct peri__lanes { /* see lanes.c                                     
     peri__stencil_bond *table;    /* [vectors]                                                                           */
     peri__stencil_ends *ends;     /* [vectors]; NULL where nobody needs them                                             */
     int32_t       vectors, isa;   /* isa: which instruction set the kernels use                                          */
-    int32_t       parts;          /* 1: cells may be partial                                                             */
-} peri__lanes;
+    int32_t       partial;        /* 1: cells may be partial                                                             */
+} peri__stencil;
 
 /* What peri_build makes. */
 typedef struct peri__model {
     peri__memory     memory;
     volatile int32_t users;
 
-    int32_t f32, b32;          /* single precision: of the state; of the arithmetic of bonds, weights and constants        */
+    int32_t f32, b32;          /* single precision: of the state; of the arithmetic of bonds, weights and constants      */
     int32_t dim, width, words; /* words: 32-bit words of bond flags per row                                              */
     int64_t points, stride;    /* stride: length of a component plane                                                    */
     int64_t blocks, bonds;     /* bonds: directed                                                                        */
@@ -150,35 +192,35 @@ typedef struct peri__model {
     double  spacing;           /* mean, inner units                                                                      */
     double  extent;            /* largest coordinate, inner units: times the rounding unit, the error of a position      */
     double  energy;            /* unit of energy, thickness included                                                     */
-    double  rate;              /* bounds the square of the highest frequency, all bonds whole: the largest row sum of the
+    double  row_sum;              /* bounds the square of the highest frequency, all bonds whole: the largest row sum of the
                                   stiffness over rho; bond-based, of 2 c w V/|xi|                                         */
 
     void      *x;        /* real [dim][stride] reference positions                                                       */
     double    *volume;   /* [points]                                                                                     */
     uint8_t   *material; /* [points]                                                                                     */
     int32_t   *count;    /* [points] family sizes                                                                        */
-    peri__lanes lanes;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
+    peri__stencil stencil;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
     int32_t   *order;    /* [points] id by place, see search.c: the order of the rows in the list, of the passes over it and of the
-                            records of body->pack; NULL, places then being ids, where rows were not searched, and on columns */
+                            body->records; NULL, places then being ids, where rows were not searched, and on columns */
     int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
-    int64_t    entries;  /* bonds, and PERI_LANES more that kernels may read                                             */
+    int64_t    entries;  /* bonds, and PERI_GROUP more that kernels may read                                             */
     int32_t   *ids;      /* [entries] Ibond without its padding: places of the neighbours, ascending; see peri__entry_id */
     void      *weight;   /* bond [entries] w(|xi|) beta V_j                                                              */
     void      *back;     /* bond [entries] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal  */
     void      *bond;     /* bond [entries] |xi|; NULL where x tells: not with the centroid rule, for families larger than the
                             room of peri__row, and where single precision blurs it                                       */
     void      *centroid; /* bond [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
-    float     *part;     /* [entries] beta V_j; NULL for whole cells                                                     */
-    int32_t    slots;    /* reals per record of body->pack: 4, 8, 12 or 16; 0 where k_list.inl does not serve            */
-    int64_t    margin;   /* of a state vector before and after: kernels on lanes read beyond the ends, and discard       */
+    float     *partial_volume;     /* [entries] beta V_j; NULL for whole cells                                           */
+    int32_t    record_reals;    /* reals per record of body->records: 4, 8, 12 or 16; 0 where list.inl does not serve    */
+    int64_t    margin;   /* of a state vector before and after: kernels on columns read beyond the ends, and discard     */
 
     int32_t    materials;
     int32_t    law;      /* the number of one of the laws in use; 0: none                                                */
-    int32_t    pairwise; /* 1 where all laws in use are: bodies have no constants and responses then                        */
+    int32_t    pairwise; /* 1 where all laws in use are: bodies have no constants and responses then                     */
     int32_t    mixed;    /* 1 where laws in use differ                                                                   */
     int32_t    gauge;    /* of laws that do not                                                                          */
     int32_t    gathers;  /* bits of peri__gather: what some law in use asks for                                          */
-    int32_t    seen_by;   /* bits of peri__seen: how criteria in use are seen                                              */
+    int32_t    seen_by;   /* bits of peri__seen: how criteria in use are seen                                            */
     peri__law  laws[PERI_MATERIAL_LIMIT];
     double     rho[PERI_MATERIAL_LIMIT];
     int32_t    breakable; /* 1 where some pair has a finite s0                                                           */
@@ -194,12 +236,12 @@ typedef struct peri__row { /* the family of a point, see peri__read_row; 31 kB, 
     int64_t        count, first;          /* first: its entry in the list; 0 on columns                                   */
     const int32_t *ids;                   /* ascending by place in the order of the model                                 */
     const void    *weight, *bond, *back;  /* bond, as the arrays of the model                                             */
-    const float   *part;                  /* NULL for whole cells                                                         */
+    const float   *partial_volume;                  /* NULL for whole cells                                              */
     const uint16_t *vector;               /* on columns: rows of `table`, where xi is; NULL on the list, where x tells    */
     const int32_t *column;                /* on columns: which column of the group                                        */
     const peri__stencil_bond *table;
     int32_t        ids_room[PERI_VECTOR_LIMIT];
-    float          part_room[PERI_VECTOR_LIMIT];
+    float          partial_volume_room[PERI_VECTOR_LIMIT];
     uint16_t       vector_room[PERI_VECTOR_LIMIT];
     int32_t        column_room[PERI_VECTOR_LIMIT];
     peri__reals    weight_room, bond_room;
@@ -215,14 +257,14 @@ typedef struct peri__set {
 typedef enum peri__load_kind { PERI__FREE, PERI__DISPLACEMENT, PERI__VELOCITY, PERI__FORCE } peri__load_kind;
 
 /* What a support keeps per dof, in planes of load->force; inner units. */
-typedef enum peri__held_plane {
-    PERI__HELD_FORCE,    /* force density of bonds, loads and obstacles, before it was replaced                          */
-    PERI__HELD_VELOCITY, /* what carries the dof through the present step                                                */
-    PERI__HELD_ENERGY,   /* velocity at the last whole step: what the ledger has counted                                 */
-    PERI__HELD_VALUE,    /* prescribed value at the last whole step                                                      */
-    PERI__HELD_REACTION, /* force density that the support gave, mean of the last step                                   */
-    PERI__HELD_PLANES
-} peri__held_plane;
+typedef enum peri__support_plane {
+    PERI__SUPPORT_FORCE,    /* force density of bonds, loads and obstacles, before it was replaced                       */
+    PERI__SUPPORT_VELOCITY, /* what carries the dof through the present step                                             */
+    PERI__SUPPORT_ENERGY,   /* velocity at the last whole step: what the ledger has counted                              */
+    PERI__SUPPORT_VALUE,    /* prescribed value at the last whole step                                                   */
+    PERI__SUPPORT_REACTION, /* force density that the support gave, mean of the last step                                */
+    PERI__SUPPORT_PLANES
+} peri__support_plane;
 
 typedef struct peri__load {
     int32_t      kind, set, axes;
@@ -232,7 +274,7 @@ typedef struct peri__load {
     peri_load_fn fn;
     void        *user;
     double      *value;       /* [count*dim] buffer for fn, user's units; NULL where fn is NULL                          */
-    double      *force;       /* supports: [PERI__HELD_PLANES][count*dim]; else NULL                                   */
+    double      *force;       /* supports: [PERI__SUPPORT_PLANES][count*dim]; else NULL                                   */
     int32_t     *all;         /* [count] 0, 1, ... for fn on PERI_ALL, which is stored nowhere else; else NULL           */
     uint8_t     *owned;       /* supports: [count] axes that no later support has taken; else NULL                       */
     int64_t      count;
@@ -243,7 +285,7 @@ typedef enum peri__obstacle_kind { PERI__REMOVED, PERI__PLANE, PERI__BALL } peri
 
 typedef struct peri__obstacle {
     int32_t        kind;
-    double         place[3], place0[3], normal[3], radius, stiffness; /* inner units                                     */
+    double         position[3], position0[3], normal[3], radius, stiffness; /* inner units                               */
     peri_motion_fn motion;
     void          *user;
 } peri__obstacle;
@@ -254,20 +296,20 @@ typedef struct peri__sums { /* what a block of points adds up; summed over block
 } peri__sums;
 
 /* All that a pass over the points may read or write: vectors of a body, or any others laid out alike. */
-typedef struct peri__step {
+typedef struct peri__operands {
     const peri__model *model;
     const void        *u;       /* real [dim][stride] displacement, with margins like all vectors                        */
     void              *v, *f;   /* real [dim][stride] velocity, force density                                            */
-    void              *drifted; /* real [dim][stride]: the displacement that `kick` moves                                  */
-    void              *pack;    /* real [places][slots], see peri_body                                                   */
-    const void        *constant; /* bond [constants][stride], from the first point on: the margin lies before               */
+    void              *drifted; /* real [dim][stride]: the displacement that `kick` moves                                */
+    void              *records;    /* real [places][record_reals], see peri_body                                         */
+    const void        *constant; /* bond [constants][stride], from the first point on: the margin lies before            */
     void              *response; /* bond [1 + dim*dim][stride], likewise                                                  */
     uint32_t          *alive, *dying; /* [points][words]                                                                 */
     uint16_t          *masks;   /* [columns] alive by columns                                                            */
-    const uint8_t     *cls;     /* [points] row of pairs; NULL: 0                                                        */
+    const uint8_t     *point_class;     /* [points] row of pairs; NULL: 0                                                */
     const peri__pair  *pairs;   /* [classes][classes]                                                                    */
     int32_t            classes;
-    const uint8_t     *central; /* [groups] 1: points there or beside it that act by central bonds instead of a gradient   */
+    const uint8_t     *central; /* [groups] 1: points there or beside it that act by central bonds instead of a gradient */
     void              *work, *pull; /* real [bonds], [bonds][dim], see peri_body                                         */
     const void        *worked;
     double            *node;    /* [points]                                                                              */
@@ -282,9 +324,9 @@ typedef struct peri__step {
     const void        *p;       /* real [dim][stride]: a change of the displacements                                     */
     void              *q;       /* real [dim][stride]: the change that the tangent makes of the force density            */
     void              *change;  /* as response: of p and Q                                                               */
-} peri__step;
+} peri__operands;
 
-typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                          */
+typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                        */
     peri_body  *body;
     const void *p;      /* real [dim][stride] with margins: the change                                                   */
     void       *q;      /* real [dim][stride] with margins: the change of the force density                              */
@@ -294,24 +336,24 @@ typedef struct peri__tangent { /* a change of the displacements, and what the ta
 typedef struct peri__krylov { /* vectors of conjugate gradients, real [dim][stride], forces times volumes                 */
     const peri__model *model;
     void          *d, *r, *p, *q, *z; /* solution, residual, direction, K p, preconditioned residual                     */
-    const void    *blocks;            /* real [packed][stride] inverses of the diagonal blocks, 0 where held; or NULL    */
-    const uint8_t *held;              /* [points] axes that do not move                                                  */
+    const void    *blocks;            /* real [packed][stride] inverses of the diagonal blocks, 0 where constrained; or NULL */
+    const uint8_t *constrained;              /* [points] axes that do not move                                           */
     double         alpha, beta;
 } peri__krylov;
 
-#define PERI_RIGID 6 /* rigid motions: translations, then turns over the radius of the part                              */
+#define PERI_RIGID_MODES 6 /* rigid motions: translations, then turns over the radius of the part                        */
 
-typedef struct peri__fragment { /* connected points that some rigid motions leave without resistance                          */
+typedef struct peri__floating_part { /* connected points that some rigid motions leave without resistance                */
     double  centre[3], radius;
     int32_t modes;
-    double  mode[PERI_RIGID][PERI_RIGID];    /* [modes]: of the rigid motions                                            */
-    double  inverse[PERI_RIGID][PERI_RIGID]; /* of the mass of the modes                                                 */
-    double  sum[PERI_RIGID];                 /* scratch                                                                  */
-} peri__fragment;
+    double  mode[PERI_RIGID_MODES][PERI_RIGID_MODES];    /* [modes]: of the rigid motions                                */
+    double  inverse[PERI_RIGID_MODES][PERI_RIGID_MODES]; /* of the mass of the modes                                     */
+    double  sum[PERI_RIGID_MODES];                 /* scratch                                                            */
+} peri__floating_part;
 
 typedef struct peri__multilevel peri__multilevel;
 
-#define PERI_HANGING 8 /* in held: the bonds of the point resist only in some of the free directions                    */
+#define PERI_SINGULAR 8 /* in constrained: the bonds of the point resist only in some of the free directions             */
 
 typedef struct peri__solver { /* what a static solve takes, and gives back at its end                                     */
     peri_body          *body;
@@ -323,19 +365,19 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     void               *before;   /* real [dim][stride] displacement at the last equilibrium; NULL where it is not needed */
     void               *from;     /* real [dim][stride] displacement before the last solve; NULL, like the next, without a ledger */
     void               *load;     /* real [dim][stride] force density of loads and reactions then               */
-    uint8_t            *held;     /* [points] axes, and PERI_HANGING                                                     */
+    uint8_t            *constrained;     /* [points] axes, and PERI_SINGULAR                                             */
     int32_t            *part_of;  /* [points] part, or -1                                                                */
     int32_t            *queue;    /* [points] scratch                                                                    */
-    peri__fragment     *parts;
+    peri__floating_part     *parts;
     int64_t             part_count, part_capacity;
     peri__multilevel   *levels;
-    int64_t             hanging;  /* points that are                                                                      */
+    int64_t             singular;  /* points that are                                                                    */
     double              stiff;    /* mean of the diagonal of the stiffness                                               */
     double              softest;  /* the smallest trace of a diagonal block                                              */
     double              scale;    /* the larger of |loads| and |reactions|                                               */
     double              slope;    /* r.d of the last linear solve, r as it was before                                     */
     double              top;      /* the largest scale of this call                                                      */
-    double              widest;   /* the longest way that a held component still had to go                                */
+    double              widest;   /* the longest way that a constrained component still had to go                        */
     double              floor;    /* |r| that is rounding, of bonds over displacements                                   */
     double              energy0;  /* r.z at the start of this equilibrium                                                */
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
@@ -347,7 +389,7 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
 } peri__solver;
 
-typedef struct peri__derived { /* what peri_view_field computed of a field                                                 */
+typedef struct peri__derived { /* what peri_view_field computed of a field                                               */
     double *data; /* [points*components]; NULL until first asked for                                                     */
     int32_t components;
 } peri__derived;
@@ -359,8 +401,8 @@ typedef struct peri__ledger { /* inner units of energy                          
 
 /* What is derived from the state and no longer belongs to it: see stale.c. Where masks or constants are stale the force is, too. */
 typedef enum peri__stale {
-    PERI__STALE_MASKS = 1,     /* body->lanes_alive: bonds have been cut or mended since                                 */
-    PERI__STALE_CONSTANTS = 2, /* body->constant, wide, rate, fastest, central: likewise, where laws are state-based     */
+    PERI__STALE_MASKS = 1,     /* body->masks: bonds have been cut or mended since                                 */
+    PERI__STALE_CONSTANTS = 2, /* body->constant, gather_row_sum, row_sum, largest_row_sum, central: likewise, where laws are state-based */
     PERI__STALE_FORCE = 4,     /* body->f and all that comes with it: push, response, reactions, places of obstacles     */
     PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
     PERI__STALE_BALANCE = 16   /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
@@ -384,13 +426,13 @@ typedef enum peri__running {
     PERI__IN_LOG       /* likewise, and the log is silent                                                                */
 } peri__running;
 
-struct peri__ops { /* the kernels of one precision, dimension and instruction set; all are peri__block_fn, on a peri__step unless said */
-    void (*pack)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or gather on the list      */
-    void (*pack_response)(void *, int64_t, int64_t, peri__sums *); /* p; before force                                   */
+struct peri__ops { /* kernels of one precision, dimension and instruction set; all are peri__block_fn, on a peri__operands unless said */
+    void (*fill_records)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or gather on the list */
+    void (*fill_responses)(void *, int64_t, int64_t, peri__sums *); /* p; before force                                   */
     void (*gather)(void *, int64_t, int64_t, peri__sums *);  /* what each point makes of its family, then                */
     void (*gather_rows)(void *, int64_t, int64_t, peri__sums *);
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
-    void (*exchange)(const peri__step *, const int32_t *points, int64_t count, int sign);
+    void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
@@ -419,33 +461,33 @@ struct peri_body {
     peri__model      *model; /* NULL before peri_build                                                                   */
     const peri__ops  *ops;
     void     *u, *v, *f;     /* real [dim][stride]; f: force density                                                     */
-    void     *pack;          /* real [places][slots] for k_list.inl: x, u, then p and q, or Q and k of correspondence, or the material;
-                                NULL where slots is 0. Scratch: filled before each pass                                             */
+    void     *records;          /* real [places][record_reals] for list.inl: x, u, then p and q, or Q and k of a gradient, or material;
+                                NULL where record_reals is 0. Scratch: filled before each pass */
     uint32_t *alive;         /* [points][words] bond carries force; NULL where nothing can break and nothing is cut      */
     uint32_t *uncut;         /* [points][words] bond was not cut before the first step; NULL where none was              */
     uint32_t *before;        /* [points][words] alive before the step, for break events; NULL without a callback         */
-    uint16_t *lanes_alive;   /* [columns] as alive, by columns; NULL where alive or the columns are                      */
+    uint16_t *masks;         /* [columns] as alive, by columns; NULL where alive or the columns are                      */
     uint8_t  *no_fail;       /* [points]; NULL where none                                                                */
-    uint8_t  *cls;           /* [points] class: row of `pairs`; NULL where there is one class                            */
+    uint8_t  *point_class;           /* [points] class: row of `pairs`; NULL where there is one class                    */
     peri__pair *pairs;       /* [classes][classes]                                                                       */
     int32_t   classes;
     peri__sums *sums;        /* [blocks]                                                                                 */
     void     *constant;      /* bond [constants][stride], see peri__constant, with a margin before and after; NULL, like the next,
                                 without state-based laws                                                                 */
     void     *response;      /* bond [1 + dim*dim][stride]: p, and Q where there are tensors; with margins               */
-    double   *rate, *wide;   /* [points] row sum of the stiffness over rho; what theta or F of a point adds to those of others */
-    double    fastest;       /* largest rate                                                                             */
-    uint8_t  *central;       /* [groups of PERI_LANES] 1: points there or beside it act by central bonds instead of a gradient; NULL without
+    double   *row_sum, *gather_row_sum; /* [points] row sum of the stiffness over rho; kappa_i R_i, see stiffness.c */
+    double    largest_row_sum; /* largest row_sum                                                                        */
+    uint8_t  *central;       /* [groups of PERI_GROUP] 1: points there or beside it act by central bonds instead of a gradient; NULL without
                                 gradients                                                                                */
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
     uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
-    void     *work;          /* real work done on bonds, by peri__bond_slot; NULL, like the next, without that criterion   */
+    void     *work;          /* real work done on bonds, by peri__bond_slot; NULL, like the next, without that criterion */
     void     *pull;          /* real force density of bonds when last worked out: on the list [entries][dim], on columns [columns][dim]
-                                [PERI_LANES]                                                                             */
+                                [PERI_GROUP]                                                                             */
     void     *worked;        /* real [dim][stride] displacement then, with a margin before and after                     */
     void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u,    */
-    void     *change_f;      /* of the force, both laid out as u with its margins,                                         */
+    void     *change_f;      /* of the force, both laid out as u with its margins,                                       */
     void     *change_response; /* and of the response                                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */

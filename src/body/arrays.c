@@ -12,7 +12,7 @@ static int64_t peri__response_reals(const peri__model *m) {
 }
 
 /* Entries of the arrays of bonds, see peri__bond_slot. */
-static int64_t peri__bond_slots(const peri__model *m) { return m->lanes.columns ? m->lanes.columns * PERI_LANES : m->entries; }
+static int64_t peri__bond_slots(const peri__model *m) { return m->stencil.columns ? m->stencil.columns * PERI_GROUP : m->entries; }
 
 /* The entries of peri_memory, in its order. */
 typedef enum peri__purpose {
@@ -54,7 +54,7 @@ static void *peri__model_array(const peri__model *m, const peri__array *array) {
 }
 
 static void peri__list_model(const peri_body *b, const peri__model *m, peri__array *list) {
-    const int64_t n = m->points, bonds = m->entries, groups = m->lanes.groups, pairs = (int64_t)m->materials * m->materials;
+    const int64_t n = m->points, bonds = m->entries, groups = m->stencil.groups, pairs = (int64_t)m->materials * m->materials;
     const size_t real = peri__real(b), bond_real = peri__bond_real(b);
 #define PERI_ARRAY_(member, number, bytes, purpose) { offsetof(peri__model, member), number, bytes, 1, purpose }
     const peri__array arrays[PERI_MODEL_ARRAYS] = {
@@ -65,12 +65,12 @@ static void peri__list_model(const peri_body *b, const peri__model *m, peri__arr
         PERI_ARRAY_(weight, bonds, bond_real, PERI__FAMILIES),
         PERI_ARRAY_(bond, bonds, bond_real, PERI__FAMILIES),
         PERI_ARRAY_(centroid, bonds * m->dim, bond_real, PERI__FAMILIES),
-        PERI_ARRAY_(part, bonds, sizeof(float), PERI__FAMILIES),
-        PERI_ARRAY_(lanes.begin, groups + 1, sizeof(int64_t), PERI__FAMILIES),
-        PERI_ARRAY_(lanes.first, groups, sizeof(int64_t), PERI__FAMILIES),
-        PERI_ARRAY_(lanes.column, m->lanes.kept, sizeof(peri__column), PERI__FAMILIES),
-        PERI_ARRAY_(lanes.table, m->lanes.vectors, sizeof(peri__stencil_bond), PERI__FAMILIES),
-        PERI_ARRAY_(lanes.ends, m->lanes.vectors, sizeof(peri__stencil_ends), PERI__FAMILIES),
+        PERI_ARRAY_(partial_volume, bonds, sizeof(float), PERI__FAMILIES),
+        PERI_ARRAY_(stencil.begin, groups + 1, sizeof(int64_t), PERI__FAMILIES),
+        PERI_ARRAY_(stencil.first, groups, sizeof(int64_t), PERI__FAMILIES),
+        PERI_ARRAY_(stencil.column, m->stencil.kept, sizeof(peri__column), PERI__FAMILIES),
+        PERI_ARRAY_(stencil.table, m->stencil.vectors, sizeof(peri__stencil_bond), PERI__FAMILIES),
+        PERI_ARRAY_(stencil.ends, m->stencil.vectors, sizeof(peri__stencil_ends), PERI__FAMILIES),
         PERI_ARRAY_(x, m->stride * m->dim, real, PERI__POINTS),
         PERI_ARRAY_(volume, n, sizeof(double), PERI__POINTS),
         PERI_ARRAY_(material, n, 1, PERI__POINTS),
@@ -103,13 +103,13 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const size_t real = peri__real(b), bond = peri__bond_real(b);
 #define PERI_ARRAY_(member, number, bytes, want, purpose) { offsetof(peri_body, member), number, bytes, want, purpose }
     const peri__array arrays[PERI_ARRAYS] = {
-        PERI_ARRAY_(pack, n * m->slots, real, m->slots > 0, PERI__STATE),
+        PERI_ARRAY_(records, n * m->record_reals, real, m->record_reals > 0, PERI__STATE),
         PERI_ARRAY_(alive, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
-        PERI_ARRAY_(lanes_alive, m->lanes.columns, sizeof(uint16_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(masks, m->stencil.columns, sizeof(uint16_t), 0, PERI__DAMAGE),
         PERI_ARRAY_(uncut, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
         PERI_ARRAY_(before, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
         PERI_ARRAY_(no_fail, n, 1, 0, PERI__DAMAGE),
-        PERI_ARRAY_(cls, n, 1, 0, PERI__LAWS),
+        PERI_ARRAY_(point_class, n, 1, 0, PERI__LAWS),
         PERI_ARRAY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof(peri__pair), 1, PERI__LAWS),
         PERI_ARRAY_(sums, m->blocks, sizeof(peri__sums), 1, PERI__STATE),
         PERI_ARRAY_(push, vector, sizeof(double), 0, PERI__LOADS),
@@ -118,9 +118,9 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(change_u, peri__vector_reals(m), real, 0, PERI__STATE),
         PERI_ARRAY_(change_f, peri__vector_reals(m), real, 0, PERI__STATE),
         PERI_ARRAY_(change_response, peri__response_reals(m), bond, 0, PERI__STATE),
-        PERI_ARRAY_(rate, n, sizeof(double), states, PERI__LAWS),
-        PERI_ARRAY_(wide, n, sizeof(double), states, PERI__LAWS),
-        PERI_ARRAY_(central, n / PERI_LANES + 1, 1, (m->gathers & PERI__GRADIENT) != 0, PERI__LAWS),
+        PERI_ARRAY_(row_sum, n, sizeof(double), states, PERI__LAWS),
+        PERI_ARRAY_(gather_row_sum, n, sizeof(double), states, PERI__LAWS),
+        PERI_ARRAY_(central, n / PERI_GROUP + 1, 1, (m->gathers & PERI__GRADIENT) != 0, PERI__LAWS),
         PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE),
@@ -199,7 +199,7 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
         const peri__load *load = &b->loads[k];
         const int64_t reals = load->count * b->dim;
         loads += peri__held_bytes(load->value, reals, sizeof *load->value);
-        loads += peri__held_bytes(load->force, PERI__HELD_PLANES * reals, sizeof *load->force);
+        loads += peri__held_bytes(load->force, PERI__SUPPORT_PLANES * reals, sizeof *load->force);
         loads += peri__held_bytes(load->spread, reals * b->dim, sizeof *load->spread);
         loads += peri__held_bytes(load->owned, load->count, sizeof *load->owned);
         loads += peri__held_bytes(load->all, load->count, sizeof *load->all);

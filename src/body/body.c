@@ -199,9 +199,9 @@ static int32_t peri__fill_list(peri_body *b, peri__model *m, peri__cloud *cloud,
     if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
     if (status == PERI_OK) status = peri__correct(b, cloud, sums);
     if (status < 0 || !m->pairwise || (cloud->weighs && !corrects)) return status;
-    peri__for_points(b, m->points, m->width, peri__rate_block, cloud, sums);
+    peri__for_points(b, m->points, m->width, peri__row_sum_block, cloud, sums);
     for (int64_t k = 0; k < m->blocks; ++k)
-        if (sums[k].a > m->rate) m->rate = sums[k].a;
+        if (sums[k].a > m->row_sum) m->row_sum = sums[k].a;
     return PERI_OK;
 }
 
@@ -210,25 +210,25 @@ static int32_t peri__fill_families(peri_body *b, peri__model *m, peri__cloud *cl
     int32_t listed = b->setup.ibond || peri__corrects(b, m), status = PERI_OK, made = 0;
     if (!b->setup.ibond) status = peri__count_families(b, cloud);
     if (status == PERI_OK && !b->setup.ibond) status = peri__check_families(b, m);
-    if (status == PERI_OK && !listed) status = made = peri__build_lanes(b, cloud);
+    if (status == PERI_OK && !listed) status = made = peri__build_stencil(b, cloud);
     if (status < 0 || made) return status < 0 ? status : PERI_OK;
     status = peri__fill_list(b, m, cloud, sums);
     if (status < 0 || !listed) return status;
-    made = peri__build_lanes(b, cloud);
+    made = peri__build_stencil(b, cloud);
     if (made > 0) peri__free_list(b, m);
     if (made == 0 && !b->setup.ibond) made = peri__place_rows(b, cloud);
     return made < 0 ? made : PERI_OK;
 }
 
 /* Length of a component plane: an odd number of lanes, so that planes do not share the sets of a cache. */
-static int64_t peri__stride(int64_t points) { return ((points + PERI_LANES - 1) / PERI_LANES | 1) * PERI_LANES; }
+static int64_t peri__stride(int64_t points) { return ((points + PERI_GROUP - 1) / PERI_GROUP | 1) * PERI_GROUP; }
 
 /* What follows from how the families are stored. */
 static void peri__fit_model(const peri_body *b, peri__model *m) {
-    m->margin = (m->lanes.reach + 2 * PERI_LANES - 1) / PERI_LANES * PERI_LANES;
+    m->margin = (m->stencil.reach + 2 * PERI_GROUP - 1) / PERI_GROUP * PERI_GROUP;
     m->words = (m->width + 31) / 32;
     if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed && !m->seen_by)
-        m->slots = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
+        m->record_reals = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
 }
 
 /* Points, families, weights: all that clones share. On failure the model is partly filled; the caller releases it. */
@@ -271,9 +271,9 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     status = peri__fill_pairs(b, m);
     cloud->edge = 0.5 * m->spacing / m->horizon;
     if (status == PERI_OK) status = peri__fill_families(b, m, cloud, sums);
-    if (status == PERI_OK && m->pairwise && !(m->rate > 1e-30 && m->rate < 1e30))
+    if (status == PERI_OK && m->pairwise && !(m->row_sum > 1e-30 && m->row_sum < 1e30))
         status = peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
-    m->lanes.isa = peri__isa(b->desc.instructions);
+    m->stencil.isa = peri__isa(b->desc.instructions);
     peri__fit_model(b, m);
     return status;
 }
@@ -292,7 +292,7 @@ static void peri__delete_vector(const peri_body *b, void *vector) {
 
 static void peri__free_load(const peri_body *b, peri__load *load) {
     peri__delete(&b->memory, load->value, load->count * b->dim, sizeof(double));
-    peri__delete(&b->memory, load->force, PERI__HELD_PLANES * load->count * b->dim, sizeof(double));
+    peri__delete(&b->memory, load->force, PERI__SUPPORT_PLANES * load->count * b->dim, sizeof(double));
     peri__delete(&b->memory, load->spread, load->count * b->dim * b->dim, sizeof(double));
     peri__delete(&b->memory, load->owned, load->count, 1);
     peri__delete(&b->memory, load->all, load->count, sizeof *load->all);
@@ -354,16 +354,16 @@ static int peri__need_alive(peri_body *b) {
     uint16_t *columns = NULL;
     if (b->alive) return 1;
     alive = peri__new_flags(b);
-    if (b->model->lanes.columns)
-        columns = (uint16_t *)peri__new(&b->memory, b->model->lanes.columns, sizeof *columns);
-    if (!alive || (b->model->lanes.columns && !columns)) {
+    if (b->model->stencil.columns)
+        columns = (uint16_t *)peri__new(&b->memory, b->model->stencil.columns, sizeof *columns);
+    if (!alive || (b->model->stencil.columns && !columns)) {
         peri__delete(&b->memory, alive, b->model->points * b->model->words, sizeof *alive);
-        peri__delete(&b->memory, columns, b->model->lanes.columns, sizeof *columns);
+        peri__delete(&b->memory, columns, b->model->stencil.columns, sizeof *columns);
         return 0;
     }
     if (columns) peri__whole_masks(b->model, columns);
     b->alive = alive;
-    b->lanes_alive = columns;
+    b->masks = columns;
     return 1;
 }
 
@@ -371,9 +371,9 @@ static int peri__need_alive(peri_body *b) {
 static int32_t peri__update_classes(peri_body *b) {
     const peri__model *m = b->model;
     int32_t n = m->materials;
-    if (!b->cls && (n > 1 || b->no_fail)) {
-        b->cls = (uint8_t *)peri__new(&b->memory, m->points, 1);
-        if (!b->cls) return peri__fail(b, PERI_ERROR_MEMORY, "classes", -1, 0.0);
+    if (!b->point_class && (n > 1 || b->no_fail)) {
+        b->point_class = (uint8_t *)peri__new(&b->memory, m->points, 1);
+        if (!b->point_class) return peri__fail(b, PERI_ERROR_MEMORY, "classes", -1, 0.0);
     }
     b->classes = b->no_fail ? 2 * n : n;
     for (int32_t p = 0; p < b->classes; ++p)
@@ -382,8 +382,8 @@ static int32_t peri__update_classes(peri_body *b) {
             *pair = m->pairs[p % n * n + q % n];
             for (int32_t k = 0; (p >= n || q >= n) && k < PERI_CRITERION_COUNT_; ++k) pair->s0 = pair->limit[k] = PERI_NEVER;
         }
-    for (int64_t i = 0; b->cls && i < m->points; ++i)
-        b->cls[i] = (uint8_t)(m->material[i] + (b->no_fail && b->no_fail[i] ? n : 0));
+    for (int64_t i = 0; b->point_class && i < m->points; ++i)
+        b->point_class[i] = (uint8_t)(m->material[i] + (b->no_fail && b->no_fail[i] ? n : 0));
     return PERI_OK;
 }
 
@@ -401,8 +401,9 @@ static int32_t peri__new_state(peri_body *b) {
     if (status < 0 || m->pairwise) return status;
     b->now.stale |= PERI__STALE_CONSTANTS;
     peri__refresh(b);
-    b->model->rate = b->fastest; /* of the whole body: broken bonds may only raise it */
-    return b->fastest > 1e-30 && b->fastest < 1e30 ? PERI_OK : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
+    b->model->row_sum = b->largest_row_sum; /* of the whole body: broken bonds may only raise it */
+    return b->largest_row_sum > 1e-30 && b->largest_row_sum < 1e30 ? PERI_OK
+                                                                    : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
 }
 
 static void peri__free_cloud(const peri_body *b, peri__cloud *cloud, int64_t points) {

@@ -44,7 +44,7 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
         return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     if (fn) load.value = (double *)peri__new(&b->memory, load.count * b->dim, sizeof(double));
     if (fn && set == PERI_ALL) load.all = (int32_t *)peri__new(&b->memory, load.count, sizeof *load.all);
-    if (support) load.force = (double *)peri__new(&b->memory, PERI__HELD_PLANES * load.count * b->dim, sizeof(double));
+    if (support) load.force = (double *)peri__new(&b->memory, PERI__SUPPORT_PLANES * load.count * b->dim, sizeof(double));
     if (support) load.owned = (uint8_t *)peri__new(&b->memory, load.count, 1);
     if ((fn && !load.value) || (fn && set == PERI_ALL && !load.all) || (support && (!load.force || !load.owned))) {
         peri__free_load(b, &load);
@@ -114,12 +114,12 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
     const peri__model *m = b->model;
     int64_t vector = m->stride * m->dim;
     PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
-    peri__inner(b, place, obstacle->place);
+    peri__inner(b, place, obstacle->position);
     for (int32_t d = 0; d < b->dim; ++d) /* beyond 1e15 spacings the surface of a ball is lost in rounding */
-        if (!(fabs(obstacle->place[d]) < (obstacle->kind == PERI__BALL ? 1e15 : DBL_MAX)))
+        if (!(fabs(obstacle->position[d]) < (obstacle->kind == PERI__BALL ? 1e15 : DBL_MAX)))
             return peri__fail(b, PERI_ERROR_RANGE, obstacle->kind == PERI__BALL ? "centre" : "place", -1, place[d]);
     if (!(obstacle->radius < 1e15)) return peri__fail(b, PERI_ERROR_RANGE, "radius", -1, obstacle->radius * m->length);
-    memcpy(obstacle->place0, obstacle->place, sizeof obstacle->place0);
+    memcpy(obstacle->position0, obstacle->position, sizeof obstacle->position0);
     obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
     if (!peri__grow(&b->memory, &b->obstacles, &b->obstacle_capacity, b->obstacle_count + 1, sizeof *b->obstacles))
         return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);

@@ -55,7 +55,7 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         b->loads[k].all = NULL;
         PERI_COPY_(loads[k].all, from->loads[k].count, sizeof(int32_t))
         PERI_COPY_(loads[k].value, from->loads[k].count * m->dim, sizeof(double))
-        PERI_COPY_(loads[k].force, PERI__HELD_PLANES * from->loads[k].count * m->dim, sizeof(double))
+        PERI_COPY_(loads[k].force, PERI__SUPPORT_PLANES * from->loads[k].count * m->dim, sizeof(double))
         PERI_COPY_(loads[k].spread, from->loads[k].count * m->dim * m->dim, sizeof(double))
         PERI_COPY_(loads[k].owned, from->loads[k].count, 1)
         b->load_count = k + 1;
@@ -79,7 +79,7 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
     b->model = from->model;
     b->ops = from->ops;
     b->classes = from->classes;
-    b->fastest = from->fastest;
+    b->largest_row_sum = from->largest_row_sum;
     b->on_break = from->on_break;
     b->break_user = from->break_user;
     b->now = from->now;
@@ -136,7 +136,8 @@ PERI_API const char *peri_kernel_text(const peri_body *b) {
     };
     const peri__model *m = b ? b->model : NULL;
     if (!m) return "";
-    return names[m->lanes.columns ? 0 : m->slots ? 1 : b->desc.kernel == PERI_KERNEL_REFERENCE || m->centroid ? 3 : 2][m->lanes.isa];
+    const int listed = m->record_reals ? 1 : b->desc.kernel == PERI_KERNEL_REFERENCE || m->centroid ? 3 : 2;
+    return names[m->stencil.columns ? 0 : listed][m->stencil.isa];
 }
 
 PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->now.cut / 2 : PERI_ERROR_ARGUMENT; }

@@ -70,7 +70,7 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
     return PERI_OK;
 }
 
-static double *peri__held(const peri_body *b, const peri__load *load, int plane, int64_t k, int32_t d) {
+static double *peri__support_at(const peri_body *b, const peri__load *load, int plane, int64_t k, int32_t d) {
     return &load->force[(plane * load->count + k) * b->dim + d];
 }
 
@@ -89,7 +89,7 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
                 double rho = m->rho[m->material[i]], value = peri__load_value(b, load, k, d), v, work;
-                double *old = peri__held(b, load, PERI__HELD_VALUE, k, d), force, before;
+                double *old = peri__support_at(b, load, PERI__SUPPORT_VALUE, k, d), force, before;
                 if (!(load->owned[k] >> d & 1)) continue;
                 if (load->kind == PERI__DISPLACEMENT) {
                     value /= m->length;
@@ -101,12 +101,12 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
                 }
                 *old = value;
                 peri__put_real(b->v, b->f32, at, v);
-                v = *peri__held(b, load, PERI__HELD_VELOCITY, k, d) = peri__get_real(b->v, b->f32, at);
+                v = *peri__support_at(b, load, PERI__SUPPORT_VELOCITY, k, d) = peri__get_real(b->v, b->f32, at);
                 peri__put_real(b->f, b->f32, at, damping * rho * v);
-                force = *peri__held(b, load, PERI__HELD_FORCE, k, d);
-                before = *peri__held(b, load, PERI__HELD_ENERGY, k, d);
+                force = *peri__support_at(b, load, PERI__SUPPORT_FORCE, k, d);
+                before = *peri__support_at(b, load, PERI__SUPPORT_ENERGY, k, d);
                 work = 0.5 * rho * (v * v - before * before) - 0.5 * dt * force * v;
-                *peri__held(b, load, PERI__HELD_REACTION, k, d) =
+                *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d) =
                     rho * (v - (1.0 - 0.5 * damping * dt) * before) / dt - 0.5 * force;
                 if (b->desc.ledger) b->now.ledger.external += work * m->volume[i];
             }
@@ -125,19 +125,19 @@ static void peri__hold_supports(peri_body *b, double dt, double damping) {
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
                 double rho = m->rho[m->material[i]], force = peri__get_real(b->f, b->f32, at);
-                double v = *peri__held(b, load, PERI__HELD_VELOCITY, k, d), end = v, kicked, need;
+                double v = *peri__support_at(b, load, PERI__SUPPORT_VELOCITY, k, d), end = v, kicked, need;
                 if (!(load->owned[k] >> d & 1)) continue;
-                *peri__held(b, load, PERI__HELD_FORCE, k, d) = force;
-                if (load->kind == PERI__VELOCITY) end = *peri__held(b, load, PERI__HELD_VALUE, k, d);
+                *peri__support_at(b, load, PERI__SUPPORT_FORCE, k, d) = force;
+                if (load->kind == PERI__VELOCITY) end = *peri__support_at(b, load, PERI__SUPPORT_VALUE, k, d);
                 /* bonds that broke in this step have kicked v away from what is prescribed */
                 kicked = rho * (peri__get_real(b->v, b->f32, at) - v);
                 if (b->desc.ledger)
                     b->now.ledger.external += (0.5 * rho * (end * end - v * v) - (0.5 * dt * force + kicked) * v) * m->volume[i];
-                *peri__held(b, load, PERI__HELD_ENERGY, k, d) = end;
+                *peri__support_at(b, load, PERI__SUPPORT_ENERGY, k, d) = end;
                 need = 2.0 * rho * ((1.0 + 0.5 * damping * dt) * end - v) / dt;
                 peri__put_real(b->v, b->f32, at, v);
                 peri__put_real(b->f, b->f32, at, need);
-                *peri__held(b, load, PERI__HELD_REACTION, k, d) += 0.5 * (need - force) - kicked / dt;
+                *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d) += 0.5 * (need - force) - kicked / dt;
             }
     }
 }
@@ -154,10 +154,10 @@ static int32_t peri__meet_supports(peri_body *b) {
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t at = peri__dof(b, load, k, d);
                 if (!(load->owned[k] >> d & 1)) continue;
-                *peri__held(b, load, PERI__HELD_FORCE, k, d) = peri__get_real(b->f, b->f32, at);
-                *peri__held(b, load, PERI__HELD_ENERGY, k, d) = peri__get_real(b->v, b->f32, at);
-                if (!load->stepped) *peri__held(b, load, PERI__HELD_REACTION, k, d) = -peri__get_real(b->f, b->f32, at);
-                *peri__held(b, load, PERI__HELD_VALUE, k, d) = peri__load_value(b, load, k, d) / peri__velocity_unit(m);
+                *peri__support_at(b, load, PERI__SUPPORT_FORCE, k, d) = peri__get_real(b->f, b->f32, at);
+                *peri__support_at(b, load, PERI__SUPPORT_ENERGY, k, d) = peri__get_real(b->v, b->f32, at);
+                if (!load->stepped) *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d) = -peri__get_real(b->f, b->f32, at);
+                *peri__support_at(b, load, PERI__SUPPORT_VALUE, k, d) = peri__load_value(b, load, k, d) / peri__velocity_unit(m);
                 peri__put_real(b->f, b->f32, at, 0.0);
             }
     }
@@ -165,18 +165,18 @@ static int32_t peri__meet_supports(peri_body *b) {
 }
 
 /* The supports make good what the coming kick will take from their dofs by damping: the same formula as in the kick itself. */
-static void peri__supply_supports(peri_body *b, const peri__step *step) {
+static void peri__supply_supports(peri_body *b, const peri__operands *operands) {
     const peri__model *m = b->model;
-    if (step->loss_old == 0.0 && step->loss_new == 0.0) return;
+    if (operands->loss_old == 0.0 && operands->loss_new == 0.0) return;
     for (int64_t s = 0; s < b->load_count; ++s) {
         const peri__load *load = &b->loads[s];
         for (int64_t k = 0; load->owned && k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
                 double rho = m->rho[m->material[i]], old = peri__get_real(b->v, b->f32, at);
-                double now = step->keep * old + step->kick / rho * peri__get_real(b->f, b->f32, at);
+                double now = operands->keep * old + operands->kick / rho * peri__get_real(b->f, b->f32, at);
                 if (!(load->owned[k] >> d & 1)) continue;
-                b->now.ledger.external += (step->loss_old * old + step->loss_new * now) * 0.5 * (old + now) * rho * m->volume[i];
+                b->now.ledger.external += (operands->loss_old * old + operands->loss_new * now) * 0.5 * (old + now) * rho * m->volume[i];
             }
     }
 }

@@ -57,7 +57,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
         memset(b->worked, 0, (size_t)peri__vector_reals(m) * peri__real(b));
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
-        memcpy(b->obstacles[k].place, b->obstacles[k].place0, sizeof b->obstacles[k].place);
+        memcpy(b->obstacles[k].position, b->obstacles[k].position0, sizeof b->obstacles[k].position);
     for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
     b->now = peri__at_start(b->now.cut);
     if (b->alive) peri__changed(b, PERI__BONDS);

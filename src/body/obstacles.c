@@ -9,10 +9,10 @@ static int32_t peri__move_obstacles(peri_body *b, double time) {
         peri__obstacle *o = &b->obstacles[k];
         double place[3] = { 0.0, 0.0, 0.0 };
         if (o->kind == PERI__REMOVED || !o->motion) continue;
-        for (int32_t d = 0; d < b->dim; ++d) place[d] = b->model->origin[d] + o->place0[d] * b->model->length;
+        for (int32_t d = 0; d < b->dim; ++d) place[d] = b->model->origin[d] + o->position0[d] * b->model->length;
         o->motion(o->user, time, place);
         if (!peri__finite_vector(place, b->dim)) return peri__fail(b, PERI_ERROR_CALLBACK, "motion of the obstacle", k, 0.0);
-        peri__inner(b, place, o->place);
+        peri__inner(b, place, o->position);
     }
     return PERI_OK;
 }
@@ -24,7 +24,7 @@ static void peri__push(const peri_body *b, const peri__obstacle *o, int64_t i, d
     if (o->kind == PERI__REMOVED) return;
     for (int32_t d = 0; d < m->dim; ++d) {
         int64_t at = d * m->stride + i;
-        r[d] = peri__get_real(m->x, b->f32, at) + peri__get_real(b->u, b->f32, at) - o->place[d];
+        r[d] = peri__get_real(m->x, b->f32, at) + peri__get_real(b->u, b->f32, at) - o->position[d];
         square += r[d] * r[d];
     }
     if (o->kind == PERI__BALL) {

@@ -30,7 +30,7 @@ static void peri__read_reactions(const peri_body *b, double *out) {
         for (int64_t k = 0; load->owned && k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d)
                 if (load->owned[k] >> d & 1)
-                    out[peri__set_point(b, load->set, k) * m->dim + d] = *peri__held(b, load, PERI__HELD_REACTION, k, d);
+                    out[peri__set_point(b, load->set, k) * m->dim + d] = *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d);
     }
 }
 
@@ -48,7 +48,7 @@ PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
         for (int32_t d = 0; d < m->dim; ++d) {
             double volume = m->volume[peri__set_point(b, load->set, k)];
             if (load->owned && !(load->owned[k] >> d & 1)) continue;
-            if (load->owned) total[d] += *peri__held(b, load, PERI__HELD_REACTION, k, d) * volume;
+            if (load->owned) total[d] += *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d) * volume;
             else total[d] += peri__load_force(b, load, k, d) * volume;
         }
     for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;

@@ -33,15 +33,15 @@ static void peri__changed(peri_body *b, peri__change what) {
 
 /* f of u, loads and bonds as they are, without breaking anything. */
 static int32_t peri__make_force(peri_body *b) {
-    peri__step step = peri__no_step(b);
+    peri__operands operands = peri__operands_of(b);
     const peri__model *m = b->model;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
     int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) {
-        step.working = m->seen_by & PERI__BY_WORK;
-        peri__bond_forces(b, &step);
+        operands.working = m->seen_by & PERI__BY_WORK;
+        peri__bond_forces(b, &operands);
         status = peri__meet_supports(b);
     }
     peri__leave(b, former);
@@ -52,7 +52,7 @@ static int32_t peri__make_force(peri_body *b) {
    the force then stays stale. */
 static int32_t peri__ensure(peri_body *b, uint32_t what) {
     what &= b->now.stale;
-    if (what & (PERI__STALE_FORCE | PERI__STALE_MASKS)) peri__update_lanes(b);
+    if (what & (PERI__STALE_FORCE | PERI__STALE_MASKS)) peri__update_masks(b);
     if (what & (PERI__STALE_FORCE | PERI__STALE_CONSTANTS)) peri__refresh(b);
     if (what & PERI__STALE_FORCE) {
         int32_t status = peri__make_force(b);

@@ -4,23 +4,23 @@
 #endif
 
 /* What passes need of a body, with no step, no breaking and no work. */
-static peri__step peri__no_step(const peri_body *b) {
+static peri__operands peri__operands_of(const peri_body *b) {
     const peri__model *m = b->model;
-    peri__step s;
+    peri__operands s;
     memset(&s, 0, sizeof s);
     s.model = m;
     s.u = s.drifted = b->u;
     s.v = b->v;
     s.f = b->f;
-    s.pack = b->pack;
+    s.records = b->records;
     if (b->constant) {
         s.constant = (const char *)b->constant + (size_t)m->margin * peri__bond_real(b);
         s.response = (char *)b->response + (size_t)m->margin * peri__bond_real(b);
     }
     s.alive = b->alive;
     s.dying = b->dying;
-    s.masks = b->lanes_alive;
-    s.cls = b->cls;
+    s.masks = b->masks;
+    s.point_class = b->point_class;
     s.pairs = b->pairs;
     s.classes = b->classes;
     s.central = b->central;
@@ -33,13 +33,13 @@ static peri__step peri__no_step(const peri_body *b) {
 }
 
 static double peri__kinetic_energy(peri_body *b) {
-    peri__step step = peri__no_step(b);
-    peri__for_points(b, b->model->points, 1, b->ops->kinetic, &step, b->sums);
+    peri__operands operands = peri__operands_of(b);
+    peri__for_points(b, b->model->points, 1, b->ops->kinetic, &operands, b->sums);
     return peri__total(b->sums, b->model->points).a;
 }
 
 /* The largest energy of a node that may lose a bond by it. */
-static double peri__most_node_energy(const peri__step *s) {
+static double peri__most_node_energy(const peri__operands *s) {
     double most = 0.0;
     for (int64_t i = 0; i < s->model->points; ++i)
         if (s->node[i] > most && peri__least_limit(s, i, PERI_CRITERION_NODE_ENERGY) < PERI_NEVER) most = s->node[i];
@@ -47,33 +47,34 @@ static double peri__most_node_energy(const peri__step *s) {
 }
 
 /* Adds the force of all bonds to step->f, by step->u; b: whose threads do it. */
-static void peri__sum_bonds(const peri_body *b, peri__step *step, peri__sums *sums) {
+static void peri__sum_bonds(const peri_body *b, peri__operands *operands, peri__sums *sums) {
     const peri__model *m = b->model;
-    if (m->slots) peri__for_points(b, m->points, 2, b->ops->pack, step, NULL);
-    if (m->gathers || step->node) {
-        peri__for_points(b, m->points, m->width, b->ops->gather, step, NULL);
-        if (m->slots) peri__for_points(b, m->points, 1, b->ops->pack_response, step, NULL);
+    if (m->record_reals) peri__for_points(b, m->points, 2, b->ops->fill_records, operands, NULL);
+    if (m->gathers || operands->node) {
+        peri__for_points(b, m->points, m->width, b->ops->gather, operands, NULL);
+        if (m->record_reals) peri__for_points(b, m->points, 1, b->ops->fill_responses, operands, NULL);
     }
-    if (step->node && step->breaking) step->node_most = peri__most_node_energy(step);
-    peri__for_points(b, m->points, m->width, b->ops->force, step, sums);
+    if (operands->node && operands->breaking) operands->node_most = peri__most_node_energy(operands);
+    peri__for_points(b, m->points, m->width, b->ops->force, operands, sums);
 }
 
 /* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion; counts the work on
    them where step->working. */
-static void peri__bond_forces(peri_body *b, peri__step *step) {
+static void peri__bond_forces(peri_body *b, peri__operands *operands) {
     const peri__model *m = b->model;
-    peri__sum_bonds(b, step, b->sums);
-    if (step->working) memcpy((char *)b->worked + (size_t)m->margin * peri__real(b), b->u, (size_t)(m->stride * m->dim) * peri__real(b));
+    peri__sum_bonds(b, operands, b->sums);
+    if (operands->working) memcpy((char *)b->worked + (size_t)m->margin * peri__real(b),
+                                  b->u, (size_t)(m->stride * m->dim) * peri__real(b));
 }
 
 /* Energy of the intact bonds under the displacements u, laid out as b->u; per point to density[points] where it is not NULL. */
 static double peri__energy_under(peri_body *b, const void *u, double *density) {
-    peri__step step = peri__no_step(b);
-    peri__update_lanes(b);
+    peri__operands operands = peri__operands_of(b);
+    peri__update_masks(b);
     peri__refresh(b);
-    step.u = u;
-    step.out = density;
-    peri__for_points(b, b->model->points, 4 * b->model->width, b->ops->energy, &step, b->sums);
+    operands.u = u;
+    operands.out = density;
+    peri__for_points(b, b->model->points, 4 * b->model->width, b->ops->energy, &operands, b->sums);
     return peri__total(b->sums, b->model->points).a;
 }
 

@@ -111,17 +111,17 @@ static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *
 }
 
 /* sum T xi V over the live bonds, T the half that point i gives. */
-static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, const peri__deformation *f, double p[3][3]) {
+static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__row *row, const peri__deformation *f, double p[3][3]) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     int linear = b->desc.geometry == PERI_LINEAR;
-    double inverse[6] = { 0.0 }, press = 0.0, vector = 0.0, stress[3][3];
+    double inverse[6] = { 0.0 }, pressure_factor = 0.0, stabilization = 0.0, stress[3][3];
     int tensor = 0;
-    if (!law->pairwise) press = peri__get_constant(b, i, PERI__PRESS);
-    if (press != 0.0) press *= peri__dilatation(b, i, row);
+    if (!law->pairwise) pressure_factor = peri__get_constant(b, i, PERI__PRESSURE_FACTOR);
+    if (pressure_factor != 0.0) pressure_factor *= peri__dilatation(b, i, row);
     if (law->gather & PERI__GRADIENT) {
-        vector = peri__get_constant(b, i, PERI__VECTOR);
-        for (int k = 0; k < PERI_PACKED(m->dim); ++k) inverse[k] = peri__get_constant(b, i, PERI__INVERSE + k);
+        stabilization = peri__get_constant(b, i, PERI__STABILIZATION);
+        for (int k = 0; k < PERI_PACKED(m->dim); ++k) inverse[k] = peri__get_constant(b, i, PERI__SHAPE_INVERSE + k);
         tensor = inverse[0] != 0.0;
         peri__piola(b, i, f, stress);
     }
@@ -138,11 +138,11 @@ static void peri__collapse(const peri_body *b, int64_t i, const peri__row *row, 
         e = bond * peri__stretch(b, i, row, k);
         for (int d = 0; d < m->dim; ++d) length += peri__square(xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
-        central = press * peri__law_gauge(law, bond) + peri__spring(b, i, row->ids[k], bond) * e;
+        central = pressure_factor * peri__law_gauge(law, bond) + peri__spring(b, i, row->ids[k], bond) * e;
         for (int d = 0; d < m->dim; ++d) {
-            t[d] = central * (xi[d] + (linear ? 0.0 : eta[d])) / length + vector * eta[d];
+            t[d] = central * (xi[d] + (linear ? 0.0 : eta[d])) / length + stabilization * eta[d];
             for (int a = 0; tensor && a < m->dim; ++a) {
-                t[d] -= vector * f->h[d][a] * xi[a];
+                t[d] -= stabilization * f->h[d][a] * xi[a];
                 for (int c = 0; c < m->dim; ++c) t[d] += stress[d][a] * inverse[peri__packed(m->dim, a, c)] * xi[c];
             }
             for (int a = 0; a < m->dim; ++a) p[d][a] += w * t[d] * xi[a];
@@ -185,7 +185,7 @@ static void peri__force_stress_at(const peri_body *b, int64_t i, const peri__row
     peri__deformation f;
     double p[3][3];
     peri__deform(b, i, row, &f);
-    peri__collapse(b, i, row, &f, p);
+    peri__collapsed_stress(b, i, row, &f, p);
     peri__cauchy(b, p, &f, out);
 }
 

@@ -30,7 +30,7 @@ PERI_API void peri_run_init(peri_run *r) {
    diagonal and once off it; obstacles once, taken as if all touched the lightest point. */
 static double peri__stable(const peri_body *b) {
     const peri__model *m = b->model;
-    double lambda = b->fastest > m->rate ? b->fastest : m->rate, lightest = m->rho[0];
+    double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum, lightest = m->rho[0];
     for (int32_t k = 1; k < m->materials; ++k)
         if (m->rho[k] < lightest) lightest = m->rho[k];
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -44,9 +44,9 @@ PERI_API double peri_stable_step(const peri_body *b) {
     return peri__stable(b) * b->model->time;
 }
 
-static void peri__kick(peri_body *b, peri__step *step, int64_t *bad) {
-    peri__supply_supports(b, step);
-    peri__for_points(b, b->model->points, 1, b->ops->kick, step, b->sums);
+static void peri__kick(peri_body *b, peri__operands *operands, int64_t *bad) {
+    peri__supply_supports(b, operands);
+    peri__for_points(b, b->model->points, 1, b->ops->kick, operands, b->sums);
     peri__sums total = peri__total(b->sums, b->model->points);
     b->now.ledger.damping += total.b;
     if (bad && *bad < 0) *bad = total.bad;
@@ -54,22 +54,22 @@ static void peri__kick(peri_body *b, peri__step *step, int64_t *bad) {
 
 /* Central difference keeps v half a step behind. These move it there and back, with their half of what damping takes. */
 static void peri__stagger(peri_body *b, double dt, double damping) {
-    peri__step step = peri__no_step(b);
+    peri__operands operands = peri__operands_of(b);
     double h = 0.5 * damping * dt;
-    step.keep = 1.0 + h;
-    step.kick = -0.5 * dt;
-    step.loss_old = b->desc.ledger ? -h : 0.0;
-    peri__kick(b, &step, NULL);
+    operands.keep = 1.0 + h;
+    operands.kick = -0.5 * dt;
+    operands.loss_old = b->desc.ledger ? -h : 0.0;
+    peri__kick(b, &operands, NULL);
 }
 
 static int32_t peri__unstagger(peri_body *b, double dt, double damping) {
-    peri__step step = peri__no_step(b);
+    peri__operands operands = peri__operands_of(b);
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
-    step.keep = 1.0 / (1.0 + h);
-    step.kick = 0.5 * dt * step.keep;
-    step.loss_new = b->desc.ledger ? h : 0.0;
-    peri__kick(b, &step, &bad);
+    operands.keep = 1.0 / (1.0 + h);
+    operands.kick = 0.5 * dt * operands.keep;
+    operands.loss_new = b->desc.ledger ? h : 0.0;
+    peri__kick(b, &operands, &bad);
     return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->now.time) : PERI_OK;
 }
 
@@ -79,19 +79,19 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
-    peri__step step = peri__no_step(b);
+    peri__operands operands = peri__operands_of(b);
     int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
         peri__changed(b, PERI__ACTION);
         return status;
     }
 
-    step.keep = central ? (1.0 - h) / (1.0 + h) : 1.0 - h;
-    step.kick = central ? dt / (1.0 + h) : 0.5 * dt;
-    step.drift = dt;
-    step.loss_old = b->desc.ledger ? h : 0.0;
-    step.loss_new = central ? step.loss_old : 0.0;
-    peri__kick(b, &step, &bad);
+    operands.keep = central ? (1.0 - h) / (1.0 + h) : 1.0 - h;
+    operands.kick = central ? dt / (1.0 + h) : 0.5 * dt;
+    operands.drift = dt;
+    operands.loss_old = b->desc.ledger ? h : 0.0;
+    operands.loss_new = central ? operands.loss_old : 0.0;
+    peri__kick(b, &operands, &bad);
     b->now.time = next;
     b->now.steps++;
 
@@ -102,14 +102,14 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
         return status;
     }
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
-    step.breaking = b->alive != NULL && m->breakable;
-    step.working = m->seen_by & PERI__BY_WORK;
-    step.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
-    peri__bond_forces(b, &step);
-    if (step.breaking) {
+    operands.breaking = b->alive != NULL && m->breakable;
+    operands.working = m->seen_by & PERI__BY_WORK;
+    operands.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
+    peri__bond_forces(b, &operands);
+    if (operands.breaking) {
         peri__sums total = peri__total(b->sums, m->points);
         if (!m->pairwise && total.n > 0) {
-            peri__break_states(b, &step);
+            peri__break_states(b, &operands);
         } else {
             b->now.ledger.fracture += total.a;
             b->now.broken += total.n;
@@ -119,12 +119,12 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     peri__hold_supports(b, dt, damping);
 
     if (!central) {
-        step.keep = 1.0 / (1.0 + h);
-        step.kick = 0.5 * dt / (1.0 + h);
-        step.drift = 0.0;
-        step.loss_new = step.loss_old;
-        step.loss_old = 0.0;
-        peri__kick(b, &step, &bad);
+        operands.keep = 1.0 / (1.0 + h);
+        operands.kick = 0.5 * dt / (1.0 + h);
+        operands.drift = 0.0;
+        operands.loss_new = operands.loss_old;
+        operands.loss_old = 0.0;
+        peri__kick(b, &operands, &bad);
     }
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->now.time);
     return PERI_OK;

@@ -21,7 +21,7 @@ static int64_t peri__mark_dying(peri_body *b) {
     for (int64_t block = 0; block < m->blocks; ++block) {
         if (b->sums[block].n == 0) continue;
         for (int64_t n = block * PERI_BLOCK; n < peri__min((block + 1) * PERI_BLOCK, m->points); ++n) {
-            const int64_t i = m->slots ? peri__nth(m, n) : n;
+            const int64_t i = m->record_reals ? peri__nth(m, n) : n;
             peri__read_row(b, i, &row);
             for (int64_t k = 0; k < row.count; ++k) {
                 if (!(b->dying[i * m->words + k / 32] >> (k % 32) & 1)) continue;
@@ -42,23 +42,23 @@ static int64_t peri__mark_dying(peri_body *b) {
 }
 
 /* Energy of the points that lose a bond. */
-static double peri__energy_at_stake(peri_body *b, peri__step *step, int64_t count) {
+static double peri__energy_at_stake(peri_body *b, peri__operands *operands, int64_t count) {
     peri__sums sums;
     memset(&sums, 0, sizeof sums);
     for (int64_t n = 0; n < count; ++n)
-        if (b->marked[b->near_dying[n]] == 1) b->ops->energy(step, b->near_dying[n], b->near_dying[n] + 1, &sums);
+        if (b->marked[b->near_dying[n]] == 1) b->ops->energy(operands, b->near_dying[n], b->near_dying[n] + 1, &sums);
     return sums.a;
 }
 
 /* Breaks the bonds in `dying`. Serial: few points lose a bond in a step, and their order is fixed. */
-static void peri__break_states(peri_body *b, const peri__step *at) {
+static void peri__break_states(peri_body *b, const peri__operands *at) {
     const peri__model *m = b->model;
-    peri__step step = *at;
+    peri__operands operands = *at;
     int64_t count = peri__mark_dying(b);
-    step.breaking = 0;
-    step.out = NULL;
-    b->ops->exchange(&step, b->near_dying, count, -1);
-    double energy = peri__energy_at_stake(b, &step, count);
+    operands.breaking = 0;
+    operands.out = NULL;
+    b->ops->add_point_forces(&operands, b->near_dying, count, -1);
+    double energy = peri__energy_at_stake(b, &operands, count);
     for (int64_t n = 0; n < count; ++n) {
         int64_t i = b->near_dying[n];
         for (int64_t k = 0; k < m->count[i]; ++k) {
@@ -69,20 +69,20 @@ static void peri__break_states(peri_body *b, const peri__step *at) {
             b->now.broken++;
         }
         if (b->marked[i] == 1) {
-            if (b->lanes_alive) peri__group_masks(m, i / PERI_LANES, (uint32_t)1 << (i % PERI_LANES), b->alive, b->lanes_alive);
+            if (b->masks) peri__group_masks(m, i / PERI_GROUP, (uint32_t)1 << (i % PERI_GROUP), b->alive, b->masks);
             peri__row row;
             peri__read_row(b, i, &row);
             peri__set_constants(b, i, &row);
-            peri__set_wide(b, i, &row);
+            peri__set_gather_row_sum(b, i, &row);
         }
     }
     for (int64_t n = 0; n < count; ++n)
-        if (b->marked[b->near_dying[n]] == 1) b->ops->gather_rows(&step, b->near_dying[n], b->near_dying[n] + 1, NULL);
-    b->now.ledger.fracture += energy - peri__energy_at_stake(b, &step, count);
-    b->ops->exchange(&step, b->near_dying, count, 1);
+        if (b->marked[b->near_dying[n]] == 1) b->ops->gather_rows(&operands, b->near_dying[n], b->near_dying[n] + 1, NULL);
+    b->now.ledger.fracture += energy - peri__energy_at_stake(b, &operands, count);
+    b->ops->add_point_forces(&operands, b->near_dying, count, 1);
     for (int64_t n = 0; n < count; ++n) {
-        peri__set_rate(b, b->near_dying[n]);
+        peri__set_row_sum(b, b->near_dying[n]);
         b->marked[b->near_dying[n]] = 0;
     }
-    peri__find_fastest(b);
+    peri__find_largest_row_sum(b);
 }

@@ -8,7 +8,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_NEAR_AHEAD 8 /* points whose entries, anywhere in memory, are asked for before their turn                     */
+#define PERI_NEAR_AHEAD 8 /* points whose entries, anywhere in memory, are asked for before their turn                   */
 
 static void peri__sort_row(int32_t *row, int64_t count) {
     /* shell sort: rows are short, and runs of neighbouring cells are ascending already */
@@ -83,8 +83,8 @@ static int peri__make_rows(peri__model *m) {
         m->bonds += m->count[i];
         if (m->count[i] > m->width) m->width = m->count[i];
     }
-    m->entries = m->bonds + PERI_LANES;
-    m->ids = (int32_t *)peri__new_tail(&m->memory, m->entries, sizeof *m->ids, PERI_LANES);
+    m->entries = m->bonds + PERI_GROUP;
+    m->ids = (int32_t *)peri__new_tail(&m->memory, m->entries, sizeof *m->ids, PERI_GROUP);
     return m->ids != NULL;
 }
 
@@ -141,7 +141,7 @@ static int32_t peri__take_families(peri_body *b, peri__cloud *c) {
     return PERI_OK;
 }
 
-/* Rows of the points in a block of cells, and where c->weighs their weights: sums->a: as of peri__rate_block, sums->n: rows that
+/* Rows of the points in a block of cells, and where c->weighs their weights: sums->a: as of peri__row_sum_block, sums->n: rows that
    peri__weigh has to look at. */
 static void peri__fill_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__cloud *c = (const peri__cloud *)context;
@@ -191,7 +191,7 @@ static int32_t peri__write_families(peri_body *b, peri__cloud *c, int numbered) 
     numbered = numbered || m->width > PERI_VECTOR_LIMIT;
     c->weighs = !numbered && b->desc.quadrature == PERI_FULL_VOLUME && b->desc.influence != PERI_INFLUENCE_USER;
     peri__sums *sums = (peri__sums *)peri__new(&m->memory, blocks, sizeof *sums);
-    if (c->weighs) m->weight = peri__new_tail(&m->memory, m->entries, peri__bond_real(b), PERI_LANES);
+    if (c->weighs) m->weight = peri__new_tail(&m->memory, m->entries, peri__bond_real(b), PERI_GROUP);
     if (!sums || (c->weighs && !m->weight)) {
         peri__delete(&m->memory, sums, blocks, sizeof *sums);
         return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
@@ -199,9 +199,9 @@ static int32_t peri__write_families(peri_body *b, peri__cloud *c, int numbered) 
     peri__for_points(b, c->cell_count, 256, peri__fill_block, c, sums);
     for (int64_t k = 0; k * PERI_BLOCK < c->cell_count; ++k) {
         if (sums[k].n > 0) c->weighs = 0;
-        if (sums[k].a > m->rate) m->rate = sums[k].a;
+        if (sums[k].a > m->row_sum) m->row_sum = sums[k].a;
     }
-    if (!c->weighs) m->rate = 0.0;
+    if (!c->weighs) m->row_sum = 0.0;
     peri__delete(&m->memory, sums, blocks, sizeof *sums);
     if (numbered) {
         m->order = NULL;
@@ -244,7 +244,7 @@ static void peri__turn_block(void *context, int64_t begin, int64_t end, peri__su
         peri__turn_row(m->weight, first, count, real, turn);
         if (m->back != m->weight) peri__turn_row(m->back, first, count, real, turn);
         if (m->bond) peri__turn_row(m->bond, first, count, real, turn);
-        if (m->part) peri__turn_row(m->part, first, count, sizeof *m->part, turn);
+        if (m->partial_volume) peri__turn_row(m->partial_volume, first, count, sizeof *m->partial_volume, turn);
     }
 }
 

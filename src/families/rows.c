@@ -5,15 +5,15 @@
 
 /* Row i from the columns of its group, into the room of `row`. Columns ascend by offset, so ids ascend. */
 static void peri__expand_row(const peri__model *m, int64_t i, peri__row *row) {
-    const peri__lanes *lanes = &m->lanes;
-    const int64_t g = i / PERI_LANES, columns = lanes->begin[g + 1] - lanes->begin[g];
-    const peri__column *column = &lanes->column[lanes->first[g]];
+    const peri__stencil *stencil = &m->stencil;
+    const int64_t g = i / PERI_GROUP, columns = stencil->begin[g + 1] - stencil->begin[g];
+    const peri__column *column = &stencil->column[stencil->first[g]];
     int64_t n = 0;
     for (int64_t c = 0; c < columns; ++c) {
-        const peri__stencil_bond *entry = &lanes->table[column[c].vector];
-        if (!(column[c].member >> (i % PERI_LANES) & 1)) continue;
+        const peri__stencil_bond *entry = &stencil->table[column[c].vector];
+        if (!(column[c].member >> (i % PERI_GROUP) & 1)) continue;
         row->ids_room[n] = (int32_t)(i + column[c].offset);
-        row->part_room[n] = (float)entry->share;
+        row->partial_volume_room[n] = (float)entry->partial_volume;
         row->vector_room[n] = column[c].vector;
         row->column_room[n] = (int32_t)c;
         if (m->b32) {
@@ -30,10 +30,10 @@ static void peri__expand_row(const peri__model *m, int64_t i, peri__row *row) {
     row->ids = row->ids_room;
     row->weight = row->back = &row->weight_room;
     row->bond = &row->bond_room;
-    row->part = lanes->parts ? row->part_room : NULL;
+    row->partial_volume = stencil->partial ? row->partial_volume_room : NULL;
     row->vector = row->vector_room;
     row->column = row->column_room;
-    row->table = lanes->table;
+    row->table = stencil->table;
 }
 
 /* |xi| of the bonds of row i, from the places of points. Seen from either end the same, to the last bit. */
@@ -61,7 +61,7 @@ static void peri__measure_row(const peri__model *m, int64_t i, peri__row *row) {
 /* Row i: ids, and what each bond weighs. Valid while `row` and the model are. */
 PERI_SHARED void peri__row_of(const peri__model *m, int64_t i, peri__row *row) {
     const size_t real = m->b32 ? sizeof(float) : sizeof(double);
-    if (m->lanes.columns) {
+    if (m->stencil.columns) {
         peri__expand_row(m, i, row);
         return;
     }
@@ -74,7 +74,7 @@ PERI_SHARED void peri__row_of(const peri__model *m, int64_t i, peri__row *row) {
     }
     row->weight = (const char *)m->weight + (size_t)row->first * real;
     row->back = (const char *)m->back + (size_t)row->first * real;
-    row->part = m->part ? &m->part[row->first] : NULL;
+    row->partial_volume = m->partial_volume ? &m->partial_volume[row->first] : NULL;
     row->vector = NULL;
     row->column = NULL;
     if (m->bond) row->bond = (const char *)m->bond + (size_t)row->first * real;
@@ -85,29 +85,29 @@ static void peri__read_row(const peri_body *b, int64_t i, peri__row *row) { peri
 
 /* Entry of bond k of row i in the arrays of bonds, ->work. On columns that of its lane in its column. */
 PERI_SHARED int64_t peri__bond_slot(const peri__model *m, int64_t i, const peri__row *row, int64_t k) {
-    return row->vector ? (m->lanes.begin[i / PERI_LANES] + row->column[k]) * PERI_LANES + i % PERI_LANES : row->first + k;
+    return row->vector ? (m->stencil.begin[i / PERI_GROUP] + row->column[k]) * PERI_GROUP + i % PERI_GROUP : row->first + k;
 }
 
 /* And of component d in ->pull. */
 PERI_SHARED int64_t peri__pull_slot(const peri__model *m, int64_t slot, int32_t d) {
-    if (!m->lanes.columns) return slot * m->dim + d;
-    return (slot / PERI_LANES * m->dim + d) * PERI_LANES + slot % PERI_LANES;
+    if (!m->stencil.columns) return slot * m->dim + d;
+    return (slot / PERI_GROUP * m->dim + d) * PERI_GROUP + slot % PERI_GROUP;
 }
 
 /* The least critical stretch that a bond of point i may have. */
-PERI_SHARED double peri__least_stretch(const peri__step *s, int64_t i) {
-    const peri__pair *pairs = s->cls ? &s->pairs[s->cls[i] * s->classes] : s->pairs;
+PERI_SHARED double peri__least_stretch(const peri__operands *s, int64_t i) {
+    const peri__pair *pairs = s->point_class ? &s->pairs[s->point_class[i] * s->classes] : s->pairs;
     double least = pairs->s0;
-    for (int32_t k = 1; s->cls && k < s->classes; ++k)
+    for (int32_t k = 1; s->point_class && k < s->classes; ++k)
         if (pairs[k].s0 < least) least = pairs[k].s0;
     return least;
 }
 
 /* And the least limit of a criterion that a bond of point i may have. */
-PERI_SHARED double peri__least_limit(const peri__step *s, int64_t i, int32_t criterion) {
-    const peri__pair *pairs = s->cls ? &s->pairs[s->cls[i] * s->classes] : s->pairs;
+PERI_SHARED double peri__least_limit(const peri__operands *s, int64_t i, int32_t criterion) {
+    const peri__pair *pairs = s->point_class ? &s->pairs[s->point_class[i] * s->classes] : s->pairs;
     double least = pairs->limit[criterion];
-    for (int32_t k = 1; s->cls && k < s->classes; ++k)
+    for (int32_t k = 1; s->point_class && k < s->classes; ++k)
         if (pairs[k].limit[criterion] < least) least = pairs[k].limit[criterion];
     return least;
 }
@@ -122,13 +122,13 @@ static int64_t peri__next_bond(const peri__row *row, int64_t after) {
 
 /* Which bond of row i leads to j, or -1. */
 PERI_SHARED int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j) {
-    const peri__lanes *lanes = &m->lanes;
-    const int64_t g = i / PERI_LANES;
+    const peri__stencil *stencil = &m->stencil;
+    const int64_t g = i / PERI_GROUP;
     int64_t place = 0;
-    if (!lanes->columns) return peri__find_listed(m, i, j);
-    const peri__column *column = &lanes->column[lanes->first[g]], *end = column + (lanes->begin[g + 1] - lanes->begin[g]);
+    if (!stencil->columns) return peri__find_listed(m, i, j);
+    const peri__column *column = &stencil->column[stencil->first[g]], *end = column + (stencil->begin[g + 1] - stencil->begin[g]);
     for (; column < end && column->offset <= j - i; ++column) {
-        const int has = column->member >> (i % PERI_LANES) & 1;
+        const int has = column->member >> (i % PERI_GROUP) & 1;
         if (has && column->offset == j - i) return place;
         place += has;
     }

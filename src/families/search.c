@@ -11,7 +11,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_CELL_REACH 2    /* cells that a bond spans at most, per axis                                                  */
+#define PERI_CELL_REACH 2    /* cells that a bond spans at most, per axis                                                */
 #define PERI_BRICK 8         /* cells per edge of a brick                                                                 */
 #define PERI_RUNS 50         /* 5 x 5 lines of cells, each in two bricks at most                                          */
 #define PERI_NEAR_ROOM 1024  /* points tested at once                                                                     */

@@ -17,8 +17,8 @@
 #define peri_i int64_t
 #define PERI_SQRT sqrt
 #define PERI_CHUNK 8 /* bonds of a row that are worked on at once                                                       */
-#define PERI_NEAR 1e-12 /* relative; kernels on lanes leave bonds this near their critical stretch to the rows            */
-#define PERI_TINY 1e-250 /* keeps 0/0 out of a bond whose ends meet: a length far below any; the largest force over it is finite   */
+#define PERI_NEAR 1e-12 /* relative; kernels on columns leave bonds this near their critical stretch to the rows         */
+#define PERI_TINY 1e-250 /* keeps 0/0 out of a bond whose ends meet: a length far below any; the largest force over it is finite */
 #else
 #define peri_b float
 #define peri_i int32_t
@@ -74,18 +74,18 @@ PERI_SHARED const peri__ops PERI_FN(ops) = { 0 }; /* left out: peri_body_create 
 
 /* what works on vectors, of one instruction set */
 typedef struct PERI_FN(vector_ops) {
-    uint32_t (*pairwise)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
-    uint32_t (*ordinary)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
-    uint32_t (*mixed)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
-    uint32_t (*tensor)(const peri__step *, int64_t, peri_r[PERI_D][PERI_LANES]);
-    void (*stretched)(const peri__step *, int64_t, peri_r[PERI_LANES]);
-    void (*squares)(const peri__step *, int64_t, double[PERI_LANES]);
-    void (*shape)(const peri__step *, int64_t, peri_r[PERI_D][PERI_D][PERI_LANES]);
-    int (*list_pairwise)(const peri__step *, int64_t, peri_r *);
-    int (*list_ordinary)(const peri__step *, int64_t, peri_r *);
-    int (*list_tensor)(const peri__step *, int64_t, peri_r *);
-    peri_r (*list_stretched)(const peri__step *, int64_t);
-    void (*list_shape)(const peri__step *, int64_t, peri_r[PERI_D][PERI_D]);
+    uint32_t (*pairwise)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
+    uint32_t (*ordinary)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
+    uint32_t (*mixed)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
+    uint32_t (*tensor)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
+    void (*dilatation_sum)(const peri__operands *, int64_t, peri_r[PERI_GROUP]);
+    void (*squares)(const peri__operands *, int64_t, double[PERI_GROUP]);
+    void (*shape)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D][PERI_GROUP]);
+    int (*list_pairwise)(const peri__operands *, int64_t, peri_r *);
+    int (*list_ordinary)(const peri__operands *, int64_t, peri_r *);
+    int (*list_tensor)(const peri__operands *, int64_t, peri_r *);
+    peri_r (*list_dilatation_sum)(const peri__operands *, int64_t);
+    void (*list_shape)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D]);
     int (*kick_some)(int64_t, peri_r, const peri_r *, const peri_r *, peri_r *);
     void (*drift_some)(int64_t, peri_r, const peri_r *, peri_r *);
     void (*square_some)(int64_t, int, const uint8_t *, const peri_r *, double *, double *);
@@ -95,19 +95,19 @@ typedef struct PERI_FN(vector_ops) {
     void (*turn_some)(int64_t, int, const uint8_t *, peri_r, const peri_r *, peri_r *);
 } PERI_FN(vector_ops);
 
-#define PERI_LANES_TARGET PERI_VECTOR_CODE
-#define PERI_LANES_FN(name) PERI_FN(name##_base)
+#define PERI_ISA_TARGET PERI_VECTOR_CODE
+#define PERI_ISA_FN(name) PERI_FN(name##_base)
 #define PERI_V_ISA 0
-#include "lanes.inl"
+#include "isa.inl"
 #ifdef PERI_ISA
-#define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX2
-#define PERI_LANES_FN(name) PERI_FN(name##_avx2)
+#define PERI_ISA_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX2
+#define PERI_ISA_FN(name) PERI_FN(name##_avx2)
 #define PERI_V_ISA 1
-#include "lanes.inl"
-#define PERI_LANES_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX512
-#define PERI_LANES_FN(name) PERI_FN(name##_avx512)
+#include "isa.inl"
+#define PERI_ISA_TARGET PERI_VECTOR_CODE PERI_TARGET_AVX512
+#define PERI_ISA_FN(name) PERI_FN(name##_avx512)
 #define PERI_V_ISA 2
-#include "lanes.inl"
+#include "isa.inl"
 #endif
 
 #undef PERI_IF
@@ -118,9 +118,9 @@ typedef struct PERI_FN(vector_ops) {
 
 /* by peri__isa */
 #define PERI_TABLE(set)                                                                                                \
-    { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(stretched_##set), \
+    { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(dilatation_sum_##set), \
       PERI_FN(squares_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set), PERI_FN(list_ordinary_##set),          \
-      PERI_FN(list_tensor_##set), PERI_FN(list_stretched_##set), PERI_FN(list_shape_##set), PERI_FN(kick_some_##set),    \
+      PERI_FN(list_tensor_##set), PERI_FN(list_dilatation_sum_##set), PERI_FN(list_shape_##set), PERI_FN(kick_some_##set),    \
       PERI_FN(drift_some_##set), PERI_FN(square_some_##set), PERI_FN(step_some_##set), PERI_FN(weigh_some_##set),        \
       PERI_FN(dot_some_##set), PERI_FN(turn_some_##set) }
 static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
@@ -139,7 +139,8 @@ static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
 #endif
 
 PERI_SHARED const peri__ops PERI_FN(ops) = {
-    PERI_FN(pack), PERI_FN(pack_response), PERI_FN(gather_block), PERI_FN(gather_rows), PERI_FN(force_block), PERI_FN(exchange),
+    PERI_FN(fill_records), PERI_FN(fill_responses), PERI_FN(gather_block), PERI_FN(gather_rows), PERI_FN(force_block),
+    PERI_FN(add_point_forces),
     PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic),
 #ifdef PERI_NO_STATICS
     NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL

@@ -3,22 +3,22 @@
    instruction set and any number of threads. Bonds that come near their critical stretch are left to the rows. Included per precision,
    dimension and instruction set.
 
-   What is needed of a neighbour lies side by side in its record, ->pack, m->slots reals: x, u, then p and q, or Q and k, or
+   What is needed of a neighbour lies side by side in its record, ->records, m->record_reals of them: x, u, then p and q, or Q and k, or
    the material. */
 
 #define PERI_PIECES (PERI_CHUNK / PERI_WIDTH)
 
-typedef struct PERI_LANES_FN(piece) { /* PERI_WIDTH bonds                                                                 */
+typedef struct PERI_ISA_FN(piece) { /* PERI_WIDTH bonds                                                                 */
     PERI_VECTOR got[8];               /* the records of the neighbours, less x and u of the point                        */
     PERI_VECTOR y[PERI_D], along;     /* as in columns.inl                                                               */
     PERI_VECTOR rest, now;            /* |xi|^2, |y|^2                                                                   */
-} PERI_LANES_FN(piece);
+} PERI_ISA_FN(piece);
 
-PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(span)(PERI_LANES_FN(piece) *s, const peri_r *pack, int32_t slots, const int32_t *ids,
+PERI_ISA_TARGET PERI_INLINE void PERI_ISA_FN(span)(PERI_ISA_FN(piece) *s, const peri_r *records, int32_t reals, const int32_t *ids,
                                                        const peri_r *own, const int linear) {
     PERI_NO_CONTRACTION
-    PERI_LANES_FN(differ)(pack, slots, ids, own, s->got);
-    if (slots > 4) PERI_LANES_FN(differ)(pack + 4, slots, ids, own + 4, s->got + 4);
+    PERI_ISA_FN(differ)(records, reals, ids, own, s->got);
+    if (reals > 4) PERI_ISA_FN(differ)(records + 4, reals, ids, own + 4, s->got + 4);
     for (int d = 0; d < PERI_D; ++d) {
         const PERI_VECTOR xi = s->got[d], eta = s->got[PERI_D + d];
         const PERI_VECTOR along = PERI_IF(linear, xi, xi + xi + eta) * eta, rest = xi * xi;
@@ -34,7 +34,7 @@ PERI_LANES_TARGET PERI_INLINE void PERI_LANES_FN(span)(PERI_LANES_FN(piece) *s, 
 
 /* product: |xi| |y|; returns R = |xi| (|y| + |xi|). Then |xi| e = |xi|^2 along/R, and laws whose gauge is |xi| (`by_length`) need no square
    root but that of |xi|^2 |y|^2: `bond` is |xi|^2 with these, and |xi| else. */
-PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(roots)(const PERI_LANES_FN(piece) *s, PERI_VECTOR *bond, PERI_VECTOR *product,
+PERI_ISA_TARGET PERI_INLINE PERI_VECTOR PERI_ISA_FN(roots)(const PERI_ISA_FN(piece) *s, PERI_VECTOR *bond, PERI_VECTOR *product,
                                                                const int by_length, const int linear) {
     PERI_NO_CONTRACTION
     *bond = PERI_IF(by_length, s->rest, PERI_V(sqrt)(s->rest));
@@ -45,27 +45,27 @@ PERI_LANES_TARGET PERI_INLINE PERI_VECTOR PERI_LANES_FN(roots)(const PERI_LANES_
 }
 
 /* Flags of the PERI_CHUNK bonds of row i from bond k on. */
-PERI_INLINE uint32_t PERI_LANES_FN(live)(const peri__step *o, int64_t i, int64_t k, int64_t count) {
+PERI_INLINE uint32_t PERI_ISA_FN(live)(const peri__operands *o, int64_t i, int64_t k, int64_t count) {
     const uint32_t flags = o->alive ? o->alive[i * o->model->words + k / 32] >> (k % 32) : ~(uint32_t)0;
     return flags & (((uint32_t)1 << (count - k < PERI_CHUNK ? count - k : PERI_CHUNK)) - 1);
 }
 
 /* The sum over all lanes. */
-PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(added)(PERI_STATE *sum) {
+PERI_ISA_TARGET PERI_INLINE peri_r PERI_ISA_FN(added)(PERI_STATE *sum) {
     for (int half = PERI_PIECES / 2; half > 0; half /= 2)
-        for (int n = 0; n < half; ++n) PERI_LANES_FN(merge)(&sum[n], &sum[n + half]);
-    return PERI_LANES_FN(fold)(sum);
+        for (int n = 0; n < half; ++n) PERI_ISA_FN(merge)(&sum[n], &sum[n + half]);
+    return PERI_ISA_FN(fold)(sum);
 }
 
 /* Adds the force of all live bonds of the point at a place to f, all points being of laws alike: pairwise, or ordinary. Returns nonzero
-   where a bond comes near its critical stretch; f is then void. `pairwise`, `by_length` and `slots` are constants where this is inlined. */
-PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, int64_t place, peri_r *f, const int pairwise,
-                                                          const int by_length, const int32_t slots, const int linear) {
+   where a bond comes near its critical stretch; f is then void. `pairwise`, `by_length` and `reals` are constants where this is inlined. */
+PERI_ISA_TARGET PERI_INLINE int PERI_ISA_FN(list_row)(const peri__operands *o, int64_t place, peri_r *f, const int pairwise,
+                                                          const int by_length, const int32_t reals, const int linear) {
     PERI_NO_CONTRACTION
     const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const int several = PERI_D == 2 ? slots > 4 : m->materials > 1;
-    const peri_r *pack = (const peri_r *)o->pack, *mine = pack + place * slots;
+    const int several = PERI_D == 2 ? reals > 4 : m->materials > 1;
+    const peri_r *records = (const peri_r *)o->records, *mine = records + place * reals;
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
     const double s0 = o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER;
     const PERI_VECTOR limit = PERI_V(set1)((peri_b)s0);
@@ -82,18 +82,18 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, i
     for (int32_t k = 0; pairwise && several && k < m->materials; ++k)
         table[k] = (peri_b)m->pairs[m->material[i] * m->materials + k].c;
     PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n)
-        for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_LANES_FN(take)(none);
+        for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_ISA_FN(take)(none);
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
         PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const int64_t at = k + n * PERI_WIDTH;
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + at);
-            PERI_LANES_FN(piece) s;
-            PERI_LANES_FN(span)(&s, pack, slots, ids + at, own, linear);
+            PERI_ISA_FN(piece) s;
+            PERI_ISA_FN(span)(&s, records, reals, ids + at, own, linear);
             PERI_VECTOR scale, bond, product, reach;
-            reach = PERI_LANES_FN(roots)(&s, &bond, &product, by_length, linear);
+            reach = PERI_ISA_FN(roots)(&s, &bond, &product, by_length, linear);
             if (!pairwise) { /* w (p g + q e)/|y| */
                 const PERI_VECTOR back = PERI_V(loadu)(backs + at);
                 const PERI_VECTOR p = weight * pi + back * s.got[2 * PERI_D], q = weight * qi + back * s.got[2 * PERI_D + 1];
@@ -111,124 +111,124 @@ PERI_LANES_TARGET PERI_INLINE int PERI_LANES_FN(list_row)(const peri__step *o, i
             scale = scale / (reach * (product + tiny));
             hit |= (int)PERI_ABOVE(s.along, limit * reach, live);
             for (int d = 0; d < PERI_D; ++d) /* a choice: what a dead lane read may be anything */
-                PERI_LANES_FN(gather)(&sum[d][n], PERI_KEEP_PRODUCT(live, scale, s.y[d]));
+                PERI_ISA_FN(gather)(&sum[d][n], PERI_KEEP_PRODUCT(live, scale, s.y[d]));
         }
     }
-    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_LANES_FN(added)(sum[d]);
+    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_ISA_FN(added)(sum[d]);
     return hit;
 }
 
 /* Geometry is a constant where that makes a difference in time. */
 #define PERI_BY_GEOMETRY(call, ...) (PERI_COMPACT ? call(__VA_ARGS__, o->linear) : o->linear ? call(__VA_ARGS__, 1) : call(__VA_ARGS__, 0))
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_pairwise)(const peri__step *o, int64_t place, peri_r *f) {
-    if (PERI_D == 2 && o->model->slots == 4) return PERI_BY_GEOMETRY(PERI_LANES_FN(list_row), o, place, f, 1, 0, 4);
-    return PERI_BY_GEOMETRY(PERI_LANES_FN(list_row), o, place, f, 1, 0, 8);
+PERI_ISA_TARGET static int PERI_ISA_FN(list_pairwise)(const peri__operands *o, int64_t place, peri_r *f) {
+    if (PERI_D == 2 && o->model->record_reals == 4) return PERI_BY_GEOMETRY(PERI_ISA_FN(list_row), o, place, f, 1, 0, 4);
+    return PERI_BY_GEOMETRY(PERI_ISA_FN(list_row), o, place, f, 1, 0, 8);
 }
 
-PERI_LANES_TARGET static int PERI_LANES_FN(list_ordinary)(const peri__step *o, int64_t place, peri_r *f) {
-    if (o->model->gauge) return PERI_BY_GEOMETRY(PERI_LANES_FN(list_row), o, place, f, 0, 1, 8);
-    return PERI_LANES_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
+PERI_ISA_TARGET static int PERI_ISA_FN(list_ordinary)(const peri__operands *o, int64_t place, peri_r *f) {
+    if (o->model->gauge) return PERI_BY_GEOMETRY(PERI_ISA_FN(list_row), o, place, f, 0, 1, 8);
+    return PERI_ISA_FN(list_row)(o, place, f, 0, 0, 8, o->linear);
 }
 
 /* sum w g e V of the point at a place. */
-PERI_LANES_TARGET PERI_INLINE peri_r PERI_LANES_FN(list_sum)(const peri__step *o, int64_t place, const int by_length, const int linear) {
+PERI_ISA_TARGET PERI_INLINE peri_r PERI_ISA_FN(list_sum)(const peri__operands *o, int64_t place, const int by_length, const int linear) {
     PERI_NO_CONTRACTION
     const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const peri_r *pack = (const peri_r *)o->pack;
+    const peri_r *records = (const peri_r *)o->records;
     const peri_b *weights = (const peri_b *)m->weight + first;
     const int32_t *ids = &m->ids[first];
     PERI_STATE sum[PERI_PIECES];
     peri_r own[8] = { 0 };
     const peri_r none[PERI_WIDTH] = { 0 };
-    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_LANES_FN(take)(none);
-    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * 8 + d];
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[n] = PERI_ISA_FN(take)(none);
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = records[place * 8 + d];
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
         PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             PERI_VECTOR part = PERI_V(loadu)(weights + k + n * PERI_WIDTH), bond, product, reach;
-            PERI_LANES_FN(piece) s;
-            PERI_LANES_FN(span)(&s, pack, 8, ids + k + n * PERI_WIDTH, own, linear);
+            PERI_ISA_FN(piece) s;
+            PERI_ISA_FN(span)(&s, records, 8, ids + k + n * PERI_WIDTH, own, linear);
             part = part * s.along;
             if (!linear || !by_length) {
-                reach = PERI_LANES_FN(roots)(&s, &bond, &product, by_length, linear);
+                reach = PERI_ISA_FN(roots)(&s, &bond, &product, by_length, linear);
                 part = part * bond / reach;
             }
-            PERI_LANES_FN(gather)(&sum[n], PERI_KEEP(PERI_TO_LIVE(flags >> (n * PERI_WIDTH)), part));
+            PERI_ISA_FN(gather)(&sum[n], PERI_KEEP(PERI_TO_LIVE(flags >> (n * PERI_WIDTH)), part));
         }
     }
-    return PERI_LANES_FN(added)(sum);
+    return PERI_ISA_FN(added)(sum);
 }
 
-PERI_LANES_TARGET static peri_r PERI_LANES_FN(list_stretched)(const peri__step *o, int64_t place) {
-    if (o->model->gauge) return PERI_BY_GEOMETRY(PERI_LANES_FN(list_sum), o, place, 1);
-    return PERI_LANES_FN(list_sum)(o, place, 0, o->linear);
+PERI_ISA_TARGET static peri_r PERI_ISA_FN(list_dilatation_sum)(const peri__operands *o, int64_t place) {
+    if (o->model->gauge) return PERI_BY_GEOMETRY(PERI_ISA_FN(list_sum), o, place, 1);
+    return PERI_ISA_FN(list_sum)(o, place, 0, o->linear);
 }
 #undef PERI_BY_GEOMETRY
 
 /* ---- gradients ---------------------------------------------------------------------------------------------------- */
 
-#define PERI_TENSOR_SLOTS (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                              */
+#define PERI_TENSOR_RECORD (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                            */
 
 /* sum w eta xi V of the point at a place. */
-PERI_LANES_TARGET static void PERI_LANES_FN(list_shape)(const peri__step *o, int64_t place, peri_r shape[PERI_D][PERI_D]) {
+PERI_ISA_TARGET static void PERI_ISA_FN(list_shape)(const peri__operands *o, int64_t place, peri_r shape[PERI_D][PERI_D]) {
     PERI_NO_CONTRACTION
     const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
-    const peri_r *pack = (const peri_r *)o->pack, none[PERI_WIDTH] = { 0 };
+    const peri_r *records = (const peri_r *)o->records, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first;
     peri_r own[8] = { 0 };
     PERI_STATE sum[PERI_D][PERI_D][PERI_PIECES];
     PERI_VECTOR got[8];
-    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = pack[place * PERI_TENSOR_SLOTS + d];
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = records[place * PERI_TENSOR_RECORD + d];
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
-            PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_LANES_FN(take)(none);
+            PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_ISA_FN(take)(none);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
         PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH);
-            PERI_LANES_FN(differ)(pack, PERI_TENSOR_SLOTS, ids, own, got);
-            if (PERI_D == 3) PERI_LANES_FN(differ)(pack + 4, PERI_TENSOR_SLOTS, ids, own + 4, got + 4);
+            PERI_ISA_FN(differ)(records, PERI_TENSOR_RECORD, ids, own, got);
+            if (PERI_D == 3) PERI_ISA_FN(differ)(records + 4, PERI_TENSOR_RECORD, ids, own + 4, got + 4);
             for (int a = 0; a < PERI_D; ++a) {
                 const PERI_VECTOR pulled = PERI_KEEP_PRODUCT(live, weight, got[PERI_D + a]);
-                for (int d = 0; d < PERI_D; ++d) PERI_LANES_FN(gather)(&sum[a][d][n], PERI_KEEP_PRODUCT(live, pulled, got[d]));
+                for (int d = 0; d < PERI_D; ++d) PERI_ISA_FN(gather)(&sum[a][d][n], PERI_KEEP_PRODUCT(live, pulled, got[d]));
             }
         }
     }
     for (int a = 0; a < PERI_D; ++a)
-        for (int d = 0; d < PERI_D; ++d) shape[a][d] = PERI_LANES_FN(added)(sum[a][d]);
+        for (int d = 0; d < PERI_D; ++d) shape[a][d] = PERI_ISA_FN(added)(sum[a][d]);
 }
 
 /* Adds the force of all live bonds of the point i at a place to f, (w_ij Q_i + w_ji Q_j) xi + (w_ij k_i + w_ji k_j) eta; no central bonds.
    Returns nonzero where a bond comes near its critical stretch; f is then void. */
-PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *o, int64_t place, peri_r *f) {
+PERI_ISA_TARGET static int PERI_ISA_FN(list_tensor)(const peri__operands *o, int64_t place, peri_r *f) {
     PERI_NO_CONTRACTION
     const peri__model *m = o->model;
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const int linear = o->linear;
-    const peri_r *pack = (const peri_r *)o->pack, *mine = pack + place * PERI_TENSOR_SLOTS, none[PERI_WIDTH] = { 0 };
+    const peri_r *records = (const peri_r *)o->records, *mine = records + place * PERI_TENSOR_RECORD, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
     const peri_b s0 = (peri_b)(o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER);
     const PERI_VECTOR limit = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
-    peri_r own[PERI_TENSOR_SLOTS] = { 0 };
+    peri_r own[PERI_TENSOR_RECORD] = { 0 };
     PERI_STATE sum[PERI_D][PERI_PIECES];
-    PERI_VECTOR got[PERI_TENSOR_SLOTS];
+    PERI_VECTOR got[PERI_TENSOR_RECORD];
     int hit = 0;
     for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
     for (int d = 0; d < PERI_D; ++d)
-        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_LANES_FN(take)(none);
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_ISA_FN(take)(none);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
-        const uint32_t flags = PERI_LANES_FN(live)(o, i, k, count);
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
         PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH), back = PERI_V(loadu)(backs + k + n * PERI_WIDTH);
             PERI_VECTOR along = PERI_V(set1)(0), rest = along;
-            for (int s = 0; s < PERI_TENSOR_SLOTS; s += 4) PERI_LANES_FN(differ)(pack + s, PERI_TENSOR_SLOTS, ids, own + s, got + s);
+            for (int s = 0; s < PERI_TENSOR_RECORD; s += 4) PERI_ISA_FN(differ)(records + s, PERI_TENSOR_RECORD, ids, own + s, got + s);
             const PERI_VECTOR *xi = got, *eta = got + PERI_D, *q = got + 2 * PERI_D, vector = got[2 * PERI_D + PERI_D * PERI_D];
             for (int d = 0; d < PERI_D; ++d) {
                 along += PERI_IF(linear, xi[d], xi[d] + xi[d] + eta[d]) * eta[d];
@@ -239,14 +239,14 @@ PERI_LANES_TARGET static int PERI_LANES_FN(list_tensor)(const peri__step *o, int
                 const peri_r *own_q = mine + 2 * PERI_D + a * PERI_D;
                 PERI_VECTOR t = (weight * PERI_V(set1)((peri_b)mine[2 * PERI_D + PERI_D * PERI_D]) + back * vector) * eta[a];
                 for (int d = 0; d < PERI_D; ++d) t += (weight * PERI_V(set1)((peri_b)own_q[d]) + back * q[a * PERI_D + d]) * xi[d];
-                PERI_LANES_FN(gather)(&sum[a][n], PERI_KEEP(live, t));
+                PERI_ISA_FN(gather)(&sum[a][n], PERI_KEEP(live, t));
             }
         }
     }
-    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_LANES_FN(added)(sum[d]);
+    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_ISA_FN(added)(sum[d]);
     return hit;
 }
-#undef PERI_TENSOR_SLOTS
+#undef PERI_TENSOR_RECORD
 
 #undef PERI_PIECES
 #undef PERI_VECTOR

@@ -1,20 +1,20 @@
 /* passes.inl - passes over blocks of points: by columns or by the list, and by rows where a bond is about to break, or where families are
    stored in no other way. What works on vectors they call by the instruction set of the body. */
 
-#define PERI_BY_VECTORS(model, name) PERI_FN(vectors)[(model)->lanes.isa].name
+#define PERI_BY_VECTORS(model, name) PERI_FN(vectors)[(model)->stencil.isa].name
 
 /* ---- the list ------------------------------------------------------------------------------------------------------ */
 
 /* Records of list.inl. */
-static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *o = (const peri__step *)context;
+static void PERI_FN(fill_records)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__operands *o = (const peri__operands *)context;
     const peri__model *m = o->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)o->u;
     const peri_b *p = (const peri_b *)o->response, *q = m->pairwise ? NULL : (const peri_b *)o->constant + PERI__SPRING * m->stride;
     (void)sums;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
-        peri_r *record = (peri_r *)o->pack + k * m->slots;
+        peri_r *record = (peri_r *)o->records + k * m->record_reals;
         for (int d = 0; d < PERI_D; ++d) {
             record[d] = x[d * m->stride + i];
             record[PERI_D + d] = u[d * m->stride + i];
@@ -23,29 +23,29 @@ static void PERI_FN(pack)(void *context, int64_t begin, int64_t end, peri__sums 
         if (!m->pairwise) {
             record[2 * PERI_D] = p[i];
             record[2 * PERI_D + 1] = q[i];
-        } else if (m->slots > 2 * PERI_D)
+        } else if (m->record_reals > 2 * PERI_D)
             record[2 * PERI_D] = (peri_r)m->material[i];
     }
 }
 
 /* And what points respond with: p, or Q and k. */
-static void PERI_FN(pack_response)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *o = (const peri__step *)context;
+static void PERI_FN(fill_responses)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__operands *o = (const peri__operands *)context;
     const peri__model *m = o->model;
     const peri_b *response = (const peri_b *)o->response, *constant = (const peri_b *)o->constant;
     (void)sums;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
-        peri_r *record = (peri_r *)o->pack + k * m->slots + 2 * PERI_D;
+        peri_r *record = (peri_r *)o->records + k * m->record_reals + 2 * PERI_D;
         record[0] = response[i];
         if (!(m->gathers & PERI__GRADIENT)) continue;
         for (int q = 0; q < PERI_D * PERI_D; ++q) record[q] = response[(1 + q) * m->stride + i];
-        record[PERI_D * PERI_D] = constant[PERI__VECTOR * m->stride + i];
+        record[PERI_D * PERI_D] = constant[PERI__STABILIZATION * m->stride + i];
     }
 }
 
 /* Asks for what a pass over the list wants of the point four places on: places are not met in the order in which memory lies. */
-PERI_INLINE void PERI_FN(fetch_ahead)(const peri__step *o, int64_t place) {
+PERI_INLINE void PERI_FN(fetch_ahead)(const peri__operands *o, int64_t place) {
     const peri__model *m = o->model;
     if (!m->order || place + 4 >= m->points) return;
     const int64_t i = m->order[place + 4];
@@ -55,7 +55,7 @@ PERI_INLINE void PERI_FN(fetch_ahead)(const peri__step *o, int64_t place) {
     for (int d = 0; d < PERI_D; ++d) PERI_PREFETCH((const peri_r *)o->f + d * m->stride + i);
 }
 
-static void PERI_FN(force_list)(const peri__step *o, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(force_list)(const peri__operands *o, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = o->model;
     const int tensors = m->gathers & PERI__GRADIENT;
     for (int64_t k = begin; k < end; ++k) {
@@ -66,14 +66,14 @@ static void PERI_FN(force_list)(const peri__step *o, int64_t begin, int64_t end,
         for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
         if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
         else if (!tensors) by_row = PERI_BY_VECTORS(m, list_ordinary)(o, k, f);
-        else by_row = o->central[i / PERI_LANES] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
+        else by_row = o->central[i / PERI_GROUP] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
         if (by_row) PERI_FN(force_rows)(o, i, i + 1, sums);
         else
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride] = f[d];
     }
 }
 
-static void PERI_FN(gather_list)(const peri__step *o, int64_t begin, int64_t end) {
+static void PERI_FN(gather_list)(const peri__operands *o, int64_t begin, int64_t end) {
     const peri__model *m = o->model;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
@@ -83,43 +83,44 @@ static void PERI_FN(gather_list)(const peri__step *o, int64_t begin, int64_t end
             PERI_BY_VECTORS(m, list_shape)(o, k, n);
             PERI_FN(put_tensor)(o, i, n);
         } else
-            PERI_FN(put_pressure)(o, i, PERI_FN(constant)(o, PERI__PRESS, i) == 0 ? 0 : PERI_BY_VECTORS(m, list_stretched)(o, k));
+            PERI_FN(put_pressure)(o, i, PERI_FN(constant)(o, PERI__PRESSURE_FACTOR, i) == 0 ? 0 :
+                                             PERI_BY_VECTORS(m, list_dilatation_sum)(o, k));
     }
 }
 
 /* ---- columns -------------------------------------------------------------------------------------------------------- */
 
 /* Points of group g that may have a bond beyond the critical energy of its ends. */
-static uint32_t PERI_FN(near_node_energy)(const peri__step *o, int64_t g) {
+static uint32_t PERI_FN(near_node_energy)(const peri__operands *o, int64_t g) {
     const peri__model *m = o->model;
     uint32_t near = 0;
-    for (int l = 0; l < PERI_LANES && g * PERI_LANES + l < m->points; ++l) {
-        const int64_t i = g * PERI_LANES + l;
+    for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
+        const int64_t i = g * PERI_GROUP + l;
         near |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY)) << l;
     }
     return near;
 }
 
 /* The force on group g by columns; returns a bit for each point that must be done by rows. */
-static uint32_t PERI_FN(group_force)(const peri__step *o, int64_t g, peri_r f[PERI_D][PERI_LANES]) {
+static uint32_t PERI_FN(group_force)(const peri__operands *o, int64_t g, peri_r f[PERI_D][PERI_GROUP]) {
     const peri__model *m = o->model;
     if (m->seen_by & PERI__BY_ROWS && o->breaking) return 0xFFFFu;
     if (m->pairwise) return PERI_BY_VECTORS(m, pairwise)(o, g, f);
     uint32_t near = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
-    if (m->lanes.ends) return near | PERI_BY_VECTORS(m, mixed)(o, g, f);
+    if (m->stencil.ends) return near | PERI_BY_VECTORS(m, mixed)(o, g, f);
     if (!(m->gathers & PERI__GRADIENT)) return near | PERI_BY_VECTORS(m, ordinary)(o, g, f);
     return o->central[g] ? 0xFFFFu : near | PERI_BY_VECTORS(m, tensor)(o, g, f);
 }
 
 /* The points of group g whose bits are set are done by rows, the others get f. */
-static void PERI_FN(finish_by_rows)(const peri__step *o, int64_t g, uint32_t by_row, peri_r f[PERI_D][PERI_LANES], peri__sums *sums) {
+static void PERI_FN(finish_by_rows)(const peri__operands *o, int64_t g, uint32_t by_row, peri_r f[PERI_D][PERI_GROUP], peri__sums *sums) {
     const peri__model *m = o->model;
-    const int64_t first = g * PERI_LANES;
+    const int64_t first = g * PERI_GROUP;
     peri_r *force = (peri_r *)o->f + first;
-    peri__step rest = *o;
+    peri__operands rest = *o;
     uint32_t broke = 0;
     if (!(m->seen_by & PERI__BY_ROWS && o->breaking)) rest.working = 0; /* that is done */
-    for (int l = 0; l < PERI_LANES && first + l < m->points; ++l) {
+    for (int l = 0; l < PERI_GROUP && first + l < m->points; ++l) {
         const int64_t broken = sums->n;
         if (by_row >> l & 1) PERI_FN(force_rows)(&rest, first + l, first + l + 1, sums);
         else
@@ -129,10 +130,10 @@ static void PERI_FN(finish_by_rows)(const peri__step *o, int64_t g, uint32_t by_
     if (broke && m->pairwise) peri__group_masks(m, g, broke, o->alive, o->masks);
 }
 
-static void PERI_FN(force_columns)(const peri__step *o, int64_t g, peri__sums *sums) {
+static void PERI_FN(force_columns)(const peri__operands *o, int64_t g, peri__sums *sums) {
     const peri__model *m = o->model;
-    const int64_t first = g * PERI_LANES;
-    peri_r *force = (peri_r *)o->f + first, f[PERI_D][PERI_LANES];
+    const int64_t first = g * PERI_GROUP;
+    peri_r *force = (peri_r *)o->f + first, f[PERI_D][PERI_GROUP];
     for (int d = 0; d < PERI_D; ++d) memcpy(f[d], &force[d * m->stride], sizeof f[d]);
     const uint32_t by_row = PERI_FN(group_force)(o, g, f);
     if (!by_row) {
@@ -143,30 +144,31 @@ static void PERI_FN(force_columns)(const peri__step *o, int64_t g, peri__sums *s
 }
 
 /* Energy densities of group g, without gradients. */
-static void PERI_FN(group_energy)(const peri__step *o, int64_t g, double density[PERI_LANES]) {
+static void PERI_FN(group_energy)(const peri__operands *o, int64_t g, double density[PERI_GROUP]) {
     const peri__model *m = o->model;
-    const peri_b *constant = m->pairwise ? NULL : (const peri_b *)o->constant + g * PERI_LANES;
-    peri_r sum[PERI_LANES] = { 0 };
+    const peri_b *constant = m->pairwise ? NULL : (const peri_b *)o->constant + g * PERI_GROUP;
+    peri_r sum[PERI_GROUP] = { 0 };
     PERI_BY_VECTORS(m, squares)(o, g, density);
-    if (m->gathers & PERI__DILATATION) PERI_BY_VECTORS(m, stretched)(o, g, sum);
-    for (int l = 0; l < PERI_LANES; ++l) {
+    if (m->gathers & PERI__DILATATION) PERI_BY_VECTORS(m, dilatation_sum)(o, g, sum);
+    for (int l = 0; l < PERI_GROUP; ++l) {
         if (m->pairwise) density[l] *= 0.25;
         else
             density[l] = 0.5 * (double)constant[PERI__SPRING * m->stride + l] * density[l]
-                       + 0.5 * (double)constant[PERI__PRESS * m->stride + l] * (double)constant[PERI__DILATE * m->stride + l]
+                       + 0.5 * (double)constant[PERI__PRESSURE_FACTOR * m->stride + l]
+                             * (double)constant[PERI__THETA_FACTOR * m->stride + l]
                              * peri__square((double)sum[l]);
     }
 }
 
 /* Are energies had by columns? */
 PERI_INLINE int PERI_FN(has_group_energy)(const peri__model *m) {
-    return m->lanes.columns > 0 && !m->mixed && !(m->gathers & PERI__GRADIENT);
+    return m->stencil.columns > 0 && !m->mixed && !(m->gathers & PERI__GRADIENT);
 }
 
-static void PERI_FN(gather_columns)(const peri__step *o, int64_t g) {
+static void PERI_FN(gather_columns)(const peri__operands *o, int64_t g) {
     const peri__model *m = o->model;
-    const int64_t first = g * PERI_LANES, end = peri__min(first + PERI_LANES, m->points);
-    peri_r shape[PERI_D][PERI_D][PERI_LANES], sum[PERI_LANES], n[PERI_D][PERI_D];
+    const int64_t first = g * PERI_GROUP, end = peri__min(first + PERI_GROUP, m->points);
+    peri_r shape[PERI_D][PERI_D][PERI_GROUP], sum[PERI_GROUP], n[PERI_D][PERI_D];
     if (m->gathers & PERI__GRADIENT) {
         PERI_BY_VECTORS(m, shape)(o, g, shape);
         for (int64_t i = first; i < end; ++i) {
@@ -177,15 +179,15 @@ static void PERI_FN(gather_columns)(const peri__step *o, int64_t g) {
         }
     }
     if (!(m->gathers & PERI__DILATATION)) return;
-    PERI_BY_VECTORS(m, stretched)(o, g, sum);
+    PERI_BY_VECTORS(m, dilatation_sum)(o, g, sum);
     for (int64_t i = first; i < end; ++i)
         if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) PERI_FN(put_pressure)(o, i, sum[i - first]);
 }
 
-static void PERI_FN(gather_nodes)(const peri__step *o, int64_t g) {
+static void PERI_FN(gather_nodes)(const peri__operands *o, int64_t g) {
     const peri__model *m = o->model;
-    const int64_t first = g * PERI_LANES, end = peri__min(first + PERI_LANES, m->points);
-    double density[PERI_LANES];
+    const int64_t first = g * PERI_GROUP, end = peri__min(first + PERI_GROUP, m->points);
+    double density[PERI_GROUP];
     peri__row row;
     if (PERI_FN(has_group_energy)(m)) PERI_FN(group_energy)(o, g, density);
     for (int64_t i = first; i < end; ++i) {
@@ -201,12 +203,12 @@ static void PERI_FN(gather_nodes)(const peri__step *o, int64_t g) {
 
 /* What points make of their families. */
 static void PERI_FN(gather_block)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *o = (const peri__step *)context;
+    const peri__operands *o = (const peri__operands *)context;
     const peri__model *m = o->model;
-    if (m->slots) PERI_FN(gather_list)(o, begin, end);
-    else if (!m->lanes.columns) PERI_FN(gather_rows)(context, begin, end, sums);
+    if (m->record_reals) PERI_FN(gather_list)(o, begin, end);
+    else if (!m->stencil.columns) PERI_FN(gather_rows)(context, begin, end, sums);
     else
-        for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) {
+        for (int64_t g = begin / PERI_GROUP; g * PERI_GROUP < end; ++g) {
             PERI_FN(gather_columns)(o, g);
             if (o->node) PERI_FN(gather_nodes)(o, g);
         }
@@ -215,25 +217,25 @@ static void PERI_FN(gather_block)(void *context, int64_t begin, int64_t end, per
 /* Adds the internal force density to f, and breaks bonds or notes in `dying` which are to break: see row_force. sums: a energy of bonds
    that broke, n their (directed) number, or that of those noted. */
 static void PERI_FN(force_block)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *o = (const peri__step *)context;
+    const peri__operands *o = (const peri__operands *)context;
     const peri__model *m = o->model;
-    if (m->slots) PERI_FN(force_list)(o, begin, end, sums);
-    else if (!m->lanes.columns) PERI_FN(force_rows)(o, begin, end, sums);
+    if (m->record_reals) PERI_FN(force_list)(o, begin, end, sums);
+    else if (!m->stencil.columns) PERI_FN(force_rows)(o, begin, end, sums);
     else
-        for (int64_t g = begin / PERI_LANES; g * PERI_LANES < end; ++g) PERI_FN(force_columns)(o, g, sums);
+        for (int64_t g = begin / PERI_GROUP; g * PERI_GROUP < end; ++g) PERI_FN(force_columns)(o, g, sums);
 }
 
 /* Elastic energy of live bonds: sums->a, and per point to ->out where it is not NULL. By rows, too, of points that begin within a group. */
 static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *o = (const peri__step *)context;
+    const peri__operands *o = (const peri__operands *)context;
     const peri__model *m = o->model;
-    const int columns = PERI_FN(has_group_energy)(m) && begin % PERI_LANES == 0;
-    double group[PERI_LANES];
+    const int columns = PERI_FN(has_group_energy)(m) && begin % PERI_GROUP == 0;
+    double group[PERI_GROUP];
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {
-        if (columns && i % PERI_LANES == 0) PERI_FN(group_energy)(o, i / PERI_LANES, group);
+        if (columns && i % PERI_GROUP == 0) PERI_FN(group_energy)(o, i / PERI_GROUP, group);
         if (!columns) peri__row_of(m, i, &row);
-        const double density = columns ? group[i % PERI_LANES] : PERI_FN(point_energy)(o, i, &row);
+        const double density = columns ? group[i % PERI_GROUP] : PERI_FN(point_energy)(o, i, &row);
         if (o->out) o->out[i] = density;
         sums->a += density * m->volume[i];
     }

@@ -9,7 +9,7 @@
    single precision, this form none. Each row adds its own bonds in the order of the list and writes only to its own point. Both ends of a
    bond compute the same e to the last bit (only signs differ), so both find it broken in the same step without telling each other. */
 
-typedef struct PERI_FN(bond) { /* bond (i, j), deformed                                                                    */
+typedef struct PERI_FN(bond) { /* bond (i, j), deformed                                                                  */
     peri_b xi[PERI_D], eta[PERI_D];
     peri_b y[PERI_D];           /* along which its force acts: xi + eta, or xi where the geometry is linear              */
     peri_b length, now;         /* |xi|, |y|                                                                             */
@@ -22,12 +22,12 @@ PERI_INLINE peri_b PERI_FN(xi_of)(const peri__row *row, int64_t k, int d, peri_r
     return row->vector ? (peri_b)row->table[row->vector[k]].xi[d] : (peri_b)apart;
 }
 
-PERI_INLINE int PERI_FN(is_live)(const peri__step *s, int64_t i, int64_t k) {
+PERI_INLINE int PERI_FN(is_live)(const peri__operands *s, int64_t i, int64_t k) {
     return !s->alive || (s->alive[i * s->model->words + k / 32] >> (k % 32) & 1);
 }
 
 /* xi and eta of bond k of row i. */
-PERI_INLINE void PERI_FN(bond_vectors)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, peri_b *xi, peri_b *eta,
+PERI_INLINE void PERI_FN(bond_vectors)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, peri_b *xi, peri_b *eta,
                                        const int centred) {
     const peri__model *m = s->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)s->u;
@@ -39,7 +39,8 @@ PERI_INLINE void PERI_FN(bond_vectors)(const peri__step *s, int64_t i, const per
     }
 }
 
-PERI_INLINE void PERI_FN(deform_as)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond, const int linear,
+PERI_INLINE void PERI_FN(deform_as)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond,
+                                    const int linear,
                                     const int centred) {
     peri_b along = 0, square = 0;
     PERI_FN(bond_vectors)(s, i, row, k, bond->xi, bond->eta, centred);
@@ -55,19 +56,19 @@ PERI_INLINE void PERI_FN(deform_as)(const peri__step *s, int64_t i, const peri__
     bond->reach = linear ? bond->length : bond->now + bond->length;
 }
 
-PERI_INLINE void PERI_FN(deform)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
+PERI_INLINE void PERI_FN(deform)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
     PERI_FN(deform_as)(s, i, row, k, bond, s->linear, s->model->centroid != NULL);
 }
 
-PERI_INLINE const peri__pair *PERI_FN(pair)(const peri__step *s, int64_t i, int64_t j) {
-    return s->cls ? &s->pairs[s->cls[i] * s->classes + s->cls[j]] : s->pairs;
+PERI_INLINE const peri__pair *PERI_FN(pair)(const peri__operands *s, int64_t i, int64_t j) {
+    return s->point_class ? &s->pairs[s->point_class[i] * s->classes + s->point_class[j]] : s->pairs;
 }
 
-PERI_INLINE peri_b PERI_FN(constant)(const peri__step *s, int plane, int64_t i) {
+PERI_INLINE peri_b PERI_FN(constant)(const peri__operands *s, int plane, int64_t i) {
     return ((const peri_b *)s->constant)[plane * s->model->stride + i];
 }
 
-PERI_INLINE peri_b PERI_FN(response)(const peri__step *s, int plane, int64_t i) {
+PERI_INLINE peri_b PERI_FN(response)(const peri__operands *s, int plane, int64_t i) {
     return ((const peri_b *)s->response)[plane * s->model->stride + i];
 }
 
@@ -78,7 +79,7 @@ PERI_INLINE peri_b PERI_FN(gauge)(const peri__law *law, peri_b length) { return 
 
 /* Is bond (i, j) beyond its critical stretch as point j sees it? With centroid bonds the two ends differ; the end of lower id decides for
    both. */
-static int PERI_FN(is_over_for_other)(const peri__step *s, int64_t i, int64_t j, peri_b s0) {
+static int PERI_FN(is_over_for_other)(const peri__operands *s, int64_t i, int64_t j, peri_b s0) {
     PERI_FN(bond) bond;
     peri__row row;
     peri__row_of(s->model, j, &row);
@@ -91,7 +92,7 @@ static int PERI_FN(is_over_for_other)(const peri__step *s, int64_t i, int64_t j,
 #undef PERI_CRITERION_ROLE_OVER
 
 /* Does bond k of row i meet a criterion? `plain`: all are seen by stretch, and there are no centroids. */
-PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
+PERI_INLINE int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                  const int plain) {
     int over = 0;
     if (plain) return bond->along > (peri_b)PERI_FN(pair)(s, i, row->ids[k])->s0 * bond->length * bond->reach;
@@ -104,7 +105,8 @@ PERI_INLINE int PERI_FN(is_over)(const peri__step *s, int64_t i, const peri__row
 /* ---- the force ------------------------------------------------------------------------------------------------------ */
 
 /* Both halves of a bond of laws that differ: adds the tensor parts to t and returns the force along y over |y|. */
-static peri_b PERI_FN(mixed_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond, peri_b *t) {
+static peri_b PERI_FN(mixed_pull)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
+                                  peri_b *t) {
     const peri__model *m = s->model;
     const int64_t ends[2] = { i, row->ids[k] };
     const peri_b weights[2] = { ((const peri_b *)row->weight)[k], ((const peri_b *)row->back)[k] };
@@ -123,7 +125,7 @@ static peri_b PERI_FN(mixed_pull)(const peri__step *s, int64_t i, const peri__ro
     for (int n = 0; n < 2; ++n) {
         if (!(m->laws[m->material[ends[n]]].gather & PERI__GRADIENT)) continue;
         for (int a = 0; a < PERI_D; ++a) {
-            peri_b half = PERI_FN(constant)(s, PERI__VECTOR, ends[n]) * bond->eta[a];
+            peri_b half = PERI_FN(constant)(s, PERI__STABILIZATION, ends[n]) * bond->eta[a];
             for (int d = 0; d < PERI_D; ++d) half += PERI_FN(response)(s, 1 + a * PERI_D + d, ends[n]) * bond->xi[d];
             half = weights[n] * half;
             t[a] += half;
@@ -133,7 +135,7 @@ static peri_b PERI_FN(mixed_pull)(const peri__step *s, int64_t i, const peri__ro
 }
 
 /* The same of one ordinary law. */
-PERI_INLINE peri_b PERI_FN(ordinary_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
+PERI_INLINE peri_b PERI_FN(ordinary_pull)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                           const int linear) {
     const peri__model *m = s->model;
     const int64_t j = row->ids[k];
@@ -152,7 +154,7 @@ PERI_INLINE peri_b PERI_FN(ordinary_pull)(const peri__step *s, int64_t i, const 
 }
 
 /* The same of pairwise laws: c w s M. */
-PERI_INLINE peri_b PERI_FN(pairwise_pull)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
+PERI_INLINE peri_b PERI_FN(pairwise_pull)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                           const int linear) {
     const peri_b c = (peri_b)PERI_FN(pair)(s, i, row->ids[k])->c, weight = ((const peri_b *)row->weight)[k];
     if (linear) {
@@ -163,7 +165,7 @@ PERI_INLINE peri_b PERI_FN(pairwise_pull)(const peri__step *s, int64_t i, const 
 }
 
 /* The work of the force t along the way of bond k since it was last worked out, by the trapezoidal rule. */
-static void PERI_FN(count_work)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const peri_b *eta, const peri_r *t) {
+static void PERI_FN(count_work)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const peri_b *eta, const peri_r *t) {
     const peri__model *m = s->model;
     const int64_t j = row->ids[k], at = peri__bond_slot(m, i, row, k);
     const peri_r *worked = (const peri_r *)s->worked;
@@ -178,7 +180,7 @@ static void PERI_FN(count_work)(const peri__step *s, int64_t i, const peri__row 
 /* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, their force going to
    `impulse` and their energy to *lost (per volume of the body); else they are noted in `dying`, and still act. Returns their number.
    `pairwise`, `mixed` and `plain` (neither linear nor centred, only critical stretches) are constants where this is inlined. */
-PERI_INLINE int32_t PERI_FN(row_force)(const peri__step *s, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse, double *lost,
+PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse, double *lost,
                                        const int pairwise, const int mixed, const int plain) {
     const peri__model *m = s->model;
     const int breaking = s->breaking && s->alive;
@@ -225,7 +227,7 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__step *s, int64_t i, const per
 
 /* The force density of the bonds of point i is added to f. sums: a energy of bonds that broke, n the (directed) number of those that broke
    or are to. */
-static void PERI_FN(point_force)(const peri__step *s, int64_t i, peri_r *f, peri__sums *sums) {
+static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, peri__sums *sums) {
     const peri__model *m = s->model;
     peri_r impulse[PERI_D] = { 0 };
     peri__row row;
@@ -247,7 +249,7 @@ static void PERI_FN(point_force)(const peri__step *s, int64_t i, peri_r *f, peri
 }
 
 /* Points [begin, end), one by one. */
-static void PERI_FN(force_rows)(const peri__step *s, int64_t begin, int64_t end, peri__sums *sums) {
+static void PERI_FN(force_rows)(const peri__operands *s, int64_t begin, int64_t end, peri__sums *sums) {
     const int64_t stride = s->model->stride;
     peri_r *force = (peri_r *)s->f;
     for (int64_t i = begin; i < end; ++i) {
@@ -260,7 +262,7 @@ static void PERI_FN(force_rows)(const peri__step *s, int64_t begin, int64_t end,
 
 /* For the points of a list: takes the force that their bonds give out of f (sign -1), or puts it in (1), and gives the opposite of it for
    the time s->impulse to v. */
-static void PERI_FN(exchange)(const peri__step *s, const int32_t *points, int64_t count, int sign) {
+static void PERI_FN(add_point_forces)(const peri__operands *s, const int32_t *points, int64_t count, int sign) {
     const peri__model *m = s->model;
     for (int64_t k = 0; k < count; ++k) {
         const int64_t i = points[k];
@@ -278,7 +280,7 @@ static void PERI_FN(exchange)(const peri__step *s, const int32_t *points, int64_
 /* ---- gathering ------------------------------------------------------------------------------------------------------ */
 
 /* sum w g e V. */
-static peri_r PERI_FN(row_stretched)(const peri__step *s, int64_t i, const peri__row *row) {
+static peri_r PERI_FN(row_dilatation_sum)(const peri__operands *s, int64_t i, const peri__row *row) {
     const int by_length = s->model->laws[s->model->material[i]].gauge;
     peri_r sum = 0;
     for (int64_t k = 0; k < row->count; ++k) {
@@ -293,7 +295,7 @@ static peri_r PERI_FN(row_stretched)(const peri__step *s, int64_t i, const peri_
 }
 
 /* sum w eta xi V. */
-static void PERI_FN(row_shape)(const peri__step *s, int64_t i, const peri__row *row, peri_r n[PERI_D][PERI_D]) {
+static void PERI_FN(row_shape)(const peri__operands *s, int64_t i, const peri__row *row, peri_r n[PERI_D][PERI_D]) {
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) n[a][d] = 0;
     for (int64_t k = 0; k < row->count; ++k) {
@@ -306,12 +308,12 @@ static void PERI_FN(row_shape)(const peri__step *s, int64_t i, const peri__row *
     }
 }
 
-PERI_INLINE peri_b PERI_FN(inverse)(const peri__step *s, int64_t i, int c, int d) {
-    return PERI_FN(constant)(s, PERI__INVERSE + peri__packed(PERI_D, c, d), i);
+PERI_INLINE peri_b PERI_FN(inverse)(const peri__operands *s, int64_t i, int c, int d) {
+    return PERI_FN(constant)(s, PERI__SHAPE_INVERSE + peri__packed(PERI_D, c, d), i);
 }
 
 /* H = (sum w eta xi V) K^-1. */
-static void PERI_FN(gradient)(const peri__step *s, int64_t i, peri_r n[PERI_D][PERI_D], peri_r h[PERI_D][PERI_D]) {
+static void PERI_FN(gradient)(const peri__operands *s, int64_t i, peri_r n[PERI_D][PERI_D], peri_r h[PERI_D][PERI_D]) {
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) {
             h[a][d] = 0;
@@ -320,13 +322,13 @@ static void PERI_FN(gradient)(const peri__step *s, int64_t i, peri_r n[PERI_D][P
 }
 
 /* p of the sum w g e V. The product of the two constants alone can leave the range of float. */
-PERI_INLINE void PERI_FN(put_pressure)(const peri__step *s, int64_t i, peri_r sum) {
-    const peri_b press = PERI_FN(constant)(s, PERI__PRESS, i);
-    ((peri_b *)s->response)[i] = press == 0 ? 0 : (peri_b)(press * (PERI_FN(constant)(s, PERI__DILATE, i) * sum));
+PERI_INLINE void PERI_FN(put_pressure)(const peri__operands *s, int64_t i, peri_r sum) {
+    const peri_b pressure_factor = PERI_FN(constant)(s, PERI__PRESSURE_FACTOR, i);
+    ((peri_b *)s->response)[i] = pressure_factor == 0 ? 0 : (peri_b)(pressure_factor * (PERI_FN(constant)(s, PERI__THETA_FACTOR, i) * sum));
 }
 
 /* Q = P K^-1 - k H of n = sum w eta xi V. */
-static void PERI_FN(put_tensor)(const peri__step *s, int64_t i, peri_r n[PERI_D][PERI_D]) {
+static void PERI_FN(put_tensor)(const peri__operands *s, int64_t i, peri_r n[PERI_D][PERI_D]) {
     const peri__model *m = s->model;
     const peri__law *law = &m->laws[m->material[i]];
     peri_b *response = (peri_b *)s->response + i;
@@ -337,7 +339,7 @@ static void PERI_FN(put_tensor)(const peri__step *s, int64_t i, peri_r n[PERI_D]
     response[0] = 0;
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) {
-            peri_r q = -PERI_FN(constant)(s, PERI__VECTOR, i) * h[a][d];
+            peri_r q = -PERI_FN(constant)(s, PERI__STABILIZATION, i) * h[a][d];
             for (int c = 0; c < PERI_D; ++c) q += p[a][c] * PERI_FN(inverse)(s, i, c, d);
             response[(1 + a * PERI_D + d) * m->stride] = (peri_b)q;
         }
@@ -346,7 +348,7 @@ static void PERI_FN(put_tensor)(const peri__step *s, int64_t i, peri_r n[PERI_D]
 /* ---- energy --------------------------------------------------------------------------------------------------------- */
 
 /* Energy density of point i: half of that of its bonds, w q e^2/2 each, and what it gathers. */
-static double PERI_FN(point_energy)(const peri__step *s, int64_t i, const peri__row *row) {
+static double PERI_FN(point_energy)(const peri__operands *s, int64_t i, const peri__row *row) {
     const peri__model *m = s->model;
     const peri__law *law = &m->laws[m->material[i]];
     double density = 0.0, squares = 0.0, apart = 0.0;
@@ -363,10 +365,10 @@ static double PERI_FN(point_energy)(const peri__step *s, int64_t i, const peri__
         squares += (double)weight * (double)e * (double)e;
     }
     if (law->pairwise) return density;
-    const double dilate = (double)PERI_FN(constant)(s, PERI__DILATE, i), stretched = (double)sum;
+    const double theta_factor = (double)PERI_FN(constant)(s, PERI__THETA_FACTOR, i), dilatation_sum = (double)sum;
     density = 0.5 * (double)PERI_FN(constant)(s, PERI__SPRING, i) * squares;
     if (!(law->gather & PERI__GRADIENT))
-        return density + 0.5 * (double)PERI_FN(constant)(s, PERI__PRESS, i) * dilate * stretched * stretched;
+        return density + 0.5 * (double)PERI_FN(constant)(s, PERI__PRESSURE_FACTOR, i) * theta_factor * dilatation_sum * dilatation_sum;
 
     peri_r n[PERI_D][PERI_D], h[PERI_D][PERI_D], strain[PERI_D][PERI_D];
     PERI_FN(row_shape)(s, i, row, n);
@@ -382,12 +384,12 @@ static double PERI_FN(point_energy)(const peri__step *s, int64_t i, const peri__
             apart += (double)((const peri_b *)row->weight)[k] * peri__square((double)z);
         }
     }
-    return density + PERI_FN(strain_energy)(law, PERI_D, strain) + 0.5 * (double)PERI_FN(constant)(s, PERI__VECTOR, i) * apart;
+    return density + PERI_FN(strain_energy)(law, PERI_D, strain) + 0.5 * (double)PERI_FN(constant)(s, PERI__STABILIZATION, i) * apart;
 }
 
 /* What points make of their families: p, Q, and where a criterion asks for it the energy of the node. */
 static void PERI_FN(gather_rows)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *s = (const peri__step *)context;
+    const peri__operands *s = (const peri__operands *)context;
     const peri__model *m = s->model;
     peri__row row;
     (void)sums;
@@ -399,7 +401,7 @@ static void PERI_FN(gather_rows)(void *context, int64_t begin, int64_t end, peri
             PERI_FN(row_shape)(s, i, &row, n);
             PERI_FN(put_tensor)(s, i, n);
         } else if (!law->pairwise)
-            PERI_FN(put_pressure)(s, i, law->gather & PERI__DILATATION ? PERI_FN(row_stretched)(s, i, &row) : 0);
+            PERI_FN(put_pressure)(s, i, law->gather & PERI__DILATATION ? PERI_FN(row_dilatation_sum)(s, i, &row) : 0);
         if (s->node) s->node[i] = 2.0 * PERI_FN(point_energy)(s, i, &row) / peri__family_volume(m, i);
     }
 }

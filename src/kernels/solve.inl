@@ -1,22 +1,22 @@
 /* solve.inl - the static solver's work on whole vectors. */
 
-/* d += alpha p, r -= alpha q. sums: |r|^2 of free dofs to a, of held ones to b. */
+/* d += alpha p, r -= alpha q. sums: |r|^2 of free dofs to a, of constrained ones to b. */
 static void PERI_FN(krylov_step)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
-    double loose[PERI_BLOCK] = { 0.0 }, fixed[PERI_BLOCK] = { 0.0 };
+    double free_sum[PERI_BLOCK] = { 0.0 }, constrained_sum[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
         const int64_t at = d * m->stride + begin;
         peri_r *x = (peri_r *)s->d + at, *r = (peri_r *)s->r + at;
         const peri_r *p = (const peri_r *)s->p + at, *q = (const peri_r *)s->q + at;
         PERI_BY_VECTORS(m, step_some)(end - begin, (peri_r)s->alpha, p, q, x, r);
-        PERI_BY_VECTORS(m, square_some)(end - begin, d, s->held + begin, r, loose, fixed);
+        PERI_BY_VECTORS(m, square_some)(end - begin, d, s->constrained + begin, r, free_sum, constrained_sum);
     }
-    sums->a += peri__add_up(loose);
-    sums->b += peri__add_up(fixed);
+    sums->a += peri__add_up(free_sum);
+    sums->b += peri__add_up(constrained_sum);
 }
 
-/* p = z + beta p on free dofs, 0 on held ones. */
+/* p = z + beta p on free dofs, 0 on constrained ones. */
 static void PERI_FN(krylov_turn)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
@@ -24,7 +24,7 @@ static void PERI_FN(krylov_turn)(void *context, int64_t begin, int64_t end, peri
     for (int d = 0; d < PERI_D; ++d) {
         peri_r *p = (peri_r *)s->p + d * m->stride + begin;
         const peri_r *z = (const peri_r *)s->z + d * m->stride + begin;
-        PERI_BY_VECTORS(m, turn_some)(end - begin, d, s->held + begin, (peri_r)s->beta, z, p);
+        PERI_BY_VECTORS(m, turn_some)(end - begin, d, s->constrained + begin, (peri_r)s->beta, z, p);
     }
 }
 
@@ -42,7 +42,7 @@ static void PERI_FN(krylov_force)(void *context, int64_t begin, int64_t end, per
     sums->b += peri__add_up(square);
 }
 
-/* z = inverse blocks times r (0 for held dofs, whose rows are 0), or r itself. */
+/* z = inverse blocks times r (0 for constrained dofs, whose rows are 0), or r itself. */
 static void PERI_FN(krylov_blocks)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const int64_t stride = s->model->stride;
@@ -53,22 +53,22 @@ static void PERI_FN(krylov_blocks)(void *context, int64_t begin, int64_t end, pe
         for (int64_t i = begin; i < end; ++i) {
             peri_r sum = 0;
             for (int c = 0; blocks && c < PERI_D; ++c) sum += blocks[peri__packed(PERI_D, a, c) * stride + i] * r[c * stride + i];
-            z[i] = blocks ? sum : s->held[i] >> a & 1 ? 0 : r[a * stride + i];
+            z[i] = blocks ? sum : s->constrained[i] >> a & 1 ? 0 : r[a * stride + i];
         }
     }
 }
 
-/* sums: |r|^2 of free dofs to a, of held ones to b. */
+/* sums: |r|^2 of free dofs to a, of constrained ones to b. */
 static void PERI_FN(krylov_norm)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__krylov *s = (const peri__krylov *)context;
     const peri__model *m = s->model;
-    double loose[PERI_BLOCK] = { 0.0 }, fixed[PERI_BLOCK] = { 0.0 };
+    double free_sum[PERI_BLOCK] = { 0.0 }, constrained_sum[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *r = (const peri_r *)s->r + d * m->stride + begin;
-        PERI_BY_VECTORS(m, square_some)(end - begin, d, s->held + begin, r, loose, fixed);
+        PERI_BY_VECTORS(m, square_some)(end - begin, d, s->constrained + begin, r, free_sum, constrained_sum);
     }
-    sums->a += peri__add_up(loose);
-    sums->b += peri__add_up(fixed);
+    sums->a += peri__add_up(free_sum);
+    sums->b += peri__add_up(constrained_sum);
 }
 
 /* sums: r.z over free dofs to a. */
@@ -78,7 +78,7 @@ static void PERI_FN(krylov_dot)(void *context, int64_t begin, int64_t end, peri_
     double sum[PERI_BLOCK] = { 0.0 };
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *r = (const peri_r *)s->r + d * m->stride + begin, *z = (const peri_r *)s->z + d * m->stride + begin;
-        PERI_BY_VECTORS(m, dot_some)(end - begin, d, s->held + begin, r, z, sum);
+        PERI_BY_VECTORS(m, dot_some)(end - begin, d, s->constrained + begin, r, z, sum);
     }
     sums->a += peri__add_up(sum);
 }

@@ -9,7 +9,7 @@ typedef struct PERI_FN(change) { /* bond k of row i and the change d eta of its 
     peri_r bond, length, e, de;                               /* |xi|, |y|, e, M.d eta                                   */
 } PERI_FN(change);
 
-static void PERI_FN(change_bond)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(change) *c) {
+static void PERI_FN(change_bond)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(change) *c) {
     const peri__model *m = s->model;
     const peri_r *x = (const peri_r *)m->x, *u = (const peri_r *)s->u, *p = (const peri_r *)s->p;
     const int64_t j = row->ids[k];
@@ -34,7 +34,7 @@ static void PERI_FN(change_bond)(const peri__step *s, int64_t i, const peri__row
 }
 
 /* dp of an ordinary point. */
-static void PERI_FN(change_pressure)(const peri__step *s, int64_t i, const peri__row *row) {
+static void PERI_FN(change_pressure)(const peri__operands *s, int64_t i, const peri__row *row) {
     const int by_length = s->model->laws[s->model->material[i]].gauge;
     peri_r sum = 0;
     for (int64_t k = 0; k < row->count; ++k) {
@@ -43,11 +43,12 @@ static void PERI_FN(change_pressure)(const peri__step *s, int64_t i, const peri_
         PERI_FN(change_bond)(s, i, row, k, &c);
         sum += (peri_r)((const peri_b *)row->weight)[k] * (by_length ? c.bond : 1) * c.de;
     }
-    ((peri_b *)s->change)[i] = (peri_b)(PERI_FN(constant)(s, PERI__PRESS, i) * (PERI_FN(constant)(s, PERI__DILATE, i) * sum));
+    ((peri_b *)s->change)[i] =
+        (peri_b)(PERI_FN(constant)(s, PERI__PRESSURE_FACTOR, i) * (PERI_FN(constant)(s, PERI__THETA_FACTOR, i) * sum));
 }
 
 /* dQ of a point with a gradient. */
-static void PERI_FN(change_tensor)(const peri__step *s, int64_t i, const peri__row *row) {
+static void PERI_FN(change_tensor)(const peri__operands *s, int64_t i, const peri__row *row) {
     const peri__model *m = s->model;
     const peri__law *law = &m->laws[m->material[i]];
     peri_b *change = (peri_b *)s->change + i;
@@ -70,7 +71,7 @@ static void PERI_FN(change_tensor)(const peri__step *s, int64_t i, const peri__r
     PERI_FN(stress_change)(law, PERI_D, 0, h, e, dh, dp);
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) {
-            peri_r q = -PERI_FN(constant)(s, PERI__VECTOR, i) * dh[a][d];
+            peri_r q = -PERI_FN(constant)(s, PERI__STABILIZATION, i) * dh[a][d];
             for (int c = 0; c < PERI_D; ++c) q += dp[a][c] * PERI_FN(inverse)(s, i, c, d);
             change[(1 + a * PERI_D + d) * m->stride] = (peri_b)q;
         }
@@ -78,14 +79,14 @@ static void PERI_FN(change_tensor)(const peri__step *s, int64_t i, const peri__r
 
 /* dp, or dQ, of points [begin, end): from ->p to ->change. */
 static void PERI_FN(tangent_gather)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *s = (const peri__step *)context;
+    const peri__operands *s = (const peri__operands *)context;
     const peri__model *m = s->model;
     peri__row row;
     (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         const peri__law *law = &m->laws[m->material[i]];
         ((peri_b *)s->change)[i] = 0;
-        if (!law->gather || (law->gather == PERI__DILATATION && PERI_FN(constant)(s, PERI__PRESS, i) == 0)) continue;
+        if (!law->gather || (law->gather == PERI__DILATATION && PERI_FN(constant)(s, PERI__PRESSURE_FACTOR, i) == 0)) continue;
         peri__row_of(m, i, &row);
         if (law->gather & PERI__GRADIENT) PERI_FN(change_tensor)(s, i, &row);
         else PERI_FN(change_pressure)(s, i, &row);
@@ -93,7 +94,7 @@ static void PERI_FN(tangent_gather)(void *context, int64_t begin, int64_t end, p
 }
 
 /* The half of end i: adds w (p g + q e) to c, its change to dc, and what gradients add to t. */
-PERI_INLINE void PERI_FN(tangent_half)(const peri__step *s, int64_t i, int64_t j, peri_r weight, const PERI_FN(change) *b, peri_r *c,
+PERI_INLINE void PERI_FN(tangent_half)(const peri__operands *s, int64_t i, int64_t j, peri_r weight, const PERI_FN(change) *b, peri_r *c,
                                        peri_r *dc, peri_r *t) {
     const peri__model *m = s->model;
     const peri__law *law = &m->laws[m->material[i]];
@@ -109,7 +110,7 @@ PERI_INLINE void PERI_FN(tangent_half)(const peri__step *s, int64_t i, int64_t j
     *dc += weight * (change[0] * gauge + spring * b->de);
     if (!(law->gather & PERI__GRADIENT)) return;
     for (int a = 0; a < PERI_D; ++a) {
-        peri_r sum = PERI_FN(constant)(s, PERI__VECTOR, i) * b->delta[a];
+        peri_r sum = PERI_FN(constant)(s, PERI__STABILIZATION, i) * b->delta[a];
         for (int d = 0; d < PERI_D; ++d) sum += change[(1 + a * PERI_D + d) * m->stride] * b->xi[d];
         t[a] += weight * sum;
     }
@@ -117,7 +118,7 @@ PERI_INLINE void PERI_FN(tangent_half)(const peri__step *s, int64_t i, int64_t j
 
 /* The change of the force density of points [begin, end): to ->q. */
 static void PERI_FN(tangent_force)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__step *s = (const peri__step *)context;
+    const peri__operands *s = (const peri__operands *)context;
     const peri__model *m = s->model;
     peri__row row;
     (void)sums;

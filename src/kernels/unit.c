@@ -20,8 +20,8 @@ PERI_SHARED void    peri__group_masks(const peri__model *m, int64_t g, uint32_t 
 PERI_SHARED void    peri__row_of(const peri__model *m, int64_t i, peri__row *row);
 PERI_SHARED int64_t peri__bond_slot(const peri__model *m, int64_t i, const peri__row *row, int64_t k);
 PERI_SHARED int64_t peri__pull_slot(const peri__model *m, int64_t slot, int32_t d);
-PERI_SHARED double  peri__least_stretch(const peri__step *s, int64_t i);
-PERI_SHARED double  peri__least_limit(const peri__step *s, int64_t i, int32_t criterion);
+PERI_SHARED double  peri__least_stretch(const peri__operands *s, int64_t i);
+PERI_SHARED double  peri__least_limit(const peri__operands *s, int64_t i, int32_t criterion);
 PERI_SHARED int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j);
 
 #include "src/kernels/kernels.inl"

@@ -5,7 +5,7 @@ enum { PERI__GATHER_bond_based = PERI__NO_GATHER, PERI__GAUGE_bond_based = 0, PE
 #endif
 
 #ifdef PERI_LAW_ROLE_CALIBRATION
-static int peri__calibrate_bond_based(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
+static int peri__calibrate_bond_based(const peri__law *law, int32_t dim, const peri__moments *sum, peri__calibration *r) {
     (void)law;
     (void)dim;
     (void)sum;

@@ -11,18 +11,18 @@ static double peri__limit_bond_energy(const peri__fracture *g) {
 #endif
 
 #ifdef PERI_CRITERION_ROLE_OVER
-PERI_INLINE int PERI_FN(over_bond_energy)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+PERI_INLINE int PERI_FN(over_bond_energy)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k];
     if (!s->work || !(bond->along > 0)) return 0;
-    const double share = row->part ? (double)row->part[k] : s->model->volume[j];
+    const double partial_volume = row->partial_volume ? (double)row->partial_volume[k] : s->model->volume[j];
     return (double)((const peri_r *)s->work)[peri__bond_slot(s->model, i, row, k)]
-         > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_BOND_ENERGY] * share;
+         > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_BOND_ENERGY] * partial_volume;
 }
 #endif
 
 #ifdef PERI_CRITERION_ROLE_EXCESS
 static double peri__excess_bond_energy(const peri_body *b, int64_t i, const peri__row *row, int64_t k, double limit) {
-    const double share = row->part ? (double)row->part[k] : b->model->volume[row->ids[k]];
-    return peri__get_real(b->work, b->f32, peri__bond_slot(b->model, i, row, k)) / (limit * share);
+    const double partial_volume = row->partial_volume ? (double)row->partial_volume[k] : b->model->volume[row->ids[k]];
+    return peri__get_real(b->work, b->f32, peri__bond_slot(b->model, i, row, k)) / (limit * partial_volume);
 }
 #endif

@@ -11,12 +11,12 @@ enum { PERI__GATHER_correspondence = PERI__GRADIENT, PERI__GAUGE_correspondence 
 #endif
 
 #ifdef PERI_LAW_ROLE_CALIBRATION
-static int peri__calibrate_correspondence(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
-    if (peri__invert(dim, sum->shape, PERI_SPAN, r->inverse) == dim) {
-        r->vector = law->stabilization * law->b / sum->m;
+static int peri__calibrate_correspondence(const peri__law *law, int32_t dim, const peri__moments *sum, peri__calibration *r) {
+    if (peri__invert(dim, sum->shape, PERI_SPAN, r->shape_inverse) == dim) {
+        r->stabilization = law->stabilization * law->b / sum->m;
         return 1;
     }
-    memset(r->inverse, 0, sizeof r->inverse);
+    memset(r->shape_inverse, 0, sizeof r->shape_inverse);
     return 0;
 }
 #endif

@@ -9,9 +9,9 @@ enum { PERI__GATHER_lps = PERI__DILATATION, PERI__GAUGE_lps = 1, PERI__PAIRWISE_
 #endif
 
 #ifdef PERI_LAW_ROLE_CALIBRATION
-static int peri__calibrate_lps(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
-    r->dilate = dim / sum->m;
-    r->press = law->a / dim * r->dilate;
+static int peri__calibrate_lps(const peri__law *law, int32_t dim, const peri__moments *sum, peri__calibration *r) {
+    r->theta_factor = dim / sum->m;
+    r->pressure_factor = law->a / dim * r->theta_factor;
     r->spring = law->b / sum->m;
     return 1;
 }

@@ -75,7 +75,7 @@ static peri__law peri__law_of(const peri_material *m, int32_t space, double stre
     return law;
 }
 
-/* Is the spring of Oterkus in a whole family less than shear asks for? See peri__respond; q m = D (D + 2) mu in the ball. */
+/* Is the spring of Oterkus in a whole family less than shear asks for? See peri__calibrate; q m = D (D + 2) mu in the ball. */
 static int peri__is_soft(const peri_body *b, const peri__law *law, double edge) {
     const int dim = b->dim;
     double plain, length, m;

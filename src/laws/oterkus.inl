@@ -10,12 +10,12 @@ enum { PERI__GATHER_oterkus = PERI__DILATATION, PERI__GAUGE_oterkus = 0, PERI__P
 #endif
 
 #ifdef PERI_LAW_ROLE_CALIBRATION
-static int peri__calibrate_oterkus(const peri__law *law, int32_t dim, const peri__moments *sum, peri__response *r) {
+static int peri__calibrate_oterkus(const peri__law *law, int32_t dim, const peri__moments *sum, peri__calibration *r) {
     const double room = sum->m * sum->plain / (sum->length * sum->length) - 1.0, most = law->bulk * dim * dim * (1.0 + room);
-    r->dilate = dim / sum->length;
+    r->theta_factor = dim / sum->length;
     r->spring = dim * (dim + 2) * sum->shear > 0.2 * sum->m ? law->mu / sum->shear : law->b / sum->m;
     if (r->spring * sum->m * room > most) r->spring = most / (room * sum->m);
-    r->press = (law->bulk - r->spring * sum->m / (dim * dim)) * r->dilate;
+    r->pressure_factor = (law->bulk - r->spring * sum->m / (dim * dim)) * r->theta_factor;
     return 1;
 }
 #endif

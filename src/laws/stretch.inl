@@ -13,7 +13,7 @@ static double peri__limit_stretch(const peri__fracture *g) {
 #endif
 
 #ifdef PERI_CRITERION_ROLE_OVER
-PERI_INLINE int PERI_FN(over_stretch)(const peri__step *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+PERI_INLINE int PERI_FN(over_stretch)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k];
     const peri_b s0 = (peri_b)PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_STRETCH];
     if (s->model->centroid && j < i) return PERI_FN(is_over_for_other)(s, i, j, s0);

@@ -106,7 +106,7 @@ static double peri__damage(const peri_body *b, int64_t i, int uncut_only) {
     peri__row row;
     peri__read_row(b, i, &row);
     for (int64_t k = 0; k < row.count; ++k) {
-        double part = row.part ? (double)row.part[k] : m->volume[row.ids[k]];
+        double part = row.partial_volume ? (double)row.partial_volume[k] : m->volume[row.ids[k]];
         if (uncut_only && b->uncut && !(b->uncut[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         all += part;
         if (peri__is_alive(b, i, k)) intact += part;

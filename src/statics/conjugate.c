@@ -1,6 +1,6 @@
 /* conjugate.c - the preconditioned conjugate gradients of the static solver, and the memory that it takes.
 
-   K is symmetric because forces are taken per point, V_i times the density. Supports are a projection: directions have no part on held
+   K is symmetric because forces are taken per point, V_i times the density. Supports are a projection: directions are 0 on constrained
    components, and what K does there is kept in r, out of all scalar products: it is minus the reaction. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
@@ -37,7 +37,7 @@ static void peri__free_solver(peri__solver *s) {
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, vectors[k]);
     peri__delete(&b->memory, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
     peri__delete(&b->memory, s->t.change, peri__response_reals(m), peri__bond_real(b));
-    peri__delete(&b->memory, s->held, m->points, 1);
+    peri__delete(&b->memory, s->constrained, m->points, 1);
     peri__delete(&b->memory, s->part_of, m->points, sizeof *s->part_of);
     peri__delete(&b->memory, s->queue, m->points, sizeof *s->queue);
     peri__delete(&b->memory, s->parts, s->part_capacity, sizeof *s->parts);
@@ -61,7 +61,7 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
     peri__sums sums = peri__krylov_pass(s, &s->k, s->body->ops->krylov_force);
     /* the tangent of a stressed body answers to turns; p has no part in what is taken out, so p.K p stands */
     peri__balance(s, s->k.q, 1);
-    peri__drop_hanging(s, s->k.q);
+    peri__drop_singular(s, s->k.q);
     *square = sums.b;
     return sums.a;
 }
@@ -72,14 +72,14 @@ static double peri__precondition(peri__solver *s) {
     (void)peri__krylov_pass(s, &s->k, s->body->ops->krylov_blocks);
     if (s->levels) peri__correct_coarsely(s);
     peri__balance(s, s->k.z, 0);
-    peri__drop_hanging(s, s->k.z);
+    peri__drop_singular(s, s->k.z);
     return peri__krylov_pass(s, &s->k, s->body->ops->krylov_dot).a;
 }
 
 /* |r| of what is free; the scale by the loads and the reactions in r. */
 static double peri__measure(peri__solver *s, peri__sums sums, double loads) {
-    double held = sqrt(sums.b);
-    s->scale = loads > held ? loads : held;
+    double constrained = sqrt(sums.b);
+    s->scale = loads > constrained ? loads : constrained;
     if (!(s->scale < HUGE_VAL)) { /* nothing is small beside that */
         s->scale = 0.0;
         return HUGE_VAL;

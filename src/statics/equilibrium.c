@@ -1,6 +1,6 @@
 /* equilibrium.c - the equilibrium at one load factor, by Newton's method.
 
-   Find u with r(u) = bonds(u) + loads = 0 where nothing is held, u given where something is. Each iteration solves K(u) d = r, with d on
+   Find u with r(u) = bonds(u) + loads = 0 on free dofs, u given on constrained ones. Each iteration solves K(u) d = r, with d on
    supports the way that they still have to go; then u += alpha d with alpha such that the slope r.d has fallen. All vectors of forces are
    V times densities. */
 #ifndef PERI_IMPL
@@ -29,12 +29,12 @@ static int32_t peri__take_solver(peri__solver *s) {
     }
     if (!m->pairwise) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__bond_real(b))) != NULL;
     s->blocks = peri__take(s, PERI_PACKED(m->dim) * m->stride, peri__real(b));
-    s->held = (uint8_t *)peri__take(s, m->points, 1);
+    s->constrained = (uint8_t *)peri__take(s, m->points, 1);
     s->part_of = (int32_t *)peri__take(s, m->points, sizeof *s->part_of);
     s->queue = (int32_t *)peri__take(s, m->points, sizeof *s->queue);
     s->k.model = b->model;
-    s->k.held = s->held;
-    return ok && s->blocks && s->held && s->part_of && s->queue ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
+    s->k.constrained = s->constrained;
+    return ok && s->blocks && s->constrained && s->part_of && s->queue ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
 }
 
 /* ---- forces ------------------------------------------------------------------------------------------------------- */
@@ -43,7 +43,7 @@ static int32_t peri__take_solver(peri__solver *s) {
 static double peri__static_forces(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
-    peri__step step = peri__no_step(b);
+    peri__operands operands = peri__operands_of(b);
     double square = 0.0;
     memset(b->f, 0, peri__vector_bytes(b));
     int32_t status = peri__apply_loads(b, b->now.load_factor, 0.0);
@@ -52,8 +52,8 @@ static double peri__static_forces(peri__solver *s) {
     memcpy(s->k.z, b->f, peri__vector_bytes(b));
     for (int32_t d = 0; d < m->dim; ++d)
         for (int64_t i = 0; i < m->points; ++i)
-            if (!(s->held[i] >> d & 1)) square += peri__square(m->volume[i] * peri__get_real(b->f, b->f32, d * m->stride + i));
-    peri__bond_forces(b, &step);
+            if (!(s->constrained[i] >> d & 1)) square += peri__square(m->volume[i] * peri__get_real(b->f, b->f32, d * m->stride + i));
+    peri__bond_forces(b, &operands);
     s->report.passes++;
     for (int32_t d = 0; d < m->dim; ++d)
         for (int64_t i = 0; i < m->points; ++i) {
@@ -62,7 +62,7 @@ static double peri__static_forces(peri__solver *s) {
         }
     if (b->desc.geometry != PERI_LINEAR) peri__weigh_modes(s);
     peri__balance(s, s->k.r, 1);
-    peri__drop_hanging(s, s->k.r);
+    peri__drop_singular(s, s->k.r);
     return sqrt(square);
 }
 
@@ -84,7 +84,7 @@ static void peri__note_floor(peri__solver *s) {
         for (int32_t d = 0; d < m->dim; ++d) {
             moved += peri__square(fabs(peri__get_real(b->u, b->f32, d * m->stride + i)) + s->widest);
             trace += inverted ? peri__get_real(s->blocks, b->f32, d * m->stride + i) : 0.0;
-            frees += !(s->held[i] >> d & 1);
+            frees += !(s->constrained[i] >> d & 1);
         }
         if (frees == 0) continue;
         if (trace > 0.0) stiff = frees / trace;
@@ -96,7 +96,7 @@ static void peri__note_floor(peri__solver *s) {
 
 /* Are the loads, and the ways that supports have to go (widest), so small that nothing is left of them beside PERI_NOTHING, where no more
    acts (in z) and the body is displaced by no more? Their equilibrium cannot be told from rest. */
-static int32_t peri__check_faint(peri__solver *s) {
+static int32_t peri__check_small_loads(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     const double limit = PERI_NOTHING(b) / fmax(peri__solve_tolerance(s), peri__rounding(b));
@@ -130,10 +130,10 @@ static void peri__tell_residual(peri__solver *s, double residual) {
 
 static void peri__mark_supports(peri__solver *s) {
     const peri_body *b = s->body;
-    memset(s->held, 0, (size_t)b->model->points);
+    memset(s->constrained, 0, (size_t)b->model->points);
     for (int64_t l = 0; l < b->load_count; ++l) {
         const peri__load *load = &b->loads[l];
-        for (int64_t k = 0; load->owned && k < load->count; ++k) s->held[peri__set_point(b, load->set, k)] |= load->owned[k];
+        for (int64_t k = 0; load->owned && k < load->count; ++k) s->constrained[peri__set_point(b, load->set, k)] |= load->owned[k];
     }
 }
 
@@ -153,8 +153,8 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
         s->levels = NULL;
     }
     peri__note_bytes(s);
-    s->hanging = 0;
-    int32_t status = peri__find_loose(s);
+    s->singular = 0;
+    int32_t status = peri__find_floating_parts(s);
     if (status < 0) return status;
     s->stiff = peri__fill_diagonal(b, s->blocks);
     if (s->settings->method == PERI_RELAXATION) {
@@ -172,7 +172,7 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
     return status;
 }
 
-/* d = the way that held components still have to go to what their supports prescribe, 0 elsewhere. Returns 1 where there is any. */
+/* d = the way that constrained components still have to go to what their supports prescribe, 0 elsewhere. Returns 1 where there is any. */
 static int peri__gap(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
@@ -296,8 +296,8 @@ static int32_t peri__newton(peri__solver *s) {
     const int linear = peri__is_linear(b);
     (void)peri__gap(s);
     double last = HUGE_VAL, loads = peri__static_forces(s);
-    int32_t faint = loads < 0.0 ? (int32_t)loads : peri__check_faint(s);
-    if (faint < 0) return faint;
+    int32_t too_small = loads < 0.0 ? (int32_t)loads : peri__check_small_loads(s);
+    if (too_small < 0) return too_small;
     s->negative = s->energy_done = 0;
     s->floor = peri__rounding(b) * s->top;
     for (int64_t k = 0;; ++k) {

@@ -10,10 +10,10 @@
 
 typedef struct peri__grid {
     int64_t nodes[3], count;
-    float  *stencil; /* [count][3^dim][dim][dim]: node with each node around it, x fastest                                */
+    float  *node_blocks; /* [count][3^dim][dim][dim]: node with each node around it, x fastest                           */
     float  *inverse; /* [count][dim][dim] of the diagonal                                                                 */
     double *x, *r, *step, *product; /* [count*dim]                                                                        */
-    double  largest; /* eigenvalue of inverse*stencil                                                                     */
+    double  largest; /* eigenvalue of inverse*node_blocks                                                                */
 } peri__grid;
 
 struct peri__multilevel {
@@ -41,7 +41,7 @@ static void peri__free_levels(peri__multilevel *l) {
     for (int32_t g = 0; g < PERI_GRIDS; ++g) {
         peri__grid *grid = &l->grid[g];
         int64_t n = grid->count * l->dim;
-        peri__delete(&memory, grid->stencil, n * l->dim * l->around, sizeof(float));
+        peri__delete(&memory, grid->node_blocks, n * l->dim * l->around, sizeof(float));
         peri__delete(&memory, grid->inverse, n * l->dim, sizeof(float));
         peri__delete(&memory, grid->x, n, sizeof(double));
         peri__delete(&memory, grid->r, n, sizeof(double));
@@ -58,13 +58,13 @@ static void peri__free_levels(peri__multilevel *l) {
 
 static int peri__take_grid(peri__multilevel *l, peri__grid *g) {
     int64_t n = g->count * l->dim;
-    g->stencil = (float *)peri__take_level(l, n * l->dim * l->around, sizeof(float));
+    g->node_blocks = (float *)peri__take_level(l, n * l->dim * l->around, sizeof(float));
     g->inverse = (float *)peri__take_level(l, n * l->dim, sizeof(float));
     g->x = (double *)peri__take_level(l, n, sizeof(double));
     g->r = (double *)peri__take_level(l, n, sizeof(double));
     g->step = (double *)peri__take_level(l, n, sizeof(double));
     g->product = (double *)peri__take_level(l, n, sizeof(double));
-    return g->stencil && g->inverse && g->x && g->r && g->step && g->product;
+    return g->node_blocks && g->inverse && g->x && g->r && g->step && g->product;
 }
 
 /* ---- on one grid -------------------------------------------------------------------------------------------------- */
@@ -98,11 +98,11 @@ static int64_t peri__beside(const peri__grid *g, int32_t dim, const int64_t *at,
     return node;
 }
 
-/* out = stencil in, of one node; dim is a constant where this is inlined. */
+/* out = node_blocks in, of one node; dim is a constant where this is inlined. */
 PERI_INLINE void peri__node_product(const peri__grid_task *t, int64_t n, const int dim) {
     const peri__grid *g = t->fine;
     const int around = dim == 3 ? 27 : 9;
-    const float *block = &g->stencil[n * around * dim * dim];
+    const float *block = &g->node_blocks[n * around * dim * dim];
     double sum[3] = { 0.0, 0.0, 0.0 };
     int64_t at[3] = { 0, 0, 0 };
     int inside = 1;
@@ -153,7 +153,7 @@ static void peri__prepare_grid(const peri__multilevel *l, const peri_body *b, pe
     const int dim = l->dim, packed = PERI_PACKED(dim);
     int64_t n = g->count * dim;
     for (int64_t k = 0; k < g->count; ++k) {
-        const float *block = &g->stencil[(k * l->around + l->around / 2) * dim * dim];
+        const float *block = &g->node_blocks[(k * l->around + l->around / 2) * dim * dim];
         double diagonal[6] = { 0.0 }, inverse[6];
         for (int p = 0; p < dim; ++p)
             for (int q = p; q < dim; ++q)
@@ -177,7 +177,7 @@ static void peri__prepare_grid(const peri__multilevel *l, const peri_body *b, pe
     g->largest *= 1.15;
 }
 
-/* Improves x towards stencil x = r by Chebyshev's polynomial; from x = 0 where `fresh`. */
+/* Improves x towards node_blocks x = r by Chebyshev's polynomial; from x = 0 where `fresh`. */
 static void peri__smooth(const peri__multilevel *l, const peri_body *b, peri__grid *g, int fresh) {
     const double top = g->largest, bottom = top / PERI_SMOOTHED, middle = 0.5 * (top + bottom), half = 0.5 * (top - bottom);
     const int64_t n = g->count * l->dim;
@@ -205,7 +205,7 @@ static int peri__parents(int64_t k, int64_t *parent, double *weight) {
     return k % 2 ? 2 : 1;
 }
 
-/* coarse stencil = P^T stencil P */
+/* coarse node_blocks = P^T node_blocks P */
 static void peri__galerkin(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__grid_task *t = (const peri__grid_task *)context;
     const peri__grid *f = t->fine, *c = t->coarse;
@@ -233,7 +233,7 @@ static void peri__galerkin(void *context, int64_t begin, int64_t end, peri__sums
                     parents[d] = peri__parents(place[d] + rest % 3 - 1, parent[d], &weight[d]);
                     share *= weight[d];
                 }
-                const float *block = &f->stencil[(a * around + e) * size];
+                const float *block = &f->node_blocks[(a * around + e) * size];
                 for (int k = 0; k < parents[0] * parents[1] * (dim == 3 ? parents[2] : 1); ++k) {
                     int pick = k, offset = 0, step = 1;
                     for (int d = 0; d < dim; ++d, step *= 3) {
@@ -244,7 +244,7 @@ static void peri__galerkin(void *context, int64_t begin, int64_t end, peri__sums
                 }
             }
         }
-        for (int k = 0; k < around * size; ++k) c->stencil[n * around * size + k] = (float)sum[k];
+        for (int k = 0; k < around * size; ++k) c->node_blocks[n * around * size + k] = (float)sum[k];
     }
 }
 
@@ -311,7 +311,7 @@ static int peri__factor_coarsest(peri__multilevel *l) {
             int64_t other = peri__beside(g, dim, at, o);
             for (int p = 0; other >= 0 && p < dim; ++p)
                 for (int q = 0; q < dim; ++q)
-                    l->dense[(k * dim + p) * n + other * dim + q] = (double)g->stencil[((k * l->around + o) * dim + p) * dim + q];
+                    l->dense[(k * dim + p) * n + other * dim + q] = (double)g->node_blocks[((k * l->around + o) * dim + p) * dim + q];
         }
     }
     for (int64_t k = 0; k < n; ++k) { /* rows of the lower triangle; a pivot lost to rounding is left out */

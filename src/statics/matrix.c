@@ -3,7 +3,7 @@
    The energy of point o is a function of the displacements of o and its family, so the stiffness is a sum over points o of a small dense
    matrix. With the bonds' directions n, lengths L and y = L n, and d eta_j = du_j - du_o:
        springs         sum_j w [q n n + (p g + q e)/L (1 - n n)] on d eta_j
-       theta           press dilate l l,      l = sum_j w g n.d eta_j
+       theta           pressure_factor theta_factor l l,      l = sum_j w g n.d eta_j
        correspondence  dH : A : dH,  dH = sum_j d eta_j (w K^-1 xi_j),  and  k (sum_j w |d eta_j|^2 - tr(dH K dH^T)) */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
@@ -76,7 +76,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     const int dim = m->dim, linear = b->desc.geometry == PERI_LINEAR;
     const peri__law *law = &m->laws[m->material[o]];
     const double volume = m->volume[o];
-    double vector = 0.0, press = 0.0, dilate = 0.0, p = 0.0, self[3] = { 0.0 }, springs[9] = { 0.0 };
+    double stabilization = 0.0, pressure_factor = 0.0, theta_factor = 0.0, p = 0.0, self[3] = { 0.0 }, springs[9] = { 0.0 };
     peri__deformation f;
     peri__row row;
     peri__read_row(b, o, &row);
@@ -84,13 +84,13 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     e->self = -1;
     *tensors = 0;
     if (!law->pairwise) {
-        press = peri__get_constant(b, o, PERI__PRESS);
-        dilate = peri__get_constant(b, o, PERI__DILATE);
-        if (press != 0.0) p = press * peri__dilatation(b, o, &row);
+        pressure_factor = peri__get_constant(b, o, PERI__PRESSURE_FACTOR);
+        theta_factor = peri__get_constant(b, o, PERI__THETA_FACTOR);
+        if (pressure_factor != 0.0) p = pressure_factor * peri__dilatation(b, o, &row);
     }
     if (law->gather & PERI__GRADIENT) {
-        vector = peri__get_constant(b, o, PERI__VECTOR);
-        *tensors = peri__get_constant(b, o, PERI__INVERSE) != 0.0;
+        stabilization = peri__get_constant(b, o, PERI__STABILIZATION);
+        *tensors = peri__get_constant(b, o, PERI__SHAPE_INVERSE) != 0.0;
         peri__deform(b, o, &row, &f);
     }
     for (int64_t k = peri__next_bond(&row, -1); k >= 0; k = peri__next_bond(&row, row.ids[k])) {
@@ -98,17 +98,17 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
         if (row.ids[k] > o && e->self < 0) e->self = e->count++;
         double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->b32, k), bond = peri__get_real(row.bond, b->b32, k);
         double gauge = peri__law_gauge(law, bond), *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
-        double stretched = bond * peri__stretch(b, o, &row, k);
+        double extension = bond * peri__stretch(b, o, &row, k);
         peri__pull_of(b, o, row.ids[k], xi, eta);
         for (int d = 0; d < dim; ++d) length += peri__square(n[d] = xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
         for (int d = 0; d < dim; ++d) n[d] /= length;
         const double q = peri__spring(b, o, row.ids[k], bond), along = volume * w * q;
-        const double across = linear ? 0.0 : volume * w * (p * gauge + q * stretched) / length;
+        const double across = linear ? 0.0 : volume * w * (p * gauge + q * extension) / length;
         for (int a = 0; a < dim; ++a) {
             pull[a] = w * gauge * n[a];
             for (int c = 0; c < dim; ++c)
-                spring[a * dim + c] = (along - across) * n[a] * n[c] + (a == c ? across + volume * w * vector : 0.0);
+                spring[a * dim + c] = (along - across) * n[a] * n[c] + (a == c ? across + volume * w * stabilization : 0.0);
         }
         if (*tensors) {
             (void)peri__by_inverse(b, o, xi, pull);
@@ -130,7 +130,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
             for (int a = 0; a < dim; ++a)
                 for (int d = 0; d < dim; ++d) tensor[a][d][c][q] = volume * out[a][d];
         }
-    return *tensors || law->pairwise ? 0.0 : volume * press * dilate;
+    return *tensors || law->pairwise ? 0.0 : volume * pressure_factor * theta_factor;
 }
 
 /* K of the shape tensor of point o: what the stabilisation takes back. */
@@ -145,9 +145,9 @@ static void peri__shape_of(const peri_body *b, int64_t o, double shape[3][3]) {
 static void peri__add_element(peri_matrix *a, const peri_body *b, int64_t o, const peri__element *e, double theta,
                               double tensor[3][3][3][3], int tensors) {
     const int dim = a->dim;
-    const double vector = tensors ? b->model->volume[o] * peri__get_constant(b, o, PERI__VECTOR) : 0.0;
+    const double stabilization = tensors ? b->model->volume[o] * peri__get_constant(b, o, PERI__STABILIZATION) : 0.0;
     double shape[3][3] = { { 0.0 } };
-    if (vector != 0.0) peri__shape_of(b, o, shape);
+    if (stabilization != 0.0) peri__shape_of(b, o, shape);
     for (int64_t p = 0; p < e->count; ++p) {
         int64_t at = a->start[e->id[p]];
         for (int64_t q = 0; q < e->count; ++q) {
@@ -161,7 +161,7 @@ static void peri__add_element(peri_matrix *a, const peri_body *b, int64_t o, con
                     for (int d = 0; tensors && d < dim; ++d)
                         for (int s = 0; s < dim; ++s) {
                             sum += left[d] * tensor[r][d][c][s] * right[s];
-                            if (r == c) sum -= vector * left[d] * shape[d][s] * right[s];
+                            if (r == c) sum -= stabilization * left[d] * shape[d][s] * right[s];
                         }
                     if (spring) sum += p == q ? spring[r * dim + c] : -spring[r * dim + c];
                     a->block[(at * dim + r) * dim + c] += sum;
@@ -287,7 +287,7 @@ static double peri__free_dot(const double *scale, const double *x, const double 
 }
 
 /* BiCGSTAB with the diagonal as preconditioner (van der Vorst 1992). work: [9][n]: [0] is the right-hand side and becomes what is left of
-   it, on held dofs minus the reaction; [1] the solution, [8] the best one so far: the residual may grow without end. */
+   it, on constrained dofs minus the reaction; [1] the solution, [8] the best one so far: the residual may grow without end. */
 static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *work, int64_t n, double reach, double loads) {
     double *r = work, *x = work + n, *shadow = work + 2 * n, *p = work + 3 * n, *v = work + 4 * n, *t = work + 5 * n, *y = work + 6 * n;
     double *scale = work + 7 * n, *best = work + 8 * n, least = HUGE_VAL, rho = 1.0, alpha = 1.0, omega = 1.0;
@@ -295,7 +295,7 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
         for (int64_t k = a->start[i]; k < a->start[i + 1]; ++k)
             for (int32_t d = 0; a->column[k] == i && d < a->dim; ++d) {
                 double diagonal = a->block[(k * a->dim + d) * a->dim + d];
-                scale[i * a->dim + d] = diagonal > 0.0 && !(s->held[i] >> d & 1) ? 1.0 / diagonal : 0.0;
+                scale[i * a->dim + d] = diagonal > 0.0 && !(s->constrained[i] >> d & 1) ? 1.0 / diagonal : 0.0;
             }
     memcpy(shadow, r, (size_t)n * sizeof *r);
     for (;;) {

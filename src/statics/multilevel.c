@@ -5,7 +5,7 @@
        z = D^-1 r  +  P B P^T r,
    P the (bi-, tri-) linear interpolation from the nodes of a regular grid of about a horizon to the points, of a lattice or a cloud, and
    B a V-cycle for the stiffness of linear elasticity in those shape functions, integrated over the points: V_i grad N:C_i:grad N, C_i of
-   the point's law, scaled by the stiffness of its actual bonds. Points that are held add D_ii N N, the resistance of their bonds.
+   the point's law, scaled by the stiffness of its actual bonds. Points that are constrained add D_ii N N, the resistance of their bonds.
    Coarser grids have twice the spacing, and stiffness by Galerkin's product; there Chebyshev's polynomials smooth, and the coarsest is
    solved directly. Everything is symmetric and the order of sums fixed. Nodes without points have a zero diagonal and stay 0. */
 #ifndef PERI_IMPL
@@ -119,7 +119,7 @@ static void peri__add_point(const peri__solver *s, peri__multilevel *l, int64_t 
     double within[3] = { 0.0 }, shape[8], gradient[8][3], volume = m->volume[i] * peri__relative_stiffness(b, i);
     double lambda = law->lambda, mu = law->mu;
     int64_t cell = peri__grid_cell(l, b, i, within), node[8];
-    float *stencil = l->grid[0].stencil;
+    float *node_blocks = l->grid[0].node_blocks;
     for (int c = 0; c < corners; ++c) {
         node[c] = peri__corner(l, cell, c);
         shape[c] = 1.0;
@@ -134,13 +134,14 @@ static void peri__add_point(const peri__solver *s, peri__multilevel *l, int64_t 
         for (int c = 0; c < corners; ++c) {
             int offset = 0, step = 1;
             for (int d = 0; d < dim; ++d, step *= 3) offset += ((c >> d & 1) - (a >> d & 1) + 1) * step;
-            float *block = stencil + (node[a] * l->around + offset) * dim * dim;
+            float *block = node_blocks + (node[a] * l->around + offset) * dim * dim;
             double dot = volume * mu * peri__dot(gradient[a], gradient[c], dim);
             for (int p = 0; p < dim; ++p)
                 for (int q = 0; q < dim; ++q) {
                     double sum = volume * (lambda * gradient[a][p] * gradient[c][q] + mu * gradient[a][q] * gradient[c][p]);
                     if (p == q) sum += dot;
-                    if (p == q && (s->held[i] >> p & 1)) sum += shape[a] * shape[c] * peri__get_real(s->blocks, b->f32, p * m->stride + i);
+                    if (p == q && (s->constrained[i] >> p & 1))
+                        sum += shape[a] * shape[c] * peri__get_real(s->blocks, b->f32, p * m->stride + i);
                     block[p * dim + q] += (float)sum;
                 }
         }
@@ -164,7 +165,7 @@ PERI_INLINE void peri__shapes(const peri__multilevel *l, int64_t o, const int di
         }
 }
 
-/* r of the nodes = P^T r of the points, the held ones left out: first what each cell gives to its corners, then the sum of cells. */
+/* r of the nodes = P^T r of the points, the constrained ones left out: first what each cell gives to its corners, then the sum of cells. */
 static void peri__restrict_cells(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__transfer *t = (const peri__transfer *)context;
     const peri__multilevel *l = t->levels;
@@ -177,7 +178,7 @@ static void peri__restrict_cells(void *context, int64_t begin, int64_t end, peri
             const int64_t i = l->order[o];
             peri__shapes(l, o, dim, shape);
             for (int d = 0; d < dim; ++d) {
-                if (t->solver->held[i] >> d & 1) continue;
+                if (t->solver->constrained[i] >> d & 1) continue;
                 double r = peri__get_real(t->solver->k.r, b->f32, d * b->model->stride + i);
                 for (int c = 0; c < corners; ++c) sum[c * dim + d] += shape[c] * r;
             }
@@ -210,7 +211,7 @@ static void peri__gather_cells(void *context, int64_t begin, int64_t end, peri__
     }
 }
 
-/* z of the points of cells += P x of the nodes, but for what is held. */
+/* z of the points of cells += P x of the nodes, but for what is constrained. */
 static void peri__prolong_cells(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__transfer *t = (const peri__transfer *)context;
     const peri__multilevel *l = t->levels;
@@ -227,7 +228,7 @@ static void peri__prolong_cells(void *context, int64_t begin, int64_t end, peri_
             for (int d = 0; d < dim; ++d) {
                 const int64_t at = d * b->model->stride + i;
                 double sum = 0.0;
-                if (t->solver->held[i] >> d & 1) continue;
+                if (t->solver->constrained[i] >> d & 1) continue;
                 for (int c = 0; c < corners; ++c) sum += shape[c] * x[c * dim + d];
                 peri__put_real(z, b->f32, at, peri__get_real(z, b->f32, at) + sum);
             }

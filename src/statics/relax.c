@@ -14,7 +14,7 @@ static int peri__relax_step(peri__solver *s, double unit, int64_t k) {
         for (int64_t i = 0; i < m->points; ++i) {
             int64_t at = d * m->stride + i;
             double v = peri__get_real(s->k.p, b->f32, at), u = peri__get_real(b->u, b->f32, at);
-            if ((s->held[i] >> d & 1) || v == 0.0) continue;
+            if ((s->constrained[i] >> d & 1) || v == 0.0) continue;
             double stiff = (peri__get_real(s->k.q, b->f32, at) - peri__get_real(s->k.r, b->f32, at)) / v;
             if (stiff > 0.0) bent += stiff * u * u;
             square += m->rho[m->material[i]] * m->volume[i] * unit * u * u;
@@ -26,7 +26,7 @@ static int peri__relax_step(peri__solver *s, double unit, int64_t k) {
             int64_t at = d * m->stride + i;
             double push = peri__get_real(s->k.r, b->f32, at) / (m->rho[m->material[i]] * m->volume[i] * unit);
             double v = peri__get_real(s->k.p, b->f32, at);
-            if (s->held[i] >> d & 1) continue;
+            if (s->constrained[i] >> d & 1) continue;
             v = k == 0 ? 0.5 * push : ((2.0 - damping) * v + 2.0 * push) / (2.0 + damping);
             if (!(fabs(v) < 1e15)) return 0;
             peri__put_real(s->k.p, b->f32, at, v);
@@ -51,7 +51,7 @@ static int32_t peri__relax(peri__solver *s) {
         s->k.r = s->k.q;
         s->k.q = r;
         loads = peri__static_forces(s);
-        int32_t status = loads < 0.0 ? (int32_t)loads : k == 0 ? peri__check_faint(s) : PERI_OK;
+        int32_t status = loads < 0.0 ? (int32_t)loads : k == 0 ? peri__check_small_loads(s) : PERI_OK;
         if (status < 0) return status;
         residual = peri__static_residual(s, loads);
         peri__tell_residual(s, residual);

@@ -56,7 +56,7 @@ static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
 /* By how much the criterion of bond k of row i is passed: its value over its limit, 0 where it is not longer than at rest. */
 static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, int64_t k) {
     const int64_t j = row->ids[k];
-    const peri__pair *pair = b->cls ? &b->pairs[b->cls[i] * b->classes + b->cls[j]] : b->pairs;
+    const peri__pair *pair = b->point_class ? &b->pairs[b->point_class[i] * b->classes + b->point_class[j]] : b->pairs;
     double excess = 0.0;
     if (!(peri__stretch(b, i, row, k) > 0.0)) return 0.0;
 #define PERI_CASE(name, number) \
@@ -124,7 +124,7 @@ static void peri__count_work(peri__solver *s, const void *from) {
         for (int64_t i = 0; i < m->points; ++i) {
             int64_t at = d * m->stride + i;
             double outer = peri__get_real(s->k.z, b->f32, at), way;
-            if (s->held[i] >> d & 1) outer -= peri__get_real(b->f, b->f32, at);
+            if (s->constrained[i] >> d & 1) outer -= peri__get_real(b->f, b->f32, at);
             way = from ? peri__get_real(b->u, b->f32, at) - peri__get_real(from, b->f32, at) : 0.0;
             work += 0.5 * (outer + peri__get_real(s->load, b->f32, at)) * way * m->volume[i];
             peri__put_real(s->load, b->f32, at, outer);
@@ -150,8 +150,8 @@ static int32_t peri__note_forces(peri__solver *s) {
     peri_body *b = s->body;
     int32_t status = peri__static_values(b);
     if (status < 0) return status;
-    memset(s->held, 0, (size_t)b->model->points);
-    s->part_count = s->hanging = 0;
+    memset(s->constrained, 0, (size_t)b->model->points);
+    s->part_count = s->singular = 0;
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
     double loads = peri__static_forces(s);
     if (loads < 0.0) return (int32_t)loads;
@@ -187,10 +187,10 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
         if (status == PERI_OK) status = s->settings->method == PERI_RELAXATION ? peri__relax(s) : peri__newton(s);
         if (status != PERI_OK) break;
         if (m->seen_by & PERI__BY_WORK) {
-            peri__step step = peri__no_step(b);
-            step.working = 1;
+            peri__operands operands = peri__operands_of(b);
+            operands.working = 1;
             memcpy(b->f, s->k.z, peri__vector_bytes(b));
-            peri__bond_forces(b, &step);
+            peri__bond_forces(b, &operands);
         }
         double external = b->now.ledger.external, energy = 0.0;
         peri__count_work(s, s->from);

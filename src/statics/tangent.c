@@ -9,23 +9,23 @@
 static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     const peri_body *b = t->body;
     const peri__model *m = b->model;
-    peri__step step = peri__no_step(b);
+    peri__operands operands = peri__operands_of(b);
     void *change = t->change ? (char *)t->change + (size_t)m->margin * peri__bond_real(b) : NULL;
     if (at_rest || b->desc.geometry == PERI_LINEAR) {
-        step.u = t->p; /* the same bonds with other displacements */
-        step.f = t->q;
-        step.response = change;
-        step.node = NULL;
-        step.linear = 1;
+        operands.u = t->p; /* the same bonds with other displacements */
+        operands.f = t->q;
+        operands.response = change;
+        operands.node = NULL;
+        operands.linear = 1;
         memset(t->q, 0, (size_t)(m->stride * m->dim) * peri__real(b));
-        peri__sum_bonds(b, &step, NULL);
+        peri__sum_bonds(b, &operands, NULL);
         return;
     }
-    step.p = t->p;
-    step.q = t->q;
-    step.change = change;
-    if (m->gathers) peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_gather, &step, NULL);
-    peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_force, &step, NULL);
+    operands.p = t->p;
+    operands.q = t->q;
+    operands.change = change;
+    if (m->gathers) peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_gather, &operands, NULL);
+    peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_force, &operands, NULL);
 }
 
 /* Is point i in an obstacle? normal: the unit vector along which that pushes. */
@@ -59,7 +59,7 @@ static double peri__by_inverse(const peri_body *b, int64_t i, const double *v, d
     const int32_t dim = b->model->dim;
     for (int a = 0; a < dim; ++a) {
         out[a] = 0.0;
-        for (int c = 0; c < dim; ++c) out[a] += peri__get_constant(b, i, PERI__INVERSE + peri__packed(dim, a, c)) * v[c];
+        for (int c = 0; c < dim; ++c) out[a] += peri__get_constant(b, i, PERI__SHAPE_INVERSE + peri__packed(dim, a, c)) * v[c];
     }
     return peri__dot(out, v, dim);
 }
@@ -77,7 +77,7 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const int32_t dim = m->dim;
     const peri__law *own_law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_LINEAR;
-    double lean[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
+    double gather_diagonal[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
     peri__row row;
     peri__read_row(b, i, &row);
     for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
@@ -97,31 +97,34 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
         for (int32_t d = 0; d < dim; ++d) n[d] /= length;
         spring += own * peri__spring(b, i, j, bond);
         spring += back * peri__spring(b, j, i, bond);
-        for (int d = 0; own_law->gather == PERI__DILATATION && d < dim; ++d) lean[d] += own * peri__law_gauge(own_law, bond) * n[d];
+        for (int d = 0; own_law->gather == PERI__DILATATION && d < dim; ++d)
+                gather_diagonal[d] += own * peri__law_gauge(own_law, bond) * n[d];
         if (law->gather == PERI__DILATATION) { /* theta of j */
             double gauge = peri__law_gauge(law, bond);
-            spring += peri__get_constant(b, j, PERI__PRESS) * peri__get_constant(b, j, PERI__DILATE) * back * by * gauge * gauge;
+            spring += peri__get_constant(b, j, PERI__PRESSURE_FACTOR)
+                    * peri__get_constant(b, j, PERI__THETA_FACTOR) * back * by * gauge * gauge;
         }
         if (law->gather & PERI__GRADIENT) { /* F of j, and its distance from z = 0 */
             double pulled[3], square = peri__by_inverse(b, j, xi, pulled), size = peri__dot(pulled, pulled, dim);
             double lambda = law->lambda, mu = law->mu;
             peri__add_dyad(dim, m->volume[i] * back * by * (lambda + mu), pulled, m->volume[i] * back * by * mu * size, block);
-            round += back * peri__get_constant(b, j, PERI__VECTOR) * (1.0 - by * square);
+            round += back * peri__get_constant(b, j, PERI__STABILIZATION) * (1.0 - by * square);
         }
         if (own_law->gather & PERI__GRADIENT) {
             whole += own;
-            for (int d = 0; d < dim; ++d) lean[d] += own * xi[d];
+            for (int d = 0; d < dim; ++d) gather_diagonal[d] += own * xi[d];
         }
         peri__add_dyad(dim, m->volume[i] * spring, n, m->volume[i] * round, block);
     }
     if (own_law->gather == PERI__DILATATION) {
-        const double stiff = peri__get_constant(b, i, PERI__PRESS) * peri__get_constant(b, i, PERI__DILATE);
-        peri__add_dyad(dim, m->volume[i] * stiff, lean, 0.0, block);
+        const double stiff = peri__get_constant(b, i, PERI__PRESSURE_FACTOR) * peri__get_constant(b, i, PERI__THETA_FACTOR);
+        peri__add_dyad(dim, m->volume[i] * stiff, gather_diagonal, 0.0, block);
     }
     if (own_law->gather & PERI__GRADIENT) {
-        double square = peri__by_inverse(b, i, lean, h), lambda = own_law->lambda, mu = own_law->mu;
+        double square = peri__by_inverse(b, i, gather_diagonal, h), lambda = own_law->lambda, mu = own_law->mu;
         peri__add_dyad(dim, m->volume[i] * (lambda + mu), h,
-                       m->volume[i] * (mu * peri__dot(h, h, dim) + peri__get_constant(b, i, PERI__VECTOR) * (whole - square)), block);
+                       m->volume[i] * (mu * peri__dot(h, h, dim)
+                                      + peri__get_constant(b, i, PERI__STABILIZATION) * (whole - square)), block);
     }
 }
 

@@ -1,9 +1,9 @@
-/* lanes.inl - what works on the vectors of one instruction set. */
+/* isa.inl - what works on the vectors of one instruction set. */
 #include "vector.inl"
 #include "columns.inl"
 #include "list.inl"
 #include "pointwise.inl"
 #undef PERI_COMPACT
 #undef PERI_PIECEWISE
-#undef PERI_LANES_FN
-#undef PERI_LANES_TARGET
+#undef PERI_ISA_FN
+#undef PERI_ISA_TARGET

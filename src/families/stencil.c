@@ -1,6 +1,6 @@
-/* lanes.c - families by columns, for points that come from a lattice.
+/* stencil.c - families by columns, for points that come from a lattice.
 
-   Rows of Ibond are taken in groups of PERI_LANES. On a lattice the bonds of a group along one lattice vector lead from each point to
+   Rows of Ibond are taken in groups of PERI_GROUP. On a lattice the bonds of a group along one lattice vector lead from each point to
    "own id + offset" with one offset, so a column of them is that offset, one row of a small table of bond vectors, and a mask that says
    which of the points have the bond. The kernel then runs over the points of a group with unit-stride loads. Columns ascend by offset, so
    each point meets its bonds by ascending ids. Groups with the same columns share them: in a box there are few kinds of groups, and most
@@ -21,22 +21,22 @@
 #define PERI_KINDS 1024           /* a power of 2                                                                        */
 #define PERI_KIND_ROOM 8
 
-typedef struct peri__vector { /* a row of the table, its key in grains, and the first bond that made it                   */
+typedef struct peri__vector { /* a row of the table, its key in quanta, and the first bond that made it                   */
     int64_t   key[PERI_VECTOR_KEY]; /* xi, weight, beta V_j; the pair of materials                                       */
     peri__bond bond;
     double    length, weight; /* rounded as bond                                                                         */
     double    own, other;     /* V_i, V_j                                                                                */
 } peri__vector;
 
-typedef struct peri__draft { /* what building needs and drops                                                             */
+typedef struct peri__builder { /* what building needs and drops                                                          */
     peri__cloud  *cloud;
     int64_t       bonds, width;
-    double        rate;           /* see peri__rate_block                                                                */
-    double        weight, share;  /* units of the grain of weights: of the order of the largest weight and volume        */
+    double        row_sum;           /* see peri__row_sum_block                                                          */
+    double        weight, partial_volume;  /* units of the quanta of weights: of the order of the largest weight and volume */
     int32_t       count;          /* of vectors                                                                          */
     int32_t       slot[PERI_VECTOR_SLOTS]; /* row + 1; 0: free                                                           */
     peri__vector  row[PERI_VECTOR_LIMIT];
-    peri__column  group[2][PERI_LANES * PERI_VECTOR_LIMIT]; /* columns of the group at hand, and room for the next state */
+    peri__column  group[2][PERI_GROUP * PERI_VECTOR_LIMIT]; /* columns of the group at hand, and room for the next state */
     int64_t       group_count;
     int           now;            /* which of the two                                                                    */
     peri__column *column;         /* of all groups that differ                                                           */
@@ -49,17 +49,17 @@ typedef struct peri__draft { /* what building needs and drops                   
     int32_t       ids[PERI_VECTOR_LIMIT]; /* the family of point ids_of, ascending                                       */
     int64_t       ids_of;
     peri__near    near;
-    peri__parts   parts;
-} peri__draft;
+    peri__partial_volumes   parts;
+} peri__builder;
 
 /* Both directions of a bond have opposite grains. */
-static int64_t peri__grains(double value, double unit) {
+static int64_t peri__quanta(double value, double unit) {
     double grains = floor(fabs(value) / (unit * PERI_VECTOR_GRAIN) + 0.5);
     return value < 0.0 ? -(int64_t)grains : (int64_t)grains;
 }
 
 /* The slot of a key: where it is, or where it would be. */
-static int32_t *peri__vector_slot(peri__draft *d, const int64_t *key) {
+static int32_t *peri__vector_slot(peri__builder *d, const int64_t *key) {
     uint64_t hash = 0;
     for (int k = 0; k < PERI_VECTOR_KEY; ++k) hash = (hash ^ (uint64_t)key[k]) * UINT64_C(0x9E3779B97F4A7C15);
     for (size_t slot = (size_t)(hash >> 40) % PERI_VECTOR_SLOTS;; slot = (slot + 1) % PERI_VECTOR_SLOTS)
@@ -73,18 +73,18 @@ static double peri__rounded(int b32, double value) { return b32 ? (double)(float
 static double peri__quotient(int b32, double a, double b) { return b32 ? (double)((float)a / (float)b) : a / b; }
 
 /* Table row of bond (i, j), made where it is new; -1 where the table is full, or the bond is no lattice's. */
-static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri__bond *bond) {
+static int32_t peri__vector_of(peri__builder *d, int64_t i, int64_t j, const peri__bond *bond) {
     const peri__model *m = d->cloud->model;
     const int b32 = d->cloud->body->b32;
     int64_t key[PERI_VECTOR_KEY] = { 0 };
     double weight = peri__rounded(b32, bond->weight);
     for (int32_t k = 0; k < m->dim; ++k) {
         if (!(fabs(bond->xi[k]) < 1e6)) return -1;
-        key[k] = peri__grains(bond->xi[k], 1.0);
+        key[k] = peri__quanta(bond->xi[k], 1.0);
     }
     if (!(fabs(weight) < 1e6 * d->weight)) return -1;
-    key[3] = peri__grains(weight, d->weight);
-    key[4] = peri__grains(bond->share, d->share);
+    key[3] = peri__quanta(weight, d->weight);
+    key[4] = peri__quanta(bond->partial_volume, d->partial_volume);
     key[5] = peri__pair_of(m, i, j);
     int32_t *slot = peri__vector_slot(d, key);
     if (*slot == 0) {
@@ -103,7 +103,7 @@ static int32_t peri__vector_of(peri__draft *d, int64_t i, int64_t j, const peri_
 
 /* Both directions of a bond must have exactly opposite vectors and the same length, whatever they weigh, or momentum drifts by rounding,
    and only one of them breaks: they get those of the first row that is alike. What weighs the same must to the last bit. */
-static void peri__oppose_vectors(peri__draft *d) {
+static void peri__oppose_vectors(peri__builder *d) {
     const int32_t materials = d->cloud->model->materials;
     for (int32_t a = 0; a < d->count; ++a) {
         peri__vector *row = &d->row[a];
@@ -114,7 +114,7 @@ static void peri__oppose_vectors(peri__draft *d) {
         const int32_t other = *peri__vector_slot(d, key) - 1;
         if (other > a) {
             d->row[other].weight = row->weight;
-            d->row[other].bond.share = row->bond.share;
+            d->row[other].bond.partial_volume = row->bond.partial_volume;
         }
         while (memcmp(d->row[first].key, key, 3 * sizeof *key) != 0 && memcmp(d->row[first].key, row->key, 3 * sizeof *key) != 0) ++first;
         const int same = memcmp(d->row[first].key, row->key, 3 * sizeof *key) == 0;
@@ -130,29 +130,29 @@ static void peri__listed_bond(const peri__cloud *c, int64_t i, int64_t k, peri__
     peri__bond_vector(c, i, j, bond->xi);
     bond->length = peri__listed_length(c, i, at);
     bond->weight = peri__get_real(m->weight, c->body->b32, at);
-    bond->share = m->part ? (double)m->part[at] : m->volume[j];
+    bond->partial_volume = m->partial_volume ? (double)m->partial_volume[at] : m->volume[j];
 }
 
 /* Is bond (i, j) bit by bit that which made the row? Where its weight is not known yet (whole cells and the ramp) that of the row then
    is its own. */
-static int peri__is_vector(const peri__draft *d, const peri__vector *row, int64_t i, int64_t j, const peri__bond *bond, int weighed) {
+static int peri__is_vector(const peri__builder *d, const peri__vector *row, int64_t i, int64_t j, const peri__bond *bond, int weighed) {
     const peri__model *m = d->cloud->model;
     if (row->key[5] != peri__pair_of(m, i, j)) return 0;
     for (int32_t k = 0; k < m->dim; ++k)
         if (bond->xi[k] != row->bond.xi[k]) return 0;
     if (!weighed) return m->volume[i] == row->own && m->volume[j] == row->other;
-    return bond->weight == row->bond.weight && bond->share == row->bond.share && bond->length == row->bond.length;
+    return bond->weight == row->bond.weight && bond->partial_volume == row->bond.partial_volume && bond->length == row->bond.length;
 }
 
 /* Adds the family of i to the columns of its group. 0 where this is no lattice, or no family. */
-static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_t count) {
+static int peri__build_row(peri__builder *d, int64_t i, const int32_t *ids, int64_t count) {
     const peri__cloud *c = d->cloud;
     const peri__model *m = c->model;
     const int listed = m->ids != NULL, weighed = listed || peri__is_exact(c->body->desc.quadrature), b32 = c->body->b32;
-    const uint16_t bit = (uint16_t)(1 << (i % PERI_LANES));
+    const uint16_t bit = (uint16_t)(1 << (i % PERI_GROUP));
     const peri__column *old = d->group[d->now], *old_end = old + d->group_count;
     peri__column *made = d->group[!d->now], *next = made;
-    double total = 0.0, stiff = 0.0, rate = 0.0;
+    double total = 0.0, stiff = 0.0, row_sum = 0.0;
     peri__bond own;
     memset(&own, 0, sizeof own);
     for (int64_t k = 0; k < count; ++k) {
@@ -176,7 +176,7 @@ static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_
         }
         total += fabs(bond->weight);
         stiff += bond->weight * bond->length * bond->length;
-        rate += m->pairs[d->row[vector].key[5]].c * fabs(peri__rounded(b32, bond->weight)) / peri__rounded(b32, bond->length);
+        row_sum += m->pairs[d->row[vector].key[5]].c * fabs(peri__rounded(b32, bond->weight)) / peri__rounded(b32, bond->length);
         while (old < old_end && old->offset == offset && old->vector < vector) *next++ = *old++;
         if (old < old_end && old->offset == offset && old->vector == vector) {
             *next = *old++;
@@ -193,15 +193,15 @@ static int peri__draft_row(peri__draft *d, int64_t i, const int32_t *ids, int64_
     d->group_count = next - made;
     d->bonds += count;
     if (count > d->width) d->width = count;
-    rate *= 2.0 / m->rho[m->material[i]];
-    if (rate > d->rate) d->rate = rate;
+    row_sum *= 2.0 / m->rho[m->material[i]];
+    if (row_sum > d->row_sum) d->row_sum = row_sum;
     return peri__check_weight(c->body, total, stiff, m->pairwise) == PERI_OK;
 }
 
 /* Keeps the columns of the group at hand, or finds an earlier group with the same. */
-static int32_t peri__draft_group(peri__draft *d, int64_t g) {
+static int32_t peri__build_group(peri__builder *d, int64_t g) {
     const peri__memory *memory = &d->cloud->body->memory;
-    peri__lanes *l = &d->cloud->model->lanes;
+    peri__stencil *l = &d->cloud->model->stencil;
     const peri__column *group = d->group[d->now];
     const size_t bytes = (size_t)d->group_count * sizeof *group;
     uint64_t hash = 0;
@@ -227,15 +227,15 @@ static int32_t peri__draft_group(peri__draft *d, int64_t g) {
 }
 
 /* Units of the grains of weights, by the first family. */
-static void peri__choose_units(peri__draft *d, const int32_t *ids, int64_t count) {
+static void peri__choose_units(peri__builder *d, const int32_t *ids, int64_t count) {
     const peri__model *m = d->cloud->model;
     peri__bond bond;
     for (int64_t i = 0; i < m->points; ++i)
-        if (m->volume[i] > d->share) d->share = m->volume[i];
+        if (m->volume[i] > d->partial_volume) d->partial_volume = m->volume[i];
     for (int64_t k = 0; k < count; ++k) {
         if (m->ids) peri__listed_bond(d->cloud, 0, k, &bond);
         else if (!peri__weigh_bond(d->cloud, &d->parts, 0, ids[k], &bond)) continue;
-        const double weight = fabs(bond.weight) / m->volume[ids[k]] * d->share;
+        const double weight = fabs(bond.weight) / m->volume[ids[k]] * d->partial_volume;
         if (weight > d->weight) d->weight = weight;
     }
 }
@@ -256,28 +256,28 @@ PERI_UNLIKE(avx512, PERI_VECTOR_CODE PERI_TARGET_AVX512)
 
 /* Do the columns of group `other`, moved, hold the families of group g? They do where every bond of theirs is bit by bit that of its table
    row, and every point has as many as were counted. The same columns would then be drafted. */
-static int peri__fits_group(const peri__draft *d, int64_t g, int64_t other) {
+static int peri__fits_group(const peri__builder *d, int64_t g, int64_t other) {
     const peri__model *m = d->cloud->model;
-    const peri__lanes *l = &m->lanes;
+    const peri__stencil *l = &m->stencil;
     const int32_t dim = m->dim;
     const int64_t columns = l->begin[other + 1] - l->begin[other];
-    const double *here = &d->cloud->x[g * PERI_LANES * dim];
-    double want[PERI_LANES / 2 * 3]; /* xi of half a group */
+    const double *here = &d->cloud->x[g * PERI_GROUP * dim];
+    double want[PERI_GROUP / 2 * 3]; /* xi of half a group */
     for (int64_t k = 0; k < columns; ++k) {
         const peri__column *column = &d->column[l->first[other] + k];
         const double *xi = d->row[column->vector].bond.xi;
-        const int64_t first = g * PERI_LANES + column->offset;
+        const int64_t first = g * PERI_GROUP + column->offset;
         int64_t apart = 0;
         if (column->member == 0xffff) {
-            if (first < 0 || first + PERI_LANES > m->points) return 0;
+            if (first < 0 || first + PERI_GROUP > m->points) return 0;
             const double *there = &d->cloud->x[first * dim];
-            for (int n = 0; n < PERI_LANES / 2; ++n)
+            for (int n = 0; n < PERI_GROUP / 2; ++n)
                 for (int32_t a = 0; a < dim; ++a) want[n * dim + a] = xi[a];
             for (int half = 0; half < 2; ++half)
                 apart += PERI_BY_ISA(d->cloud->isa, peri__unlike,
-                                     (there + half * PERI_LANES / 2 * dim, here + half * PERI_LANES / 2 * dim, want, PERI_LANES / 2 * dim));
+                                     (there + half * PERI_GROUP / 2 * dim, here + half * PERI_GROUP / 2 * dim, want, PERI_GROUP / 2 * dim));
         } else {
-            for (int n = 0; n < PERI_LANES; ++n) {
+            for (int n = 0; n < PERI_GROUP; ++n) {
                 if (!(column->member >> n & 1)) continue;
                 if (first + n < 0 || first + n >= m->points) return 0;
                 for (int32_t a = 0; a < dim; ++a) apart += d->cloud->x[(first + n) * dim + a] - here[n * dim + a] != xi[a];
@@ -289,33 +289,33 @@ static int peri__fits_group(const peri__draft *d, int64_t g, int64_t other) {
 }
 
 /* An earlier group with the columns of group g, or -1. Tried are the last groups whose families were as large, point by point. */
-static int64_t peri__like_group(peri__draft *d, int64_t g) {
+static int64_t peri__like_group(peri__builder *d, int64_t g) {
     const peri__model *m = d->cloud->model;
-    const int32_t *count = &m->count[g * PERI_LANES];
+    const int32_t *count = &m->count[g * PERI_GROUP];
     uint64_t hash = 0;
     d->like = NULL;
-    if (!d->alike || (g + 1) * PERI_LANES > m->points) return -1;
-    for (int n = 0; n < PERI_LANES; ++n) hash = (hash ^ (uint32_t)count[n]) * UINT64_C(0x9E3779B97F4A7C15);
+    if (!d->alike || (g + 1) * PERI_GROUP > m->points) return -1;
+    for (int n = 0; n < PERI_GROUP; ++n) hash = (hash ^ (uint32_t)count[n]) * UINT64_C(0x9E3779B97F4A7C15);
     d->like = d->kind[hash >> 32 & (PERI_KINDS - 1)];
     for (int n = 0; n < PERI_KIND_ROOM && d->like[n] != 0; ++n) {
         const int64_t other = d->like[n] - 1;
-        if (memcmp(count, &m->count[other * PERI_LANES], PERI_LANES * sizeof *count) == 0 && peri__fits_group(d, g, other)) return other;
+        if (memcmp(count, &m->count[other * PERI_GROUP], PERI_GROUP * sizeof *count) == 0 && peri__fits_group(d, g, other)) return other;
     }
     return -1;
 }
 
 /* Group g has the columns of an earlier one. */
-static void peri__repeat_group(peri__draft *d, int64_t g, int64_t other) {
-    peri__lanes *l = &d->cloud->model->lanes;
+static void peri__repeat_group(peri__builder *d, int64_t g, int64_t other) {
+    peri__stencil *l = &d->cloud->model->stencil;
     const int64_t columns = l->begin[other + 1] - l->begin[other];
     l->first[g] = l->first[other];
     l->begin[g + 1] = l->begin[g] + columns;
-    for (int n = 0; n < PERI_LANES; ++n) d->bonds += d->cloud->model->count[g * PERI_LANES + n];
+    for (int n = 0; n < PERI_GROUP; ++n) d->bonds += d->cloud->model->count[g * PERI_GROUP + n];
 }
 
 /* Turns the family at hand, of point i - 1, into that of i, which on a lattice often is the same, moved: where it is as large, and its
    bonds are bit by bit those of the other. 0 where it is not. */
-static int peri__shift_row(peri__draft *d, int64_t i) {
+static int peri__shift_row(peri__builder *d, int64_t i) {
     const peri__model *m = d->cloud->model;
     const int32_t dim = m->dim;
     const double *x = &d->cloud->x[i * dim];
@@ -333,23 +333,23 @@ static int peri__shift_row(peri__draft *d, int64_t i) {
 }
 
 /* Point i has the bonds of point i - 1, moved, and so is in the same columns. */
-static void peri__widen_columns(peri__draft *d, int64_t i) {
+static void peri__widen_columns(peri__builder *d, int64_t i) {
     peri__column *group = d->group[d->now];
-    const int lane = (int)(i % PERI_LANES);
+    const int lane = (int)(i % PERI_GROUP);
     for (int64_t k = 0; k < d->group_count; ++k) group[k].member |= (uint16_t)((group[k].member >> (lane - 1) & 1) << lane);
     d->bonds += d->cloud->model->count[i];
 }
 
 /* Collects the columns of all groups: PERI_OK, PERI_ERROR_FAMILY where they serve nothing, or PERI_ERROR_MEMORY. */
-static int32_t peri__draft_lanes(peri__draft *d) {
+static int32_t peri__build_groups(peri__builder *d) {
     const peri__model *m = d->cloud->model;
     for (int64_t i = 0; i < m->points; ++i) {
         if (m->count[i] > PERI_VECTOR_LIMIT) return PERI_ERROR_FAMILY;
-        if (i % PERI_LANES == 0) {
-            const int64_t other = peri__like_group(d, i / PERI_LANES);
+        if (i % PERI_GROUP == 0) {
+            const int64_t other = peri__like_group(d, i / PERI_GROUP);
             if (other >= 0) {
-                peri__repeat_group(d, i / PERI_LANES, other);
-                i += PERI_LANES - 1;
+                peri__repeat_group(d, i / PERI_GROUP, other);
+                i += PERI_GROUP - 1;
                 continue;
             }
         }
@@ -361,23 +361,23 @@ static int32_t peri__draft_lanes(peri__draft *d) {
             d->ids_of = i;
         }
         if (i == 0) peri__choose_units(d, ids, m->count[0]);
-        if (i % PERI_BLOCK == 0 && !d->alike) peri__clear_parts(&d->parts);
-        if (i % PERI_LANES == 0) d->group_count = 0;
-        if (shifted && i % PERI_LANES != 0) peri__widen_columns(d, i);
-        else if (!peri__draft_row(d, i, ids, m->count[i])) return PERI_ERROR_FAMILY;
-        if ((i + 1) % PERI_LANES != 0 && i + 1 < m->points) continue;
-        if (peri__draft_group(d, i / PERI_LANES) < 0) return PERI_ERROR_MEMORY;
+        if (i % PERI_BLOCK == 0 && !d->alike) peri__clear_partial_volumes(&d->parts);
+        if (i % PERI_GROUP == 0) d->group_count = 0;
+        if (shifted && i % PERI_GROUP != 0) peri__widen_columns(d, i);
+        else if (!peri__build_row(d, i, ids, m->count[i])) return PERI_ERROR_FAMILY;
+        if ((i + 1) % PERI_GROUP != 0 && i + 1 < m->points) continue;
+        if (peri__build_group(d, i / PERI_GROUP) < 0) return PERI_ERROR_MEMORY;
         if (d->like) { /* first of its kind from now on */
             memmove(d->like + 1, d->like, (PERI_KIND_ROOM - 1) * sizeof *d->like);
-            d->like[0] = (int32_t)(i / PERI_LANES + 1);
+            d->like[0] = (int32_t)(i / PERI_GROUP + 1);
         }
     }
     /* emptier columns than 2 in 5 take more than twice the time of the list: too much for the memory that they save */
-    return 5 * d->bonds >= 2 * PERI_LANES * m->lanes.begin[m->lanes.groups] ? PERI_OK : PERI_ERROR_FAMILY;
+    return 5 * d->bonds >= 2 * PERI_GROUP * m->stencil.begin[m->stencil.groups] ? PERI_OK : PERI_ERROR_FAMILY;
 }
 
-static void peri__free_lanes(peri__model *m) {
-    peri__lanes *l = &m->lanes;
+static void peri__free_stencil(peri__model *m) {
+    peri__stencil *l = &m->stencil;
     peri__delete(&m->memory, l->begin, l->groups + 1, sizeof *l->begin);
     peri__delete(&m->memory, l->first, l->groups, sizeof *l->first);
     peri__delete(&m->memory, l->column, l->kept, sizeof *l->column);
@@ -397,12 +397,12 @@ static void peri__fill_ends(const peri__model *m, const peri__vector *row, peri_
     if (m->laws[own].pairwise) spring[0] = peri__quotient(m->b32, 0.5 * m->pairs[row->key[5]].c, row->length);
     if (m->laws[other].pairwise) spring[1] = peri__quotient(m->b32, 0.5 * m->pairs[other * m->materials + own].c, row->length);
     ends->spring = m->b32 ? (double)((float)spring[0] + (float)spring[1]) : spring[0] + spring[1]; /* as the rows add them */
-    ends->energy = m->pairs[row->key[5]].limit[PERI_CRITERION_BOND_ENERGY] * row->bond.share;
+    ends->energy = m->pairs[row->key[5]].limit[PERI_CRITERION_BOND_ENERGY] * row->bond.partial_volume;
 }
 
-static int32_t peri__keep_lanes(peri__draft *d) {
+static int32_t peri__keep_stencil(peri__builder *d) {
     peri__model *m = d->cloud->model;
-    peri__lanes *l = &m->lanes;
+    peri__stencil *l = &m->stencil;
     peri__oppose_vectors(d);
     l->kept = d->columns;
     l->vectors = d->count;
@@ -417,7 +417,7 @@ static int32_t peri__keep_lanes(peri__draft *d) {
         memcpy(entry->xi, row->bond.xi, sizeof row->bond.xi);
         entry->length = row->length;
         entry->weight = row->weight;
-        entry->share = row->bond.share;
+        entry->partial_volume = row->bond.partial_volume;
         entry->inverse = m->b32 ? (double)(1 / (float)row->length) : 1 / row->length; /* as the rows take it */
         entry->c = m->pairs[row->key[5]].c;
         entry->s0 = m->pairs[row->key[5]].s0;
@@ -426,10 +426,10 @@ static int32_t peri__keep_lanes(peri__draft *d) {
     for (int64_t c = 0; c < l->kept; ++c)
         if (l->column[c].offset > l->reach) l->reach = l->column[c].offset;
     l->columns = l->begin[l->groups];
-    l->parts = d->cloud->body->desc.quadrature != PERI_FULL_VOLUME;
+    l->partial = d->cloud->body->desc.quadrature != PERI_FULL_VOLUME;
     m->width = (int32_t)d->width;
     m->bonds = d->bonds;
-    if (m->pairwise) m->rate = d->rate;
+    if (m->pairwise) m->row_sum = d->row_sum;
     return PERI_OK;
 }
 
@@ -442,15 +442,15 @@ static int peri__is_alike(const peri__cloud *c) {
 }
 
 /* Makes the columns where they pay, from the list where there is one and else from the points. 1: made; 0: not; else an error. */
-static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
+static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
     peri__model *m = c->model;
-    peri__lanes *l = &m->lanes;
+    peri__stencil *l = &m->stencil;
     int32_t status = PERI_ERROR_MEMORY;
     if (b->desc.quadrature == PERI_PARTIAL_CENTROID) return 0;
     if (b->desc.kernel != PERI_KERNEL_BEST) return 0;
     if (m->ids ? m->back != m->weight : b->setup.ibond || peri__corrects(b, m)) return 0;
-    peri__draft *d = (peri__draft *)peri__new(&b->memory, 1, sizeof *d);
-    l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;
+    peri__builder *d = (peri__builder *)peri__new(&b->memory, 1, sizeof *d);
+    l->groups = (m->points + PERI_GROUP - 1) / PERI_GROUP;
     l->begin = (int64_t *)peri__new(&m->memory, l->groups + 1, sizeof *l->begin);
     l->first = (int64_t *)peri__new(&m->memory, l->groups, sizeof *l->first);
     if (d) {
@@ -460,24 +460,24 @@ static int32_t peri__build_lanes(peri_body *b, peri__cloud *c) {
         d->seen_slots = 16;
         while (d->seen_slots < 2 * l->groups) d->seen_slots *= 2;
         d->seen = (int32_t *)peri__new(&b->memory, d->seen_slots, sizeof *d->seen);
-        if (d->seen && l->begin && l->first) status = peri__draft_lanes(d);
-        if (status == PERI_OK) status = peri__keep_lanes(d);
+        if (d->seen && l->begin && l->first) status = peri__build_groups(d);
+        if (status == PERI_OK) status = peri__keep_stencil(d);
         peri__delete(&b->memory, d->seen, d->seen_slots, sizeof *d->seen);
         peri__delete(&b->memory, d->column, d->capacity, sizeof *d->column);
         peri__delete(&b->memory, d, 1, sizeof *d);
     }
-    if (status < 0) peri__free_lanes(m);
-    return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "lanes", -1, 0.0) : 0;
+    if (status < 0) peri__free_stencil(m);
+    return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "stencil", -1, 0.0) : 0;
 }
 
 /* Brings the masks of the columns of a group up to date with flags[points][words], bit k of a row for its k-th bond, in some lanes. */
 PERI_SHARED void peri__group_masks(const peri__model *m, int64_t g, uint32_t lanes, const uint32_t *flags, uint16_t *masks) {
-    const peri__lanes *l = &m->lanes;
+    const peri__stencil *l = &m->stencil;
     const peri__column *column = &l->column[l->first[g]];
     const int64_t count = l->begin[g + 1] - l->begin[g];
     uint16_t *mask = &masks[l->begin[g]];
-    for (int lane = 0; lane < PERI_LANES; ++lane) {
-        const int64_t row = (g * PERI_LANES + lane) * m->words;
+    for (int lane = 0; lane < PERI_GROUP; ++lane) {
+        const int64_t row = (g * PERI_GROUP + lane) * m->words;
         int64_t k = 0; /* the bond that comes next */
         if (!(lanes >> lane & 1)) continue;
         for (int64_t c = 0; c < count; ++c) {
@@ -490,7 +490,7 @@ PERI_SHARED void peri__group_masks(const peri__model *m, int64_t g, uint32_t lan
 
 /* Masks where all bonds are alive. */
 static void peri__whole_masks(const peri__model *m, uint16_t *masks) {
-    const peri__lanes *l = &m->lanes;
+    const peri__stencil *l = &m->stencil;
     for (int64_t g = 0; g < l->groups; ++g) {
         const peri__column *column = &l->column[l->first[g]];
         for (int64_t c = l->begin[g]; c < l->begin[g + 1]; ++c) masks[c] = (column++)->member;
@@ -498,9 +498,9 @@ static void peri__whole_masks(const peri__model *m, uint16_t *masks) {
 }
 
 /* Masks of what is alive, brought up to date with the flags. */
-static void peri__update_lanes(peri_body *b) {
+static void peri__update_masks(peri_body *b) {
     if (!(b->now.stale & PERI__STALE_MASKS)) return;
-    for (int64_t g = 0; b->lanes_alive && g < b->model->lanes.groups; ++g)
-        peri__group_masks(b->model, g, ~(uint32_t)0, b->alive, b->lanes_alive);
+    for (int64_t g = 0; b->masks && g < b->model->stencil.groups; ++g)
+        peri__group_masks(b->model, g, ~(uint32_t)0, b->alive, b->masks);
     b->now.stale &= ~(uint32_t)PERI__STALE_MASKS;
 }

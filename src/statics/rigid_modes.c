@@ -1,9 +1,9 @@
-/* loose.c - what can move without resistance: connected parts whose supports leave rigid motions free, and points whose bonds span too
+/* rigid_modes.c - what moves without resistance: connected parts whose supports leave rigid motions free, and points whose bonds span too
    little.
 
    The rigid motions of a part are t + omega x (y - centre)/radius of its present positions y (linear geometry: of x): 3 in 2D, 6 in 3D.
-   Those in which no held component moves, and no point along the normal of an obstacle that it touches, are free: the null space of the
-   Gram matrix of these motions. */
+   Those in which no constrained component moves, and no point along the normal of an obstacle that it touches, are free: the null space of
+   the Gram matrix of these motions. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -18,7 +18,7 @@ static double peri__place(const peri_body *b, int64_t i, int32_t d) {
 }
 
 /* Component d of rigid motion r of a part at point i. */
-static double peri__rigid(const peri_body *b, const peri__fragment *part, int64_t i, int r, int32_t d) {
+static double peri__rigid(const peri_body *b, const peri__floating_part *part, int64_t i, int r, int32_t d) {
     const int32_t dim = b->dim;
     if (r < dim) return r == d ? 1.0 : 0.0;
     int axis = dim == 2 ? 2 : r - dim, u = (axis + 1) % 3, v = (axis + 2) % 3; /* turns u to v */
@@ -28,14 +28,14 @@ static double peri__rigid(const peri_body *b, const peri__fragment *part, int64_
 }
 
 /* Component d of free mode k of a part at point i. */
-static double peri__mode(const peri_body *b, const peri__fragment *part, int64_t i, int32_t k, int32_t d) {
+static double peri__mode(const peri_body *b, const peri__floating_part *part, int64_t i, int32_t k, int32_t d) {
     double sum = 0.0;
     for (int r = 0; r < b->dim * (b->dim + 1) / 2; ++r)
         if (part->mode[k][r] != 0.0) sum += part->mode[k][r] * peri__rigid(b, part, i, r, d);
     return sum;
 }
 
-/* The part of a vector at hanging point i along what its bonds resist: the range of the inverse of its block. */
+/* The part of a vector at singular point i along what its bonds resist: the range of the inverse of its block. */
 static void peri__to_resisted(const peri__solver *s, int64_t i, double *part) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
@@ -52,11 +52,11 @@ static void peri__to_resisted(const peri__solver *s, int64_t i, double *part) {
     }
 }
 
-/* Free mode k of a part at point i; at a hanging point only along what its bonds resist, so that modes and hanging directions are taken out
-   one after the other, in any order. */
-static void peri__mode_at(const peri__solver *s, const peri__fragment *part, int64_t i, int32_t k, double *moved) {
+/* Free mode k of a part at point i; at a singular point only along what its bonds resist, so that modes and singular directions are taken
+   out one after the other, in any order. */
+static void peri__mode_at(const peri__solver *s, const peri__floating_part *part, int64_t i, int32_t k, double *moved) {
     for (int32_t d = 0; d < s->body->dim; ++d) moved[d] = peri__mode(s->body, part, i, k, d);
-    if (s->held[i] & PERI_HANGING) peri__to_resisted(s, i, moved);
+    if (s->constrained[i] & PERI_SINGULAR) peri__to_resisted(s, i, moved);
 }
 
 static double peri__heaviest(const peri_body *b, const peri__row *row) {
@@ -86,26 +86,27 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
     return count;
 }
 
-/* Adds the rigid motions along the normals of the obstacles that point i is in to the Gram matrix of what is held. */
-static void peri__hold_contact(const peri_body *b, const peri__fragment *part, int64_t i, double *held) {
+/* Adds the rigid motions along the normals of the obstacles that point i is in to the Gram matrix of what is constrained. */
+static void peri__hold_contact(const peri_body *b, const peri__floating_part *part, int64_t i, double *constrained) {
     const int dim = b->dim, motions = dim * (dim + 1) / 2;
     for (int64_t k = 0; k < b->obstacle_count; ++k) {
-        double normal[3], along[PERI_RIGID] = { 0.0 };
+        double normal[3], along[PERI_RIGID_MODES] = { 0.0 };
         if (!peri__touches(b, &b->obstacles[k], i, normal)) continue;
         for (int r = 0; r < motions; ++r)
             for (int d = 0; d < dim; ++d) along[r] += normal[d] * peri__rigid(b, part, i, r, d);
         for (int r = 0; r < motions; ++r)
-            for (int c = 0; c < motions; ++c) held[r * motions + c] += along[r] * along[c];
+            for (int c = 0; c < motions; ++c) constrained[r * motions + c] += along[r] * along[c];
     }
 }
 
 /* Centre, radius and free modes of the part in s->queue. */
-static void peri__free_modes(const peri__solver *s, int64_t count, peri__fragment *part) {
+static void peri__free_modes(const peri__solver *s, int64_t count, peri__floating_part *part) {
     const peri_body *b = s->body;
     const int dim = b->dim, motions = dim * (dim + 1) / 2;
-    double all[PERI_RIGID][PERI_RIGID] = { { 0.0 } }, held[PERI_RIGID * PERI_RIGID] = { 0.0 }, basis[PERI_RIGID * PERI_RIGID];
-    double inner[PERI_RIGID * PERI_RIGID] = { 0.0 }, turned[PERI_RIGID * PERI_RIGID];
-    int free_[PERI_RIGID], frees = 0;
+    double all[PERI_RIGID_MODES][PERI_RIGID_MODES] = { { 0.0 } }, constrained[PERI_RIGID_MODES * PERI_RIGID_MODES] = { 0.0 };
+    double basis[PERI_RIGID_MODES * PERI_RIGID_MODES];
+    double inner[PERI_RIGID_MODES * PERI_RIGID_MODES] = { 0.0 }, turned[PERI_RIGID_MODES * PERI_RIGID_MODES];
+    int free_[PERI_RIGID_MODES], frees = 0;
     memset(part, 0, sizeof *part);
     for (int64_t n = 0; n < count; ++n)
         for (int d = 0; d < dim; ++d) part->centre[d] += peri__place(b, s->queue[n], d) / (double)count;
@@ -115,20 +116,20 @@ static void peri__free_modes(const peri__solver *s, int64_t count, peri__fragmen
         if (square > part->radius * part->radius) part->radius = sqrt(square);
     }
     if (!(part->radius > 0.0)) part->radius = 1.0;
-    for (int64_t n = 0; n < count && b->obstacle_count > 0; ++n) peri__hold_contact(b, part, s->queue[n], held);
+    for (int64_t n = 0; n < count && b->obstacle_count > 0; ++n) peri__hold_contact(b, part, s->queue[n], constrained);
     for (int64_t n = 0; n < count; ++n)
         for (int d = 0; d < dim; ++d) {
-            double motion[PERI_RIGID];
+            double motion[PERI_RIGID_MODES];
             for (int r = 0; r < motions; ++r) motion[r] = peri__rigid(b, part, s->queue[n], r, d);
             for (int r = 0; r < motions; ++r)
                 for (int c = 0; c < motions; ++c) {
                     all[r][c] += motion[r] * motion[c];
-                    if (s->held[s->queue[n]] >> d & 1) held[r * motions + c] += motion[r] * motion[c];
+                    if (s->constrained[s->queue[n]] >> d & 1) constrained[r * motions + c] += motion[r] * motion[c];
                 }
         }
-    peri__jacobi(motions, held, basis);
+    peri__jacobi(motions, constrained, basis);
     for (int r = 0; r < motions; ++r)
-        if (held[r * (motions + 1)] < 1e-10) free_[frees++] = r;
+        if (constrained[r * (motions + 1)] < 1e-10) free_[frees++] = r;
     /* among them those that move something: not the turn of a line of points about itself */
     for (int p = 0; p < frees; ++p)
         for (int q = 0; q < frees; ++q)
@@ -145,17 +146,17 @@ static void peri__free_modes(const peri__solver *s, int64_t count, peri__fragmen
 }
 
 /* Leaves the free directions of a packed matrix; returns their number. */
-static int peri__free_block(int dim, uint8_t held, double *block) {
+static int peri__free_block(int dim, uint8_t constrained, double *block) {
     int frees = 0;
     for (int d = 0; d < dim; ++d) {
-        frees += !(held >> d & 1);
-        for (int c = 0; c < dim && (held >> d & 1); ++c) block[peri__packed(dim, d, c)] = 0.0;
+        frees += !(constrained >> d & 1);
+        for (int c = 0; c < dim && (constrained >> d & 1); ++c) block[peri__packed(dim, d, c)] = 0.0;
     }
     return frees;
 }
 
 /* In how many free directions the bonds of a point resist at all, however little: the rank of the sum of n n. */
-static int peri__directions(const peri_body *b, int64_t i, uint8_t held) {
+static int peri__directions(const peri_body *b, int64_t i, uint8_t constrained) {
     const peri__model *m = b->model;
     double spread[6] = { 0.0 }, inverse[6];
     peri__row row;
@@ -168,33 +169,33 @@ static int peri__directions(const peri_body *b, int64_t i, uint8_t held) {
         square = peri__dot(n, n, m->dim);
         if (square > 0.0) peri__add_dyad(m->dim, 1.0 / square, n, 0.0, spread);
     }
-    (void)peri__free_block(m->dim, held, spread);
+    (void)peri__free_block(m->dim, constrained, spread);
     return peri__invert(m->dim, spread, b->f32 ? 1e-6 : 1e-9, inverse);
 }
 
-/* Holds, for each free mode of the part in s->queue, the component that it moves most, of a point that does not hang; and takes the mode
+/* Holds, for each free mode of the part in s->queue, the component that it moves most, of a point that is not singular; and takes the mode
    out of the others. */
-static void peri__pin(peri__solver *s, int64_t count, peri__fragment *part) {
+static void peri__pin(peri__solver *s, int64_t count, peri__floating_part *part) {
     const peri_body *b = s->body;
     for (int32_t k = 0; k < part->modes; ++k) {
         double most = 0.0;
         int64_t at = s->queue[0];
         int32_t axis = 0;
-        for (int hanging = 0; hanging < 2 && most == 0.0; ++hanging) /* of points that hang where all do */
+        for (int singular = 0; singular < 2 && most == 0.0; ++singular) /* of singular points where all do */
             for (int64_t n = 0; n < count; ++n)
                 for (int32_t d = 0; d < b->dim; ++d) {
                     const int64_t i = s->queue[n];
                     double moved = fabs(peri__mode(b, part, i, k, d));
-                    if (moved <= most * (1.0 + 1e-9) || (!hanging && peri__directions(b, i, 0) < b->dim)) continue;
+                    if (moved <= most * (1.0 + 1e-9) || (!singular && peri__directions(b, i, 0) < b->dim)) continue;
                     most = moved;
                     at = i;
                     axis = d;
                 }
-        s->held[at] = (uint8_t)(s->held[at] | 1 << axis);
+        s->constrained[at] = (uint8_t)(s->constrained[at] | 1 << axis);
         double pivot = peri__mode(b, part, at, k, axis);
         for (int32_t other = k + 1; other < part->modes; ++other) {
             double share = peri__mode(b, part, at, other, axis) / pivot;
-            for (int r = 0; r < PERI_RIGID; ++r) part->mode[other][r] -= share * part->mode[k][r];
+            for (int r = 0; r < PERI_RIGID_MODES; ++r) part->mode[other][r] -= share * part->mode[k][r];
         }
     }
 }
@@ -209,22 +210,22 @@ static void peri__weigh_modes(peri__solver *s) {
         s->parts[p].sum[0] = 0.0; /* the mass of the part */
     }
     for (int64_t i = 0; i < m->points; ++i) {
-        peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
-        double mode[PERI_RIGID][3];
+        peri__floating_part *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
+        double mode[PERI_RIGID_MODES][3];
         if (part) part->sum[0] += m->rho[m->material[i]] * m->volume[i];
         for (int32_t k = 0; part && k < part->modes; ++k) peri__mode_at(s, part, i, k, mode[k]);
         for (int32_t d = 0; part && d < m->dim; ++d) {
-            double moved[PERI_RIGID];
+            double moved[PERI_RIGID_MODES];
             for (int32_t k = 0; k < part->modes; ++k) moved[k] = mode[k][d];
             const double mass = m->rho[m->material[i]] * m->volume[i];
             for (int32_t p = 0; p < part->modes; ++p)
                 for (int32_t q = 0; q < part->modes; ++q) part->inverse[p][q] += mass * moved[p] * moved[q];
         }
     }
-    for (int64_t n = 0; n < s->part_count; ++n) { /* modes of hanging points alone have no mass left: they are none any more */
-        peri__fragment *part = &s->parts[n];
+    for (int64_t n = 0; n < s->part_count; ++n) { /* modes of singular points alone have no mass left: they are none any more */
+        peri__floating_part *part = &s->parts[n];
         const int modes = part->modes;
-        double mass[PERI_RIGID * PERI_RIGID], v[PERI_RIGID * PERI_RIGID];
+        double mass[PERI_RIGID_MODES * PERI_RIGID_MODES], v[PERI_RIGID_MODES * PERI_RIGID_MODES];
         for (int p = 0; p < modes; ++p)
             for (int q = 0; q < modes; ++q) mass[p * modes + q] = part->inverse[p][q];
         peri__jacobi(modes, mass, v);
@@ -238,15 +239,15 @@ static void peri__weigh_modes(peri__solver *s) {
     }
 }
 
-/* Finds the loose parts and deals with them as the settings say. s->held holds the supports. */
-static int32_t peri__find_loose(peri__solver *s) {
+/* Finds the floating parts and deals with them as the settings say. s->constrained holds the supports. */
+static int32_t peri__find_floating_parts(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     s->part_count = 0;
     s->report.loose = 0;
     for (int64_t i = 0; i < m->points; ++i) s->part_of[i] = -2;
     for (int64_t i = 0; i < m->points; ++i) {
-        peri__fragment part;
+        peri__floating_part part;
         if (s->part_of[i] > -2) continue;
         int64_t count = peri__connected(s, i, -1);
         peri__free_modes(s, count, &part);
@@ -272,7 +273,7 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
     if (s->part_count == 0) return;
     for (int64_t p = 0; p < s->part_count; ++p) memset(s->parts[p].sum, 0, sizeof s->parts[p].sum);
     for (int64_t i = 0; i < m->points; ++i) {
-        peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
+        peri__floating_part *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
         double mass = forces ? 1.0 : m->rho[m->material[i]] * m->volume[i];
         for (int32_t k = 0; part && k < part->modes; ++k) {
             double moved[3] = { 0.0 };
@@ -281,13 +282,13 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
         }
     }
     for (int64_t p = 0; p < s->part_count; ++p) {
-        double share[PERI_RIGID] = { 0.0 };
+        double share[PERI_RIGID_MODES] = { 0.0 };
         for (int32_t k = 0; k < s->parts[p].modes; ++k)
             for (int32_t q = 0; q < s->parts[p].modes; ++q) share[k] += s->parts[p].inverse[k][q] * s->parts[p].sum[q];
         memcpy(s->parts[p].sum, share, sizeof share);
     }
     for (int64_t i = 0; i < m->points; ++i) {
-        const peri__fragment *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
+        const peri__floating_part *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
         double mass = forces ? m->rho[m->material[i]] * m->volume[i] : 1.0;
         for (int32_t k = 0; part && k < part->modes; ++k) {
             double moved[3] = { 0.0 };
@@ -309,46 +310,46 @@ static int32_t peri__invert_blocks(peri__solver *s) {
     const double cut = PERI_RESISTED(b);
     double last[6] = { 0.0 }, inverse[6] = { 0.0 };
     int spanned = 0;
-    s->hanging = 0;
+    s->singular = 0;
     s->softest = HUGE_VAL;
     for (int64_t i = 0; i < m->points; ++i) {
         double block[6] = { 0.0 }, trace = 0.0;
         for (int k = 0; k < packed; ++k) block[k] = peri__get_real(s->blocks, b->f32, k * m->stride + i);
         for (int d = 0; d < m->dim; ++d) trace += block[d];
         if (trace > 0.0 && trace < s->softest) s->softest = trace;
-        int frees = peri__free_block(m->dim, s->held[i], block);
+        int frees = peri__free_block(m->dim, s->constrained[i], block);
         if (memcmp(block, last, sizeof block) != 0) { /* in a lattice most are equal */
             memcpy(last, block, sizeof last);
             spanned = peri__invert(m->dim, block, cut, inverse);
             if (peri__is_negative(m->dim, block, cut))
                 return peri__set_error(&s->failure, PERI_ERROR_INDEFINITE, "point", i, 0.0);
         }
-        if (spanned < frees && peri__directions(b, i, s->held[i]) == frees) { /* soft beside stiff */
+        if (spanned < frees && peri__directions(b, i, s->constrained[i]) == frees) { /* soft beside stiff */
             peri__diagonal_block(b, i, block);
-            (void)peri__free_block(m->dim, s->held[i], block);
+            (void)peri__free_block(m->dim, s->constrained[i], block);
             (void)peri__invert(m->dim, block, DBL_EPSILON, inverse);
             memset(last, 0, sizeof last);
             spanned = 0;
         } else if (spanned < frees) {
             if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, 0.0);
-            s->held[i] |= PERI_HANGING;
-            s->hanging++;
+            s->constrained[i] |= PERI_SINGULAR;
+            s->singular++;
         }
         for (int k = 0; k < packed; ++k) peri__put_real(s->blocks, b->f32, k * m->stride + i, frees > 0 ? inverse[k] : 0.0);
     }
     return PERI_OK;
 }
 
-/* Takes out of a vector of forces, or of displacements, what the bonds of hanging points do not resist. */
-static void peri__drop_hanging(peri__solver *s, void *vector) {
+/* Takes out of a vector of forces, or of displacements, what the bonds of singular points do not resist. */
+static void peri__drop_singular(peri__solver *s, void *vector) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
-    for (int64_t i = 0; s->hanging > 0 && i < m->points; ++i) {
+    for (int64_t i = 0; s->singular > 0 && i < m->points; ++i) {
         double part[3] = { 0.0 };
-        if (!(s->held[i] & PERI_HANGING)) continue;
+        if (!(s->constrained[i] & PERI_SINGULAR)) continue;
         for (int d = 0; d < m->dim; ++d) part[d] = peri__get_real(vector, b->f32, d * m->stride + i);
         peri__to_resisted(s, i, part);
         for (int d = 0; d < m->dim; ++d)
-            if (!(s->held[i] >> d & 1)) peri__put_real(vector, b->f32, d * m->stride + i, part[d]);
+            if (!(s->constrained[i] >> d & 1)) peri__put_real(vector, b->f32, d * m->stride + i, part[d]);
     }
 }

@@ -1,12 +1,12 @@
-/* sketch.c - a body that is only described: a box of cells, one material. Its counts are those of the body to be, found without making
+/* estimate.c - a body that is only described: a box of cells, one material. Its counts are those of the body to be, found without making
    its points; its pointers say which arrays there would be and point nowhere. So what it would hold is counted by the function that counts
    a real body, and whether two points share a bond, and what that weighs, is asked of the functions that build one.
 
    Families. On a lattice, point p has the bond v where v is within reach and p + v within the box: prod(n_d - |v_d|) of the points do. A
    moved point has it with a probability, taken over the place of the neighbour relative to its own.
 
-   Columns. A group of PERI_LANES points in a row of ids has a column for each v that any of them has. Rows are n_0 long, so where groups
-   lie in them repeats every PERI_LANES rows: what is counted here are kinds of rows, and how many there are of each. */
+   Columns. A group of PERI_GROUP points in a row of ids has a column for each v that any of them has. Rows are n_0 long, so where groups
+   lie in them repeats every PERI_GROUP rows: what is counted here are kinds of rows, and how many there are of each. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -14,18 +14,18 @@
 #define PERI_SAMPLES_2D 8 /* places of a moved neighbour per axis                                                         */
 #define PERI_SAMPLES_3D 4
 
-typedef struct peri__sketch { /* 60 kB, on the stack of peri_plan: it allocates nothing                                  */
+typedef struct peri__estimate { /* 60 kB, on the stack of peri_plan: it allocates nothing                                */
     peri_body     body;
     peri__model   model;
     peri__piece   piece;
     peri__cloud   cloud;
-    peri__parts   parts;
+    peri__partial_volumes   parts;
     peri__pair    pair;
     double        x[6], volume[2]; /* two points, the first at 0                                                         */
     uint8_t       material[2];
     int32_t       axis[3];         /* the longest first                                                                  */
     int64_t       n[3];            /* cells per axis; 1 in the third of 2D                                               */
-    double        loose;           /* by how many cells a neighbour may be off its site, each way                        */
+    double        jitter;          /* by how many cells a neighbour may be off its site, each way                        */
     int64_t       far[3];          /* the longest bond along each axis, in cells                                         */
     int64_t       bonds, width;
     double        vectors;         /* lattice vectors of bonds                                                           */
@@ -33,10 +33,10 @@ typedef struct peri__sketch { /* 60 kB, on the stack of peri_plan: it allocates 
     int32_t       vector[PERI_VECTOR_LIMIT][3];
     double        length[PERI_VECTOR_LIMIT], weight[PERI_VECTOR_LIMIT];
     int32_t       corrected;       /* 1: the weights of bonds depend on where their ends are                             */
-} peri__sketch;
+} peri__estimate;
 
 /* Would the point at xi, in cells, be in the family of the point at 0? Falls with each |xi_d|. */
-static int peri__joins(peri__sketch *s, const double *xi) {
+static int peri__joins(peri__estimate *s, const double *xi) {
     const int32_t dim = s->model.dim;
     double square = 0.0;
     for (int32_t d = 0; d < dim; ++d) {
@@ -47,7 +47,7 @@ static int peri__joins(peri__sketch *s, const double *xi) {
 }
 
 /* The largest a >= 0 below n such that the site (a, p, q) by s->axis, moved out by `out` cells on each axis, joins; -1 where none does. */
-static int64_t peri__extent(peri__sketch *s, int64_t p, int64_t q, double out) {
+static int64_t peri__extent(peri__estimate *s, int64_t p, int64_t q, double out) {
     const int64_t site[3] = { 0, p, q };
     int64_t lo = -1, hi = s->n[s->axis[0]];
     while (hi - lo > 1) {
@@ -64,7 +64,7 @@ static int64_t peri__extent(peri__sketch *s, int64_t p, int64_t q, double out) {
 }
 
 /* How probably the neighbour at site (a, p, q) by s->axis joins. */
-static double peri__chance(peri__sketch *s, int64_t a, int64_t p, int64_t q) {
+static double peri__chance(peri__estimate *s, int64_t a, int64_t p, int64_t q) {
     const int64_t site[3] = { a, p, q };
     const int dim = s->model.dim, steps = dim == 3 ? PERI_SAMPLES_3D : PERI_SAMPLES_2D, all = steps * steps * (dim == 3 ? steps : 1);
     int joined = 0;
@@ -72,7 +72,7 @@ static double peri__chance(peri__sketch *s, int64_t a, int64_t p, int64_t q) {
         double xi[3] = { 0.0, 0.0, 0.0 };
         for (int d = 0, rest = k; d < 3; ++d) {
             if (s->axis[d] >= dim) continue;
-            xi[s->axis[d]] = (double)site[d] + s->loose * ((2.0 * (rest % steps) + 1.0) / steps - 1.0);
+            xi[s->axis[d]] = (double)site[d] + s->jitter * ((2.0 * (rest % steps) + 1.0) / steps - 1.0);
             rest /= steps;
         }
         joined += peri__joins(s, xi);
@@ -87,7 +87,7 @@ static int64_t peri__sides(int64_t v, int64_t n) {
 }
 
 /* Bonds, the largest family, and the lattice vectors. */
-static void peri__count_bonds(peri__sketch *s) {
+static void peri__count_bonds(peri__estimate *s) {
     const int64_t n0 = s->n[s->axis[0]], n1 = s->n[s->axis[1]], n2 = s->n[s->axis[2]], before = (n0 - 1) / 2;
     int64_t bonds = 0, width = 0;
     double parts = 0.0, mean = 0.0, spread = 0.0, vectors = 0.0;
@@ -95,7 +95,7 @@ static void peri__count_bonds(peri__sketch *s) {
     for (int64_t q = 0; q < n2; ++q) {
         int64_t p = 0;
         for (; p < n1; ++p) {
-            const int64_t in = peri__extent(s, p, q, s->loose), out = s->loose > 0.0 ? peri__extent(s, p, q, -s->loose) : in;
+            const int64_t in = peri__extent(s, p, q, s->jitter), out = s->jitter > 0.0 ? peri__extent(s, p, q, -s->jitter) : in;
             const int64_t copies = (p > 0 ? 2 : 1) * (q > 0 ? 2 : 1), places = (n1 - p) * (n2 - q);
             const int64_t sides = peri__sides(p, n1) * peri__sides(q, n2);
             if (out < 0) break;
@@ -123,7 +123,7 @@ static void peri__count_bonds(peri__sketch *s) {
 }
 
 /* The lattice vectors, where there is room for them. */
-static void peri__list_vectors(peri__sketch *s) {
+static void peri__list_vectors(peri__estimate *s) {
     int64_t count = 0;
     s->vector_count = 0;
     if (s->vectors <= 4.0 * PERI_VECTOR_LIMIT)
@@ -144,15 +144,15 @@ static void peri__list_vectors(peri__sketch *s) {
 
 /* ---- columns ------------------------------------------------------------------------------------------------------ */
 
-/* Numbers in [first, first + count) that are r modulo PERI_LANES. */
+/* Numbers in [first, first + count) that are r modulo PERI_GROUP. */
 static int64_t peri__count_like(int64_t first, int64_t count, int64_t r) {
-    const int64_t skip = ((r - first) % PERI_LANES + PERI_LANES) % PERI_LANES;
-    return count > skip ? (count - skip - 1) / PERI_LANES + 1 : 0;
+    const int64_t skip = ((r - first) % PERI_GROUP + PERI_GROUP) % PERI_GROUP;
+    return count > skip ? (count - skip - 1) / PERI_GROUP + 1 : 0;
 }
 
 /* Groups with a point that has the bond v. Those points are runs of ids, one in each of some rows; a group that holds the end of one run
    and the start of the next counts once. */
-static int64_t peri__groups_of(const peri__sketch *s, const int32_t *v) {
+static int64_t peri__groups_of(const peri__estimate *s, const int32_t *v) {
     int64_t first[3], count[3], total = 0;
     for (int d = 0; d < 3; ++d) {
         first[d] = v[d] < 0 ? -v[d] : 0;
@@ -160,27 +160,27 @@ static int64_t peri__groups_of(const peri__sketch *s, const int32_t *v) {
         if (count[d] <= 0) return 0;
     }
     const int64_t skipped = s->n[1] - count[1] + 1, last = first[1] + count[1] - 1;
-    for (int64_t z = 0; z < PERI_LANES; ++z) {
+    for (int64_t z = 0; z < PERI_GROUP; ++z) {
         const int64_t slabs = peri__count_like(first[2], count[2], z), before_slab = peri__count_like(first[2], count[2] - 1, z);
-        for (int64_t y = 0; y < PERI_LANES && slabs > 0; ++y) {
+        for (int64_t y = 0; y < PERI_GROUP && slabs > 0; ++y) {
             const int64_t rows = peri__count_like(first[1], count[1], y), before_row = peri__count_like(first[1], count[1] - 1, y);
-            const int64_t start = ((y + s->n[1] * z) % PERI_LANES * s->n[0] + first[0]) % PERI_LANES;
-            const int64_t end = (start + count[0] - 1) / PERI_LANES;
-            total += slabs * (rows * (end + 1) - before_row * (end == (start + s->n[0]) / PERI_LANES));
-            if (last % PERI_LANES == y) total -= before_slab * (end == (start + skipped * s->n[0]) / PERI_LANES);
+            const int64_t start = ((y + s->n[1] * z) % PERI_GROUP * s->n[0] + first[0]) % PERI_GROUP;
+            const int64_t end = (start + count[0] - 1) / PERI_GROUP;
+            total += slabs * (rows * (end + 1) - before_row * (end == (start + s->n[0]) / PERI_GROUP));
+            if (last % PERI_GROUP == y) total -= before_slab * (end == (start + skipped * s->n[0]) / PERI_GROUP);
         }
     }
     return total;
 }
 
 /* Columns of the group that starts at x0 in row (y, z). Corrected weights of bonds within `margin` of a face across the row differ. */
-static int64_t peri__group_columns(const peri__sketch *s, int64_t x0, int64_t y, int64_t z, int64_t margin) {
+static int64_t peri__group_columns(const peri__estimate *s, int64_t x0, int64_t y, int64_t z, int64_t margin) {
     int64_t columns = 0;
     for (int64_t k = 0; k < s->vector_count; ++k) {
         const int32_t *v = s->vector[k];
         int64_t has = 0, plain = 0, lane = 0, row = y, slab = z;
-        for (int64_t x = x0; lane < PERI_LANES && slab < s->n[2]; x = 0) {
-            const int64_t end = peri__min(s->n[0] - 1, x + PERI_LANES - 1 - lane);
+        for (int64_t x = x0; lane < PERI_GROUP && slab < s->n[2]; x = 0) {
+            const int64_t end = peri__min(s->n[0] - 1, x + PERI_GROUP - 1 - lane);
             int64_t lo = v[0] < 0 ? -v[0] : 0, hi = s->n[0] - 1 - (v[0] > 0 ? v[0] : 0);
             if (lo < x) lo = x;
             if (hi > end) hi = end;
@@ -213,8 +213,8 @@ static void peri__kind(int64_t n, int64_t k, int64_t further, int64_t kind, int6
 }
 
 /* Columns of the kinds of groups that start at x0: one group of each is looked for. The rows of a kind act alike up to `rows` rows on. */
-static int64_t peri__columns_from(const peri__sketch *s, int64_t x0, int64_t x1, const int64_t *near, int64_t margin) {
-    const int64_t rows = (x0 + PERI_LANES - 1) / s->n[0];
+static int64_t peri__columns_from(const peri__estimate *s, int64_t x0, int64_t x1, const int64_t *near, int64_t margin) {
+    const int64_t rows = (x0 + PERI_GROUP - 1) / s->n[0];
     int64_t total = 0;
     for (int64_t p = 0; p < peri__kinds(s->n[1], near[1], rows); ++p) {
         int64_t y0, ys, z0, zs;
@@ -223,10 +223,10 @@ static int64_t peri__columns_from(const peri__sketch *s, int64_t x0, int64_t x1,
         for (int64_t q = 0; q < peri__kinds(s->n[2], near[2], slabs); ++q) {
             int64_t found = 0;
             peri__kind(s->n[2], near[2], slabs, q, &z0, &zs);
-            for (int64_t k = 0; k < PERI_LANES * PERI_LANES && !found; ++k) {
-                const int64_t y = y0 + k % PERI_LANES, z = z0 + k / PERI_LANES;
+            for (int64_t k = 0; k < PERI_GROUP * PERI_GROUP && !found; ++k) {
+                const int64_t y = y0 + k % PERI_GROUP, z = z0 + k / PERI_GROUP;
                 for (int64_t x = x0; x <= x1 && y < y0 + ys && z < z0 + zs && !found; ++x) {
-                    if (((y + s->n[1] * z) % PERI_LANES * s->n[0] + x) % PERI_LANES != 0) continue;
+                    if (((y + s->n[1] * z) % PERI_GROUP * s->n[0] + x) % PERI_GROUP != 0) continue;
                     total += peri__group_columns(s, x, y, z, margin);
                     found = 1;
                 }
@@ -237,12 +237,12 @@ static int64_t peri__columns_from(const peri__sketch *s, int64_t x0, int64_t x1,
 }
 
 /* Columns of all groups that differ. Groups away from the ends of a row are alike wherever they start. */
-static int64_t peri__kept_columns(const peri__sketch *s, int64_t margin) {
+static int64_t peri__kept_columns(const peri__estimate *s, int64_t margin) {
     const int64_t last = s->n[0] - 1;
     int64_t near[3], total = 0;
     for (int d = 0; d < 3; ++d) near[d] = s->corrected ? 2 * s->far[d] : s->far[d];
-    const int64_t inner = near[0], inner_last = last - near[0] - (PERI_LANES - 1);
-    if (inner <= inner_last) total = peri__columns_from(s, inner, peri__min(inner_last, inner + PERI_LANES - 1), near, margin);
+    const int64_t inner = near[0], inner_last = last - near[0] - (PERI_GROUP - 1);
+    if (inner <= inner_last) total = peri__columns_from(s, inner, peri__min(inner_last, inner + PERI_GROUP - 1), near, margin);
     for (int64_t x0 = 0; x0 <= last; ++x0) {
         if (x0 >= inner && x0 <= inner_last) x0 = inner_last + 1;
         total += peri__columns_from(s, x0, x0, near, margin);
@@ -250,16 +250,16 @@ static int64_t peri__kept_columns(const peri__sketch *s, int64_t margin) {
     return total;
 }
 
-/* Lays the families by columns where peri__build_lanes would. 1: done; 0: tried in vain; -1: not tried. */
-static int peri__sketch_lanes(peri__sketch *s) {
+/* Lays the families by columns where peri__build_stencil would. 1: done; 0: tried in vain; -1: not tried. */
+static int peri__estimate_stencil(peri__estimate *s) {
     const peri_body_desc *desc = &s->body.desc;
-    peri__lanes *l = &s->model.lanes;
+    peri__stencil *l = &s->model.stencil;
     peri__model *m = &s->model;
     double rows = 0.0;
     if (desc->quadrature == PERI_PARTIAL_CENTROID || (s->corrected && !m->pairwise)) return -1;
     if (desc->kernel != PERI_KERNEL_BEST) return -1;
-    if (s->loose > 0.0 || s->vector_count == 0 || s->width > PERI_VECTOR_LIMIT) return 0;
-    l->groups = (m->points + PERI_LANES - 1) / PERI_LANES;
+    if (s->jitter > 0.0 || s->vector_count == 0 || s->width > PERI_VECTOR_LIMIT) return 0;
+    l->groups = (m->points + PERI_GROUP - 1) / PERI_GROUP;
     l->vectors = (int32_t)s->vector_count;
     for (int64_t k = 0; k < s->vector_count; ++k) {
         const int32_t *v = s->vector[k];
@@ -275,7 +275,7 @@ static int peri__sketch_lanes(peri__sketch *s) {
         l->columns += (int64_t)(0.7 * (double)peri__min(2 * margin, s->n[0]) * (double)s->bonds / (double)s->n[0]);
         l->vectors = rows < 2.0 * PERI_VECTOR_LIMIT ? (int32_t)rows : 2 * PERI_VECTOR_LIMIT;
     }
-    if (l->vectors > PERI_VECTOR_LIMIT || 5 * s->bonds < 2 * PERI_LANES * l->columns) {
+    if (l->vectors > PERI_VECTOR_LIMIT || 5 * s->bonds < 2 * PERI_GROUP * l->columns) {
         memset(l, 0, sizeof *l);
         return 0;
     }

@@ -1,4 +1,4 @@
-/* parts.c - quadrature: which part beta of a neighbour's cell lies within the horizon. The rules of peri_quadrature. */
+/* partial_volumes.c - quadrature: which part beta of a neighbour's cell lies within the horizon. The rules of peri_quadrature. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -51,12 +51,12 @@ typedef struct peri__cloud {
 
 /* Parts by bond vector, for one block of points: a lattice has few different ones. Direct-mapped. */
 #define PERI_PART_SLOTS 256
-typedef struct peri__parts {
+typedef struct peri__partial_volumes {
     double             key[PERI_PART_SLOTS][3], part[PERI_PART_SLOTS];
     const peri__piece *piece[PERI_PART_SLOTS]; /* pieces differ in their cells; NULL: free                               */
-} peri__parts;
+} peri__partial_volumes;
 
-static void peri__clear_parts(peri__parts *parts) { memset((void *)parts->piece, 0, sizeof parts->piece); }
+static void peri__clear_partial_volumes(peri__partial_volumes *parts) { memset((void *)parts->piece, 0, sizeof parts->piece); }
 
 static const peri__piece *peri__piece_of(const peri__cloud *c, int64_t i) {
     const peri__setup *s = &c->body->setup;
@@ -80,7 +80,7 @@ static void peri__half_cell(const peri__cloud *c, const peri__piece *piece, int6
 /* Parts below this are a touch, or the rounding of one: no part. */
 #define PERI_NO_PART 1e-12
 
-static double peri__part_of(peri__overlap o, double whole, double *centroid) {
+static double peri__volume_of_overlap(peri__overlap o, double whole, double *centroid) {
     if (!(o.area > PERI_NO_PART * whole)) return 0.0;
     if (centroid) {
         centroid[0] = o.moment[0] / o.area;
@@ -99,7 +99,7 @@ static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, c
         for (int d = 0; d < 2; ++d)
             polygon[k][d] = (piece->origin[d] - m->origin[d]) / m->length
                           + corner[ring[k]][d] * (piece->cell[d] / m->length) - xi[d];
-    return peri__part_of(peri__disk_polygon(m->horizon, polygon, 4), m->volume[j], centroid);
+    return peri__volume_of_overlap(peri__disk_polygon(m->horizon, polygon, 4), m->volume[j], centroid);
 }
 
 /* Squares of the distances from a point to the nearest and the farthest place of a box at xi with the given half edges. */
@@ -114,7 +114,7 @@ static void peri__box_distances(const double *xi, const double *half, int32_t di
 
 /* Part of cell j within the horizon of i, in [0, 1], and (2D, where asked) the centroid of that part less x_i; of the whole cell where
    there is no part. */
-static double peri__part(const peri__cloud *c, int64_t i, int64_t j, double *centroid) {
+static double peri__partial_volume(const peri__cloud *c, int64_t i, int64_t j, double *centroid) {
     const peri__model *m = c->model;
     const peri__piece *piece = peri__piece_of(c, j);
     double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2, part;
@@ -130,7 +130,7 @@ static double peri__part(const peri__cloud *c, int64_t i, int64_t j, double *cen
         if (m->dim == 3) {
             part = peri__ball_box(m->horizon, xi, half, c->gauss_x, c->gauss_w) / (8.0 * half[0] * half[1] * half[2]);
         } else {
-            part = peri__part_of(peri__disk_rectangle(m->horizon, xi, half[0], half[1]), 4.0 * half[0] * half[1], centroid);
+            part = peri__volume_of_overlap(peri__disk_rectangle(m->horizon, xi, half[0], half[1]), 4.0 * half[0] * half[1], centroid);
         }
     }
     return part > 1.0 ? 1.0 : part;
@@ -146,7 +146,7 @@ static double peri__ramp(const peri__cloud *c, int64_t i, int64_t j) {
 }
 
 /* beta of bond (i,j): the mean of both directions, so that V_i beta V_j is the same from both ends and momentum is conserved. */
-static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, int64_t j) {
+static double peri__beta(const peri__cloud *c, peri__partial_volumes *parts, int64_t i, int64_t j) {
     const peri__model *m = c->model;
     const peri__piece *pi = peri__piece_of(c, i);
     double part, xi[3] = { 0.0, 0.0, 0.0 };
@@ -156,7 +156,7 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
     if (c->body->desc.quadrature == PERI_VOLUME_RAMP) return peri__ramp(c, i, j);
     for (int32_t d = 0; d < m->dim; ++d) regular = regular && fabs(c->x[j * m->dim + d] - c->x[i * m->dim + d]) < 1e5;
     if (!regular) {
-        part = 0.5 * (peri__part(c, i, j, NULL) + peri__part(c, j, i, NULL));
+        part = 0.5 * (peri__partial_volume(c, i, j, NULL) + peri__partial_volume(c, j, i, NULL));
         return part > PERI_NO_PART ? part : 0.0;
     }
     uint64_t hash = 0;
@@ -166,7 +166,7 @@ static double peri__beta(const peri__cloud *c, peri__parts *parts, int64_t i, in
     }
     slot = (size_t)(hash >> 56) % PERI_PART_SLOTS;
     if (parts->piece[slot] != pi || memcmp(parts->key[slot], xi, sizeof xi) != 0) {
-        part = peri__part(c, i, j, NULL);
+        part = peri__partial_volume(c, i, j, NULL);
         parts->part[slot] = part > PERI_NO_PART ? part : 0.0;
         parts->piece[slot] = pi;
         memcpy(parts->key[slot], xi, sizeof xi);
@@ -188,7 +188,7 @@ static int peri__has_part(const peri__cloud *c, int64_t i, int64_t j) {
     const peri__model *m = c->model;
     const peri__piece *piece = peri__piece_of(c, j);
     double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2;
-    if (piece->vertices && m->dim == 2) return peri__part(c, i, j, NULL) > 0.0;
+    if (piece->vertices && m->dim == 2) return peri__partial_volume(c, i, j, NULL) > 0.0;
     for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
     peri__half_cell(c, piece, j, half);
     peri__box_distances(xi, half, m->dim, &near2, &far2);

@@ -1,4 +1,4 @@
-/* quadrature.c - the lengths and weights of bonds, and the bound of the highest frequency. */
+/* weights.c - the lengths and weights of bonds, and the bound of the highest frequency. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -7,27 +7,27 @@
 
 /* The centroid rule made objective: beta_ij w |centroid bond|/|bond|, w at the centroid of the part of j within the horizon of i. */
 static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, double bond, double edge) {
-    double centre[3], beta = peri__part(c, i, j, centre), length = sqrt(peri__dot(centre, centre, c->model->dim));
+    double centre[3], beta = peri__partial_volume(c, i, j, centre), length = sqrt(peri__dot(centre, centre, c->model->dim));
     return beta * peri__influence(&c->body->desc, length / c->model->horizon, edge) * length / bond;
 }
 
 /* sum of beta V_j over the whole family of a point. */
 PERI_SHARED double peri__family_volume(const peri__model *m, int64_t i) {
     double sum = 0.0;
-    const peri__lanes *l = &m->lanes;
-    for (int64_t c = 0; l->columns && c < l->begin[i / PERI_LANES + 1] - l->begin[i / PERI_LANES]; ++c) {
-        const peri__column *column = &l->column[l->first[i / PERI_LANES] + c];
-        if (column->member >> (i % PERI_LANES) & 1)
-            sum += l->parts ? (double)(float)l->table[column->vector].share : m->volume[i + column->offset];
+    const peri__stencil *l = &m->stencil;
+    for (int64_t c = 0; l->columns && c < l->begin[i / PERI_GROUP + 1] - l->begin[i / PERI_GROUP]; ++c) {
+        const peri__column *column = &l->column[l->first[i / PERI_GROUP] + c];
+        if (column->member >> (i % PERI_GROUP) & 1)
+            sum += l->partial ? (double)(float)l->table[column->vector].partial_volume : m->volume[i + column->offset];
     }
     for (int64_t k = 0; !l->columns && k < m->count[i]; ++k)
-        sum += m->part ? (double)m->part[m->start[i] + k] : m->volume[peri__entry_id(m, m->start[i] + k)];
+        sum += m->partial_volume ? (double)m->partial_volume[m->start[i] + k] : m->volume[peri__entry_id(m, m->start[i] + k)];
     return sum;
 }
 
 typedef struct peri__bond { /* what is known of a bond (i, j), inner units                                                */
     double xi[3], length; /* x_j - x_i; its length, or that of the bond to the centroid                                  */
-    double weight, share; /* w beta V_j, beta V_j                                                                        */
+    double weight, partial_volume; /* w beta V_j, beta V_j                                                               */
     double centre[3];     /* with the centroid rule: bond to the centroid                                                */
 } peri__bond;
 
@@ -44,7 +44,7 @@ static double peri__listed_length(const peri__cloud *c, int64_t i, int64_t at) {
 }
 
 /* 0 where the influence function is not finite. */
-static int peri__weigh_bond(const peri__cloud *c, peri__parts *parts, int64_t i, int64_t j, peri__bond *bond) {
+static int peri__weigh_bond(const peri__cloud *c, peri__partial_volumes *parts, int64_t i, int64_t j, peri__bond *bond) {
     const peri__model *m = c->model;
     const peri_body_desc *desc = &c->body->desc;
     double square = 0.0, beta, w, length;
@@ -53,7 +53,7 @@ static int peri__weigh_bond(const peri__cloud *c, peri__parts *parts, int64_t i,
     bond->length = length = sqrt(square);
     beta = peri__beta(c, parts, i, j);
     if (desc->quadrature == PERI_PARTIAL_CENTROID) {
-        (void)peri__part(c, i, j, bond->centre);
+        (void)peri__partial_volume(c, i, j, bond->centre);
         bond->length = sqrt(peri__dot(bond->centre, bond->centre, m->dim));
     }
     if (desc->quadrature == PERI_PARTIAL_MOMENT)
@@ -61,7 +61,7 @@ static int peri__weigh_bond(const peri__cloud *c, peri__parts *parts, int64_t i,
     else
         w = beta * peri__influence(desc, bond->length / m->horizon, c->edge);
     bond->weight = w * m->volume[j];
-    bond->share = beta * m->volume[j];
+    bond->partial_volume = beta * m->volume[j];
     return peri__finite(w);
 }
 
@@ -102,8 +102,8 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
     const peri_body *b = c->body;
     peri__model *m = c->model;
     peri__bond bond;
-    peri__parts parts;
-    peri__clear_parts(&parts);
+    peri__partial_volumes parts;
+    peri__clear_partial_volumes(&parts);
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         double total = 0.0, stiff = 0.0;
@@ -114,7 +114,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             peri__put_real(m->weight, b->b32, at, bond.weight);
             if (!finite || !peri__finite(peri__get_real(m->weight, b->b32, at))) status = PERI_ERROR_INFLUENCE; /* or beyond float */
             if (m->bond) peri__put_real(m->bond, b->b32, at, bond.length);
-            if (m->part) m->part[at] = (float)bond.share;
+            if (m->partial_volume) m->partial_volume[at] = (float)bond.partial_volume;
             for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->b32, at * m->dim + d, bond.centre[d]);
             sums->a += peri__is_blurred(c, i, j, bond.length);
             if (status == PERI_OK && peri__is_lost(c, i, j, &bond)) status = PERI_ERROR_COINCIDENT;
@@ -132,7 +132,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
 
 typedef struct peri__tally { /* of a row so far                                                                           */
     int64_t count, blurred;
-    double  total, stiff, rate; /* sums of |w V|, w |xi|^2 V and c |w V|/|xi|                                            */
+    double  total, stiff, row_sum; /* sums of |w V|, w |xi|^2 V and c |w V|/|xi|                                         */
 } peri__tally;
 
 #define PERI_TALLY_LANES 8
@@ -146,7 +146,7 @@ typedef struct peri__tally { /* of a row so far                                 
 #define PERI_TALLY(isa, target)                                                                                        \
     target static void peri__tally_##isa(const double *length, const double *weight, int64_t count, double (*sum)[PERI_TALLY_LANES]) { \
         PERI_NO_CONTRACTION                                                                                            \
-        peri__double8 total = { 0.0 }, stiff = { 0.0 }, rate = { 0.0 };                                                \
+        peri__double8 total = { 0.0 }, stiff = { 0.0 }, row_sum = { 0.0 };                                                \
         for (int64_t k = 0; k < count; k += PERI_TALLY_LANES) {                                                        \
             peri__double8 w, bond;                                                                                     \
             memcpy(&w, weight + k, sizeof w);                                                                          \
@@ -154,11 +154,11 @@ typedef struct peri__tally { /* of a row so far                                 
             const peri__double8 size = (peri__double8)((peri__long8)w & INT64_MAX); /* |w| */                          \
             total += size;                                                                                             \
             stiff += w * bond * bond;                                                                                  \
-            rate += size / bond;                                                                                       \
+            row_sum += size / bond;                                                                                       \
         }                                                                                                              \
         memcpy(sum[0], &total, sizeof total);                                                                          \
         memcpy(sum[1], &stiff, sizeof stiff);                                                                          \
-        memcpy(sum[2], &rate, sizeof rate);                                                                            \
+        memcpy(sum[2], &row_sum, sizeof row_sum);                                                                            \
     }
 #ifdef PERI_ISA
 typedef double  peri__double8 __attribute__((vector_size(64)));
@@ -226,34 +226,34 @@ PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *
             for (int l = 0; l < half; ++l) sum[n][l] += sum[n][l + half];
     t->total += sum[0][0];
     t->stiff += sum[1][0];
-    if (m->materials == 1) t->rate += m->pairs[0].c * sum[2][0];
+    if (m->materials == 1) t->row_sum += m->pairs[0].c * sum[2][0];
     else
         for (int64_t k = 0; k < taken; ++k)
-            t->rate += m->pairs[m->material[i] * m->materials + m->material[c->order[s->hit[k]]]].c * fabs(weight[k]) / length[k];
+            t->row_sum += m->pairs[m->material[i] * m->materials + m->material[c->order[s->hit[k]]]].c * fabs(weight[k]) / length[k];
 }
 
-/* Is all well with the weights of row i? *rate: as of peri__rate_block. */
-static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *t, double *rate) {
+/* Is all well with the weights of row i? *row_sum: as of peri__row_sum_block. */
+static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *t, double *row_sum) {
     const peri__model *m = c->model;
-    const double own = 2.0 * t->rate / m->rho[m->material[i]];
-    if (!(own <= *rate)) *rate = own;
+    const double own = 2.0 * t->row_sum / m->rho[m->material[i]];
+    if (!(own <= *row_sum)) *row_sum = own;
     return t->blurred == 0 && peri__check_weight(c->body, t->total, t->stiff, m->laws[m->material[i]].pairwise) == PERI_OK;
 }
 
 /* ---- weights of any rule, of the list ----------------------------------------------------------------------------- */
 
 /* sums->a: largest 2 sum(c w beta V/|xi|)/rho of a bond-based point, by the list. */
-static void peri__rate_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+static void peri__row_sum_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__cloud *c = (const peri__cloud *)context;
     const peri__model *m = c->model;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
-        double rate = 0.0;
+        double row_sum = 0.0;
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
-            rate += m->pairs[m->material[i] * m->materials + m->material[peri__entry_id(m, at)]].c
+            row_sum += m->pairs[m->material[i] * m->materials + m->material[peri__entry_id(m, at)]].c
                   * fabs(peri__get_real(m->weight, c->body->b32, at)) / peri__listed_length(c, i, at);
-        rate *= 2.0 / m->rho[m->material[i]];
-        if (rate > sums->a) sums->a = rate;
+        row_sum *= 2.0 / m->rho[m->material[i]];
+        if (row_sum > sums->a) sums->a = row_sum;
     }
 }
 
@@ -274,11 +274,11 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     if (c->weighs) return PERI_OK;
     const size_t real = peri__bond_real(b);
     const int parts = b->desc.quadrature != PERI_FULL_VOLUME, centroids = b->desc.quadrature == PERI_PARTIAL_CENTROID;
-    if (!m->weight) m->weight = peri__new_tail(&m->memory, m->entries, real, PERI_LANES);
+    if (!m->weight) m->weight = peri__new_tail(&m->memory, m->entries, real, PERI_GROUP);
     if (centroids) m->bond = peri__new(&m->memory, m->entries, real);
-    if (parts) m->part = (float *)peri__new(&m->memory, m->entries, sizeof(float));
+    if (parts) m->partial_volume = (float *)peri__new(&m->memory, m->entries, sizeof(float));
     if (centroids) m->centroid = peri__new(&m->memory, m->entries * m->dim, real);
-    if (!m->weight || (parts && !m->part) || (centroids && (!m->bond || !m->centroid)))
+    if (!m->weight || (parts && !m->partial_volume) || (centroids && (!m->bond || !m->centroid)))
         return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
     if (b->desc.influence == PERI_INFLUENCE_USER) { /* the caller's function runs on the caller's thread */
         for (int64_t k = 0; k < m->blocks; ++k) {
