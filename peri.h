@@ -820,7 +820,7 @@ typedef struct peri_plan_report {
     int64_t points;      /* as peri_point_count will say                                                                 */
     int64_t bonds;       /* as peri_bond_count will say: exact of a box, else to 5 % from 25 bonds to a family on        */
     int64_t width;       /* as peri_family_width will say: exact of a box, else an estimate                              */
-    int64_t columns;     /* families by columns: how many, of 16 bonds each; 0 = a list of bonds, see src/lanes.c        */
+    int64_t columns;     /* families by columns: how many, of 16 bonds each; 0 = a list of bonds, see stencil.c          */
     int64_t bytes;       /* total of peri_read_memory after peri_build: to the byte of a box without correction, else to 5 %. Cuts, loads,
                             supports and views come on top                                                               */
     int64_t peak;        /* most that is held at a time until peri_build has returned, to 5 % or half a megabyte         */

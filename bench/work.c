@@ -1,6 +1,6 @@
 /* work.c - what a bond asks of the machine, counted from the kernels, and the least time that the machine needs for it.
 
-   Operations are those of the vector kernels (k_lanes.inl on columns, k_list.inl on the list) for one live bond: what the law asks for in
+   Operations are those of the vector kernels (columns.inl, list.inl) for one live bond: what the law asks for in
    the form that is computed, without the additions to zero that start a sum, and without the turning of records in registers. Lanes of a
    column that hold no bond do no work here; in the kernel they take their time. So do the conversions of mixed precision. D is the
    dimension; entries are c + l D + q D^2.

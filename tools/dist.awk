@@ -75,7 +75,7 @@ function put(path, own, k, t) {
         t = target[path, k]
         if (t == "") print line[path, k]
         else if (t in done) continue
-        else if (t !~ /\.inl$/ || places[t] < 2 || lines_of(t) < 200) {
+        else if (t !~ /\.inl$/ || places[t] < 2 || lines_of(t) < 120) {
             say_self()
             put_all(t, own)
         } else {
