@@ -61,9 +61,11 @@ build/libperi.so: $(OBJECTS)
 lib: build/libperi.a build/libperi.so
 
 # The library as others compile it, for tests/checks.sh: again the kernels apart, so that an edit elsewhere leaves them alone. OTHER of a
-# target is its compiler and flags. -ffast-math is tried with gcc where there is one, on the vectors of 16 bytes that other machines have.
+# target is its compiler and flags. Sanitizers triple the time to optimise kernels: those of double, which most tests run, are worth it.
+# -ffast-math is tried with gcc where there is one, on the vectors of 16 bytes that other machines have.
 SANITIZE ?= -g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/san/%.o: OTHER = $(CC) $(STRICT) $(SANITIZE) $(OPENMP)
+build/san/m%.o build/san/f%.o: OTHER += -O0
 build/clang/%.o: OTHER = clang $(STRICT) -O1 -DPERI_KERNELS=1 -DPERI_NO_STDIO
 build/fast/%.o: OTHER = $(shell command -v gcc || echo $(CC)) $(STRICT) -O1 -ffast-math -DPERI_KERNELS=2
 define other

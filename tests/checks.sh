@@ -32,7 +32,6 @@ queue fast_math "make --no-print-directory CC='$CC' build/fast/peri.o"
 # the tokens of peri_impl.c, of peri.h with PERI_IMPLEMENTATION and of the single file are the same (dist): one build stands for all; $CC
 # made build/libperi.a with $STRICT, too. Without optimisation clang takes a third of gcc's time for all that vectors ask for
 queue "strict_single_file" "$quick $STRICT -O0 -DPERI_KERNELS=3 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o"
-others="$others build/checks/single.o"
 queue "static_in_two_units" "$quick $STRICT -O0 -DPERI_NO_3D -DPERI_NO_MIXED -DPERI_NO_F32 -I. tests/static_a.c tests/static_b.c \
     -o build/checks/static -lm && build/checks/static"
 # parts left out, one line of switches each; without optimisation, so plain kernels
