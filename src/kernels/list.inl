@@ -50,6 +50,12 @@ PERI_INLINE uint32_t PERI_ISA_FN(live)(const peri__operands *o, int64_t i, int64
     return flags & (((uint32_t)1 << (count - k < PERI_CHUNK ? count - k : PERI_CHUNK)) - 1);
 }
 
+/* The least critical stretch of bonds of point i, less a margin; it is no call where there is one class. */
+PERI_INLINE double PERI_ISA_FN(near_stretch)(const peri__operands *o, int64_t i) {
+    if (!o->breaking) return PERI_NEVER;
+    return (o->point_class ? peri__least_stretch(o, i) : o->pairs->s0) * (1.0 - PERI_NEAR);
+}
+
 /* The sum over all lanes. */
 PERI_ISA_TARGET PERI_INLINE peri_r PERI_ISA_FN(added)(PERI_STATE *sum) {
     for (int half = PERI_PIECES / 2; half > 0; half /= 2)
@@ -67,8 +73,7 @@ PERI_ISA_TARGET PERI_INLINE int PERI_ISA_FN(list_row)(const peri__operands *o, i
     const int several = PERI_D == 2 ? reals > 4 : m->materials > 1;
     const peri_r *records = (const peri_r *)o->records, *mine = records + place * reals;
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
-    const double s0 = o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER;
-    const PERI_VECTOR limit = PERI_V(set1)((peri_b)s0);
+    const PERI_VECTOR limit = PERI_V(set1)((peri_b)PERI_ISA_FN(near_stretch)(o, i));
     const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
     const PERI_VECTOR pi = PERI_V(set1)(!pairwise ? (peri_b)mine[2 * PERI_D] : 0);
     const PERI_VECTOR qi = PERI_V(set1)(!pairwise ? (peri_b)mine[2 * PERI_D + 1] : 0);
@@ -212,7 +217,7 @@ PERI_ISA_TARGET static int PERI_ISA_FN(list_tensor)(const peri__operands *o, int
     const int linear = o->linear;
     const peri_r *records = (const peri_r *)o->records, *mine = records + place * PERI_TENSOR_RECORD, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
-    const peri_b s0 = (peri_b)(o->breaking ? peri__least_stretch(o, i) * (1.0 - PERI_NEAR) : PERI_NEVER);
+    const peri_b s0 = (peri_b)PERI_ISA_FN(near_stretch)(o, i);
     const PERI_VECTOR limit = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
     peri_r own[PERI_TENSOR_RECORD] = { 0 };
     PERI_STATE sum[PERI_D][PERI_PIECES];
