@@ -98,7 +98,8 @@ static void every_criterion(void) {
     for (int32_t criterion = PERI_CRITERION_BOND_ENERGY; criterion < PERI_CRITERION_COUNT_; ++criterion)
         for (int32_t space = PERI_PLANE_STRAIN; space <= PERI_SOLID; ++space)
             for (int32_t law = PERI_LPS; law < PERI_MODEL_COUNT_; ++law) {
-                const mixture alone = {space, PERI_F64, {law, law}, criterion}, beside = {space, PERI_F64, {law, PERI_BOND_BASED}, criterion};
+                const mixture alone = {space, PERI_F64, {law, law}, criterion};
+                const mixture beside = {space, PERI_F64, {law, PERI_BOND_BASED}, criterion};
                 compare(&alone);
                 compare(&beside);
             }
