@@ -51,7 +51,7 @@ static double traffic(const bench_case *c, const bench_facts *f, double *set) {
     const double state = c->precision == PERI_F32 ? 4 : 8, real = c->precision == PERI_F64 ? 8 : 4; /* of PERI_MIXED 8 and 4 */
     const double family = (double)f->bonds / (double)f->points;
     const double packed = tensors ? dim * (dim + 1) / 2 : 0, planes = tensors ? dim * dim : 1;
-    /* k_march.inl: the first kick reads and writes u, v, f; the second v, and reads f; a byte of material each. Force: u read, f read and
+    /* march.inl: the first kick reads and writes u, v, f; the second v, and reads f; a byte of material each. Force: u read, f read and
        written. The constants of a law read; its response written, and read again with a constant */
     double bytes = 12 * dim * state + 2;
     *set = 3 * dim * state + 1;
