@@ -22,19 +22,17 @@ static void peri__set_traits(peri__law *law, int32_t model) {
     }
 }
 
-static int peri__is_pairwise(int32_t model) {
+static peri__law peri__traits_of(int32_t model) {
     peri__law law;
-    law.a = 0.0;
+    memset(&law, 0, sizeof law);
+    law.a = 1.0;
     peri__set_traits(&law, model);
-    return law.pairwise;
+    return law;
 }
 
-static int peri__has_gradient(int32_t model) {
-    peri__law law;
-    law.a = 0.0;
-    peri__set_traits(&law, model);
-    return (law.gather & PERI__GRADIENT) != 0;
-}
+static int peri__is_pairwise(int32_t model) { return peri__traits_of(model).pairwise; }
+
+static int peri__has_gradient(int32_t model) { return (peri__traits_of(model).gather & PERI__GRADIENT) != 0; }
 
 PERI_API void peri_material_init(peri_material *m, int32_t model) {
     if (!m) return;
