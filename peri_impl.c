@@ -21,6 +21,7 @@
 
 /* ---- base: knows nobody ---------------------------------------------------------------- */
 #include "src/base/compiler.h"     /* what compilers and machines differ in                                        */
+#include "src/base/enums.h"        /* where the values of each enum begin and end                                     */
 #include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
 #include "src/base/inline.h"       /* what is small and used everywhere                                            */
 #include "src/laws/law.h"          /* what laws differ in, and the list of them                                    */
@@ -29,6 +30,7 @@
 #include "src/base/text.c"         /* numbers to text                                                              */
 #include "src/base/real.c"         /* access to reals of either precision                                          */
 #include "src/base/status.c"       /* status texts, the error record, the log                                      */
+#include "src/base/ids.c"          /* ids of materials, sets, loads, obstacles                                        */
 #include "src/base/memory.c"       /* the allocator hook, aligned arrays, growing arrays                           */
 #include "src/base/parallel.c"     /* one loop over blocks of points; sums in a fixed order                        */
 #include "src/base/tensor.c"       /* symmetric matrices, small linear systems                                     */

@@ -12,9 +12,9 @@ static void release(textbook_input *t) {
 /* The textbook in double and single precision and the library in each precision, in turns, on the same body: the textbook's force pass
    alone against whole steps of the library, its breaking included on both sides. The textbook's forces must be those of the library. */
 static void textbook_rows(bench_run *run, table *t, int32_t law, int32_t space, int64_t edge, double bar_single) {
-    static const int32_t reals[3] = { PERI_F64, BENCH_MIXED, PERI_F32 };
+    static const int32_t reals[3] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
     const suite *s = &cases_plain;
-    bench_case c = { law, space, PERI_F64, PERI_NONLINEAR, 1, 0.5, 0, { edge, edge, edge }, 3 };
+    bench_case c = { law, space, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 1, 0.5, 0, { edge, edge, edge }, 3 };
     peri_body *body[3];
     bench_facts facts[3];
     textbook_input in;
@@ -55,7 +55,7 @@ static void textbook_rows(bench_run *run, table *t, int32_t law, int32_t space, 
         bench_work w;
         c.precision = reals[k];
         case_name(&c, name, sizeof name);
-        (void)sprintf(grid, " %ld^%d", (long)edge, space == PERI_SOLID ? 3 : 2);
+        (void)sprintf(grid, " %ld^%d", (long)edge, space == PERI_SPACE_SOLID ? 3 : 2);
         put_text(t, strcat(name, grid));
         put_number(t, best[0]);
         put_number(t, best[1]);
@@ -68,7 +68,7 @@ static void textbook_rows(bench_run *run, table *t, int32_t law, int32_t space, 
         put_number(t, best[2 + k]);
         put_number(t, best[0] / best[2 + k]);
         put_number(t, best[1] / best[2 + k]);
-        put_number(t, reals[k] == PERI_F32 ? bar_single : NOTHING);
+        put_number(t, reals[k] == PERI_PRECISION_SINGLE ? bar_single : NOTHING);
         put_number(t, facts[k].bytes);
         put_number(t, w.flop / best[2 + k]);
         put_number(t, w.bytes / best[2 + k]);
@@ -98,16 +98,16 @@ void bench_textbook(bench_run *run) {
     printf("\nTextbook loops (force pass, -O2 -march=native) against steps of the library (-O2); bar: times faster than the double loop;\n"
            "filled: lanes of columns that hold a bond");
     table_open(&t, "out/textbook.csv", columns, (int)(sizeof columns / sizeof columns[0]));
-    textbook_rows(run, &t, PERI_BOND_BASED, PERI_PLANE_STRESS, 300, NOTHING);
-    textbook_rows(run, &t, PERI_LPS, PERI_PLANE_STRESS, 300, NOTHING);
-    textbook_rows(run, &t, PERI_BOND_BASED, PERI_SOLID, 64, 6.0);
-    textbook_rows(run, &t, PERI_LPS, PERI_SOLID, 64, 5.0);
+    textbook_rows(run, &t, PERI_LAW_BOND_BASED, PERI_SPACE_PLANE_STRESS, 300, NOTHING);
+    textbook_rows(run, &t, PERI_LAW_LPS, PERI_SPACE_PLANE_STRESS, 300, NOTHING);
+    textbook_rows(run, &t, PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, 64, 6.0);
+    textbook_rows(run, &t, PERI_LAW_LPS, PERI_SPACE_SOLID, 64, 5.0);
     table_close(&t);
 }
 
 static void thread_row(bench_run *run, table *t, int32_t law, int32_t precision, int32_t cloud, int64_t edge) {
     const suite *s = &cases_plain;
-    bench_case c = { law, PERI_SOLID, precision, PERI_NONLINEAR, 1, 0.5, cloud, { edge, edge, edge }, 3 };
+    bench_case c = { law, PERI_SPACE_SOLID, precision, PERI_GEOMETRY_NONLINEAR, 1, 0.5, cloud, { edge, edge, edge }, 3 };
     peri_body *body[2];
     bench_facts facts[2];
     double best[2] = { 1e300, 1e300 }, work[2] = { 1e300, 1e300 };
@@ -153,12 +153,12 @@ void bench_threads(bench_run *run) {
            "while they wait (OMP_WAIT_POLICY=passive). work: time of the processor of both threads over that of one, whatever else runs:\n"
            "at 1.00 two free cores take half the time, and what one waits for the other");
     table_open(&t, "out/threads.csv", columns, (int)(sizeof columns / sizeof columns[0]));
-    thread_row(run, &t, PERI_BOND_BASED, PERI_F64, 0, 48);
-    thread_row(run, &t, PERI_BOND_BASED, PERI_F32, 0, 48);
-    thread_row(run, &t, PERI_LPS, PERI_F64, 0, 48);
-    thread_row(run, &t, PERI_LPS, PERI_F32, 0, 48);
-    thread_row(run, &t, PERI_CORRESPONDENCE, PERI_F64, 0, 40);
-    thread_row(run, &t, PERI_BOND_BASED, PERI_F64, 1, 40);
-    thread_row(run, &t, PERI_LPS, PERI_F32, 1, 40);
+    thread_row(run, &t, PERI_LAW_BOND_BASED, PERI_PRECISION_DOUBLE, 0, 48);
+    thread_row(run, &t, PERI_LAW_BOND_BASED, PERI_PRECISION_SINGLE, 0, 48);
+    thread_row(run, &t, PERI_LAW_LPS, PERI_PRECISION_DOUBLE, 0, 48);
+    thread_row(run, &t, PERI_LAW_LPS, PERI_PRECISION_SINGLE, 0, 48);
+    thread_row(run, &t, PERI_LAW_CORRESPONDENCE, PERI_PRECISION_DOUBLE, 0, 40);
+    thread_row(run, &t, PERI_LAW_BOND_BASED, PERI_PRECISION_DOUBLE, 1, 40);
+    thread_row(run, &t, PERI_LAW_LPS, PERI_PRECISION_SINGLE, 1, 40);
     table_close(&t);
 }

@@ -30,7 +30,7 @@ void case_name(const bench_case *c, char *out, size_t capacity) {
     static const char *const laws[] = { "?", "bond-based", "LPS", "Oterkus", "correspondence" };
     static const char *const reals[] = { "?", "f64", "f32", "?", "mixed" };
     char text[128];
-    (void)sprintf(text, "%s %s m=%g %s %s", laws[c->model], c->space == PERI_SOLID ? "3D" : "2D", c->m, reals[c->precision],
+    (void)sprintf(text, "%s %s m=%g %s %s", laws[c->law], c->space == PERI_SPACE_SOLID ? "3D" : "2D", c->m, reals[c->precision],
                   c->cloud ? "cloud" : "lattice");
     if (capacity > 0) {
         strncpy(out, text, capacity - 1);
@@ -150,10 +150,10 @@ static void bench_cases(bench_run *run) {
         { "GB/s", "gbytes_per_s", 6, 1 },     { "limit", "limit_ns_per_bond", 6, 2 },
         { "share %", "share_percent", 7, 0 }, { "by", "limited_by", -5, 0 },
     };
-    static const int32_t laws[] = { PERI_BOND_BASED, PERI_LPS, PERI_CORRESPONDENCE };
-    static const int32_t reals[] = { PERI_F64, BENCH_MIXED, PERI_F32 };
+    static const int32_t laws[] = { PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_CORRESPONDENCE };
+    static const int32_t reals[] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
     static const struct grid { int32_t space; int64_t edge; double m; } grids[] = {
-        { PERI_PLANE_STRESS, 300, 3 }, { PERI_SOLID, 36, 3 }, { PERI_SOLID, 20, 5 }
+        { PERI_SPACE_PLANE_STRESS, 300, 3 }, { PERI_SPACE_SOLID, 36, 3 }, { PERI_SPACE_SOLID, 20, 5 }
     };
     worst plain = { 0.0, 0, 0, "" }, harmed = { 0.0, 0, 0, "" };
     table t;
@@ -164,7 +164,7 @@ static void bench_cases(bench_run *run) {
             for (int cloud = 0; cloud < 2; ++cloud)
                 for (int real = 0; real < 3; ++real) {
                     const int64_t edge = grids[grid].edge;
-                    const bench_case c = { laws[law], grids[grid].space, reals[real], PERI_NONLINEAR, 1, 0.5, cloud,
+                    const bench_case c = { laws[law], grids[grid].space, reals[real], PERI_GEOMETRY_NONLINEAR, 1, 0.5, cloud,
                                            { edge, edge, edge }, grids[grid].m };
                     two_rows(run, &c, &t, &plain, &harmed);
                 }

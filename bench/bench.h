@@ -3,6 +3,7 @@
 #define BENCH_H
 
 #include "../peri.h"
+#include "../src/base/enums.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,8 +43,8 @@ static inline void need(peri_body *body, int64_t result) {
     peri_error error = { 0, 0, -1, 0.0, "", "" };
     char text[256] = "";
     if (result >= 0) return;
-    (void)peri_last_error(body, &error);
-    (void)peri_error_format(&error, text, sizeof text);
+    (void)peri_get_error(body, &error);
+    (void)peri_format_error(&error, text, sizeof text);
     fprintf(stderr, "bench: %s\n", text);
     exit(1);
 }

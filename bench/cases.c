@@ -29,33 +29,33 @@ static double steps(peri_body *body, int64_t count, int32_t threads) { return sc
 static void destroy(peri_body *body) { peri_body_destroy(body); }
 
 static void read_state(peri_body *body, double *u, double *v, int64_t size) {
-    need(body, peri_read(body, PERI_DISPLACEMENT, u, size));
-    need(body, peri_read(body, PERI_VELOCITY, v, size));
+    need(body, peri_get_field(body, PERI_FIELD_DISPLACEMENT, u, size));
+    need(body, peri_get_field(body, PERI_FIELD_VELOCITY, v, size));
 }
 
 static double *field(peri_body *body, int32_t which) {
-    const int64_t size = peri_field_size(body, which);
+    const int64_t size = peri_size_of_field(body, which);
     double *out = doubles(size);
-    need(body, peri_read(body, which, out, size));
+    need(body, peri_get_field(body, which, out, size));
     return out;
 }
 
 static void read_textbook(peri_body *body, const bench_case *c, textbook_input *t) {
-    const double nu = c->model == PERI_LPS ? 0.3 : 0.0, mu = 0.5 / (1.0 + nu), bulk = 1.0 / (3.0 * (1.0 - 2.0 * nu));
+    const double nu = c->law == PERI_LAW_LPS ? 0.3 : 0.0, mu = 0.5 / (1.0 + nu), bulk = 1.0 / (3.0 * (1.0 - 2.0 * nu));
     memset(t, 0, sizeof *t);
     t->n = peri_point_count(body);
     t->width = peri_family_width(body);
     t->bonds = peri_bond_count(body);
     t->dim = peri_dimension(body);
-    t->lps = c->model == PERI_LPS;
+    t->lps = c->law == PERI_LAW_LPS;
     t->id = (int32_t *)malloc((size_t)(t->n * t->width) * sizeof *t->id);
     if (!t->id) exit(1);
-    need(body, peri_read_families(body, 0, t->n, t->id, t->n * t->width));
-    t->x = field(body, PERI_POSITION);
-    t->u = field(body, PERI_DISPLACEMENT);
-    t->force = field(body, PERI_FORCE_DENSITY);
-    t->volume = field(body, PERI_VOLUME);
-    need(body, peri_read_bond_constants(body, 0, 0, t->lps ? NULL : &t->c, &t->s0));
+    need(body, peri_get_families(body, 0, t->n, t->id, t->n * t->width));
+    t->x = field(body, PERI_FIELD_POSITION);
+    t->u = field(body, PERI_FIELD_DISPLACEMENT);
+    t->force = field(body, PERI_FIELD_FORCE_DENSITY);
+    t->volume = field(body, PERI_FIELD_VOLUME);
+    need(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), t->lps ? NULL : &t->c, &t->s0));
     if (t->dim == 3) { /* E = 1; the table of laws in peri.h */
         t->a = 3.0 * bulk - 5.0 * mu;
         t->b = 15.0 * mu;

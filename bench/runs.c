@@ -5,8 +5,8 @@
 /* ---- operator ----------------------------------------------------------------------------------------------------- */
 
 static void operator_row(bench_run *run, table *t, int32_t law, int32_t space, int32_t precision, int32_t cloud) {
-    const int64_t edge = space == PERI_SOLID ? 40 : 300;
-    const bench_case c = { law, space, precision, PERI_LINEAR, 1, 0.0, cloud, { edge, edge, edge }, 3 };
+    const int64_t edge = space == PERI_SPACE_SOLID ? 40 : 300;
+    const bench_case c = { law, space, precision, PERI_GEOMETRY_LINEAR, 1, 0.0, cloud, { edge, edge, edge }, 3 };
     bench_facts facts;
     peri_body *body = scene_build(&c, &facts);
     double best = 1e300, *in, *out;
@@ -17,11 +17,11 @@ static void operator_row(bench_run *run, table *t, int32_t law, int32_t space, i
         for (int k = 1; k < t->count; ++k) put_number(t, NOTHING);
         return;
     }
-    const int64_t size = peri_field_size(body, PERI_DISPLACEMENT);
+    const int64_t size = peri_size_of_field(body, PERI_FIELD_DISPLACEMENT);
     in = doubles(size);
     out = doubles(size);
     scene_shake(body);
-    need(body, peri_read(body, PERI_DISPLACEMENT, in, size));
+    need(body, peri_get_field(body, PERI_FIELD_DISPLACEMENT, in, size));
     for (int64_t r = -1; r < run->repeats; ++r) { /* the first brings the force up to date, too */
         const double start = processor_seconds();
         need(body, peri_multiply_stiffness(body, in, out, size));
@@ -40,16 +40,16 @@ void bench_operator(bench_run *run) {
         { "case", "case", -40, 0 }, { "product", "product_ns_per_bond", 8, 2 }, { "step", "step_ns_per_bond", 8, 2 },
         { "bytes/pt", "bytes_per_point", 8, 0 },
     };
-    static const int32_t laws[] = { PERI_BOND_BASED, PERI_LPS }, reals[] = { PERI_F64, BENCH_MIXED, PERI_F32 };
+    static const int32_t laws[] = { PERI_LAW_BOND_BASED, PERI_LAW_LPS }, reals[] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
     table t;
     printf("\nLinear geometry, elastic: ns per bond of peri_multiply_stiffness, its vectors turned from and to the caller's layout, and\n"
            "of a step");
     table_open(&t, "out/operator.csv", columns, (int)(sizeof columns / sizeof columns[0]));
     for (int law = 0; law < 2; ++law)
         for (int real = 0; real < 3; ++real) {
-            operator_row(run, &t, laws[law], PERI_PLANE_STRESS, reals[real], 0);
-            operator_row(run, &t, laws[law], PERI_SOLID, reals[real], 0);
-            operator_row(run, &t, laws[law], PERI_SOLID, reals[real], 1);
+            operator_row(run, &t, laws[law], PERI_SPACE_PLANE_STRESS, reals[real], 0);
+            operator_row(run, &t, laws[law], PERI_SPACE_SOLID, reals[real], 0);
+            operator_row(run, &t, laws[law], PERI_SPACE_SOLID, reals[real], 1);
         }
     table_close(&t);
 }
@@ -60,14 +60,14 @@ typedef enum asked { NOTHING_ASKED, ENERGY_ASKED, STRESS_ASKED } asked;
 
 /* Seconds of a step, and of reading what is asked for after it. */
 static double step_and_ask(peri_body *body, int64_t repeats, asked what) {
-    const int64_t size = peri_field_size(body, PERI_STRESS);
+    const int64_t size = peri_size_of_field(body, PERI_FIELD_STRESS);
     double best = 1e300, *stress = doubles(size);
     for (int64_t r = -1; r < repeats; ++r) {
         const double start = processor_seconds();
         peri_energy energy;
         (void)scene_steps(body, 1, 1);
-        if (what >= ENERGY_ASKED) need(body, peri_read_energy(body, &energy));
-        if (what >= STRESS_ASKED) need(body, peri_read(body, PERI_STRESS, stress, size));
+        if (what >= ENERGY_ASKED) need(body, peri_get_energy(body, &energy));
+        if (what >= STRESS_ASKED) need(body, peri_get_field(body, PERI_FIELD_STRESS, stress, size));
         if (r >= 0 && processor_seconds() - start < best) best = processor_seconds() - start;
     }
     free(stress);
@@ -94,13 +94,13 @@ static double pointwise(const bench_case *like, int64_t repeats) {
 
 static void unused_rows(bench_run *run, table *t, int32_t precision, const char *real) {
     static const struct use { const char *name; int32_t law; double critical; asked what; } uses[] = {
-        { "bond-based, elastic", PERI_BOND_BASED, 0.0, NOTHING_ASKED }, { "+ damage", PERI_BOND_BASED, 0.5, NOTHING_ASKED },
-        { "+ state-based (LPS)", PERI_LPS, 0.5, NOTHING_ASKED },        { "+ energy read each step", PERI_LPS, 0.5, ENERGY_ASKED },
-        { "+ stress read each step", PERI_LPS, 0.5, STRESS_ASKED },
+        { "bond-based, elastic", PERI_LAW_BOND_BASED, 0.0, NOTHING_ASKED }, { "+ damage", PERI_LAW_BOND_BASED, 0.5, NOTHING_ASKED },
+        { "+ state-based (LPS)", PERI_LAW_LPS, 0.5, NOTHING_ASKED },        { "+ energy read each step", PERI_LAW_LPS, 0.5, ENERGY_ASKED },
+        { "+ stress read each step", PERI_LAW_LPS, 0.5, STRESS_ASKED },
     };
     double ns = 0.0, bytes = 0.0;
     for (size_t k = 0; k < sizeof uses / sizeof uses[0]; ++k) {
-        const bench_case c = { uses[k].law, PERI_SOLID, precision, PERI_NONLINEAR, 1, uses[k].critical, 0, { 40, 40, 40 }, 3 };
+        const bench_case c = { uses[k].law, PERI_SPACE_SOLID, precision, PERI_GEOMETRY_NONLINEAR, 1, uses[k].critical, 0, { 40, 40, 40 }, 3 };
         bench_facts facts;
         peri_body *body = scene_build(&c, &facts);
         const char *part;
@@ -151,9 +151,9 @@ void bench_unused(bench_run *run) {
     printf("\nWhat a scene pays for what it uses, row by row one thing more. The force pass alone is the step of the first scene less\n"
            "what it does per point, by steps of bodies with 6 and 18 bonds a point");
     table_open(&t, "out/unused.csv", columns, (int)(sizeof columns / sizeof columns[0]));
-    unused_rows(run, &t, PERI_F64, "f64");
+    unused_rows(run, &t, PERI_PRECISION_DOUBLE, "f64");
     unused_rows(run, &t, BENCH_MIXED, "mixed");
-    unused_rows(run, &t, PERI_F32, "f32");
+    unused_rows(run, &t, PERI_PRECISION_SINGLE, "f32");
     table_close(&t);
 }
 
@@ -166,18 +166,18 @@ void bench_unused(bench_run *run) {
    runs is that of the same work. Frames are told apart by whether no bond is broken yet, some break in them, or only before them. */
 static void play(bench_run *run, table *t, double speed) {
     static const char *const names[] = { "whole", "breaking", "in pieces" };
-    const bench_case c = { PERI_BOND_BASED, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 0.02, 0, { 22, 22, 21 }, 3 };
+    const bench_case c = { PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR, 1, 0.02, 0, { 22, 22, 21 }, 3 };
     const double floor_at[3] = { 0, 0, -0.5 }, up[3] = { 0, 0, 1 }, down[3] = { 0, 0, -speed };
     double best[FRAMES], mean[3] = { 0, 0, 0 }, worst[3] = { 0, 0, 0 }, *rest;
     int64_t broken[FRAMES + 1], frames[3] = { 0, 0, 0 };
     bench_facts facts;
     peri_body *body = scene_build(&c, &facts);
     if (!body) exit(1);
-    const int64_t size = peri_field_size(body, PERI_POSITION);
+    const int64_t size = peri_size_of_field(body, PERI_FIELD_POSITION);
     float *place = (float *)malloc((size_t)size * sizeof *place);
     rest = doubles(size);
     if (!place) exit(1);
-    need(body, peri_read(body, PERI_POSITION, rest, size));
+    need(body, peri_get_field(body, PERI_FIELD_POSITION, rest, size));
     need(body, peri_add_plane_obstacle(body, floor_at, up, 0.0, NULL, NULL));
     for (int k = 0; k < FRAMES; ++k) best[k] = 1e300;
     for (int64_t r = 0; r < run->repeats; ++r) {
@@ -189,7 +189,7 @@ static void play(bench_run *run, table *t, double speed) {
             const double start = processor_seconds();
             peri_view view;
             (void)scene_steps(body, 3, 1);
-            need(body, peri_view_field(body, PERI_DISPLACEMENT, &view));
+            need(body, peri_view_field(body, PERI_FIELD_DISPLACEMENT, &view));
             for (int32_t d = 0; d < 3; ++d) {
                 const float *u = (const float *)view.data + d * view.component_stride, scale = (float)view.scale;
                 for (int64_t i = 0; i < view.count; ++i) place[3 * i + d] = (float)rest[3 * i + d] + scale * u[i * view.point_stride];
@@ -242,7 +242,7 @@ void bench_branching(bench_run *run) {
         { "branching", "precision", -10, 0 }, { "points", "points", 8, 0 }, { "steps", "steps", 6, 0 },
         { "s", "seconds", 8, 3 },             { "ns/bond", "ns_per_bond", 8, 2 }, { "broken", "broken", 8, 0 },
     };
-    static const int32_t reals[] = { PERI_F64, BENCH_MIXED, PERI_F32 };
+    static const int32_t reals[] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
     static const char *const names[] = { "f64", "mixed", "f32" };
     table t;
     (void)run;
@@ -251,14 +251,14 @@ void bench_branching(bench_run *run) {
     for (int k = 0; k < 3; ++k) {
         double step, best = 1e300;
         int64_t steps;
-        peri_run march;
+        peri_advance_desc march;
         peri_body *body = glass_plate(reals[k], &step, &steps);
         put_text(&t, names[k]);
         if (!body) {
             for (int n = 1; n < t.count; ++n) put_number(&t, NOTHING);
             continue;
         }
-        peri_run_init(&march);
+        peri_advance_desc_init(&march);
         march.time_step = step;
         march.steps = steps;
         for (int r = 0; r < 3; ++r) {
@@ -297,7 +297,7 @@ void bench_large(bench_run *run) {
         { "ns/bond", "ns_per_bond", 8, 2 },     { "held MB", "held_mb", 8, 0 },   { "most MB", "most_mb", 8, 0 },
         { "VmHWM MB", "vmhwm_mb", 9, 0 },       { "bar", "bar_mb", 6, 0 },
     };
-    const bench_case c = { PERI_BOND_BASED, PERI_SOLID, PERI_F32, PERI_NONLINEAR, 1, 0.5, 0, { 200, 200, 200 }, 3 };
+    const bench_case c = { PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR, 1, 0.5, 0, { 200, 200, 200 }, 3 };
     const double slow[3] = { 1e-3, 0, 0 };
     bench_facts facts;
     peri_body *body = scene_build(&c, &facts);

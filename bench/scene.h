@@ -15,10 +15,10 @@ static inline uint64_t scene_hash(uint64_t z) {
 
 /* Displacements of up to 1e-3 spacings, every point its own: strains of the order at which brittle solids break. */
 static inline void scene_shake(peri_body *body) {
-    const int64_t size = peri_field_size(body, PERI_DISPLACEMENT);
+    const int64_t size = peri_size_of_field(body, PERI_FIELD_DISPLACEMENT);
     double *u = doubles(size);
     for (int64_t k = 0; k < size; ++k) u[k] = 1e-3 * ((double)(scene_hash((uint64_t)k) >> 11) / 4503599627370496.0 - 1.0);
-    need(body, peri_write(body, PERI_DISPLACEMENT, u, size));
+    need(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, u, size));
     free(u);
 }
 
@@ -27,7 +27,7 @@ static inline void scene_shake(peri_body *body) {
 static inline peri_body *scene_build(const bench_case *c, bench_facts *facts) {
     const double lo[3] = { 0, 0, 0 }, hi[3] = { (double)c->edge[0], (double)c->edge[1], (double)c->edge[2] };
     peri_body_desc desc;
-    peri_material material;
+    peri_material_desc material;
     peri_body *body = NULL;
     const uint64_t before = bytes_now;
     double start;
@@ -45,13 +45,13 @@ static inline peri_body *scene_build(const bench_case *c, bench_facts *facts) {
         if (c->precision == BENCH_MIXED) return NULL;
         exit(1);
     }
-    peri_material_init(&material, c->model);
-    if (c->model != PERI_BOND_BASED) material.poisson = 0.3;
+    peri_material_desc_init(&material, c->law);
+    if (c->law != PERI_LAW_BOND_BASED) material.poisson = 0.3;
     material.young = 1.0;
     material.density = 1.0;
     material.critical_stretch = c->critical;
     need(body, peri_add_material(body, &material));
-    need(body, c->cloud ? peri_add_perturbed_box(body, 0, lo, hi, 1.0, 1.0, 7) : peri_add_box(body, 0, lo, hi, 1.0));
+    need(body, c->cloud ? peri_add_perturbed_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0, 1.0, 7) : peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
     bytes_most = bytes_now;
     start = c->threads == 1 ? processor_seconds() : seconds();
     const int32_t built = peri_build(body);
@@ -83,17 +83,17 @@ static inline void scene_harm(peri_body *body, bench_facts *facts) {
     const double up[3] = { 0, 0, 1 }, left[2] = { 0, edge / 2 };
     const uint64_t before = bytes_now;
     need(body, peri_reset(body));
-    need(body, peri_cut_if(body, scene_harmed, NULL));
-    need(body, dim == 2 ? peri_cut_segment(body, left, middle) : peri_cut_disc(body, middle, up, 0.4 * edge));
+    need(body, peri_cut_if(body, PERI_CUT_INITIAL, scene_harmed, NULL));
+    need(body, dim == 2 ? peri_cut_segment(body, PERI_CUT_INITIAL, left, middle) : peri_cut_disc(body, PERI_CUT_INITIAL, middle, up, 0.4 * edge));
     scene_shake(body);
     facts->bytes += ((double)bytes_now - (double)before) / (double)facts->points;
 }
 
 /* Seconds that `steps` steps take: of the processor for one thread, else of the wall. */
 static inline double scene_steps(peri_body *body, int64_t steps, int32_t threads) {
-    peri_run run;
+    peri_advance_desc run;
     double start;
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = steps;
     start = threads == 1 ? processor_seconds() : seconds();
     need(body, peri_advance(body, &run));

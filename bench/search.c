@@ -37,12 +37,12 @@ static double now(int32_t threads) { return threads > 1 ? seconds() : (double)cl
 
 /* Points on average one per unit of volume; by malloc where there is no arena. */
 static peri_body *cloud(int32_t space, int32_t precision, int32_t threads, int64_t points, arena *from) {
-    const int dim = space == PERI_SOLID ? 3 : 2;
+    const int dim = space == PERI_SPACE_SOLID ? 3 : 2;
     const double edge = pow((double)points, 1.0 / dim);
     double *x = (double *)malloc((size_t)(points * dim) * sizeof *x), *volume = (double *)malloc((size_t)points * sizeof *volume);
     uint64_t state = 1;
     peri_body_desc desc;
-    peri_material material;
+    peri_material_desc material;
     peri_body *body = NULL;
     if (!x || !volume) exit(1);
     for (int64_t k = 0; k < points * dim; ++k) x[k] = edge * unit(&state);
@@ -59,7 +59,7 @@ static peri_body *cloud(int32_t space, int32_t precision, int32_t threads, int64
         from->used = 0;
     }
     if (peri_body_create(&desc, &body, NULL) < 0) exit(1);
-    peri_material_init(&material, PERI_BOND_BASED);
+    peri_material_desc_init(&material, PERI_LAW_BOND_BASED);
     material.young = material.density = 1.0;
     need(body, peri_add_material(body, &material));
     need(body, peri_add_points(body, points, x, volume, 0));
@@ -107,7 +107,7 @@ static void run_case(int32_t space, int32_t precision, int32_t threads, int64_t 
     const double again = best_build(space, precision, threads, points, repeats, &warm, &bonds);
     const uint64_t bytes = warm.used;
     free(warm.memory);
-    printf("%s %s %8lld %7d %12.1f %8.2f %8.2f %8.2f\n", space == PERI_SOLID ? "3D" : "2D", precision == PERI_F64 ? "f64" : "f32",
+    printf("%s %s %8lld %7d %12.1f %8.2f %8.2f %8.2f\n", space == PERI_SPACE_SOLID ? "3D" : "2D", precision == PERI_PRECISION_DOUBLE ? "f64" : "f32",
            (long long)points, (int)threads, (double)bonds / (double)points, fresh * 1e9 / (double)bonds,
            best_pages(bytes, repeats) * 1e9 / (double)bonds, again * 1e9 / (double)bonds);
     (void)fflush(stdout);
@@ -116,9 +116,9 @@ static void run_case(int32_t space, int32_t precision, int32_t threads, int64_t 
 int main(int argc, char **argv) {
     const int64_t repeats = argc > 1 ? atol(argv[1]) : 7;
     printf("\nBuild of random clouds, ns per directed bond\n         points threads bonds/point    fresh    pages     warm\n");
-    for (int64_t points = 10000; points <= 1000000; points *= 10) run_case(PERI_SOLID, PERI_F64, 1, points, repeats);
-    for (int64_t points = 10000; points <= 1000000; points *= 10) run_case(PERI_PLANE_STRESS, PERI_F64, 1, points, repeats);
-    run_case(PERI_SOLID, PERI_F32, 1, 1000000, repeats);
-    run_case(PERI_SOLID, PERI_F64, 2, 1000000, repeats);
+    for (int64_t points = 10000; points <= 1000000; points *= 10) run_case(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, 1, points, repeats);
+    for (int64_t points = 10000; points <= 1000000; points *= 10) run_case(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 1, points, repeats);
+    run_case(PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, 1, 1000000, repeats);
+    run_case(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, 2, 1000000, repeats);
     return 0;
 }

@@ -14,11 +14,11 @@
 static peri_body *block(int32_t space, int64_t edge, double poisson, int32_t precision) {
     const double lo[3] = { 0, 0, 0 }, hi[3] = { 1, 1, 1 };
     peri_body_desc desc;
-    peri_material material;
+    peri_material_desc material;
     peri_body *body = NULL;
     peri_body_desc_init(&desc);
     desc.space = space;
-    desc.geometry = PERI_LINEAR;
+    desc.geometry = PERI_GEOMETRY_LINEAR;
     desc.precision = precision;
     desc.horizon = 3.0 / (double)edge;
     desc.threads = 1;
@@ -26,12 +26,12 @@ static peri_body *block(int32_t space, int64_t edge, double poisson, int32_t pre
     desc.release = count_release;
     bytes_now = bytes_most = 0;
     if (peri_body_create(&desc, &body, NULL) < 0) exit(1);
-    peri_material_init(&material, PERI_LPS);
+    peri_material_desc_init(&material, PERI_LAW_LPS);
     material.young = 1.0;
     material.poisson = poisson;
     material.density = 1.0;
     need(body, peri_add_material(body, &material));
-    need(body, peri_add_box(body, 0, lo, hi, 1.0 / (double)edge));
+    need(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0 / (double)edge));
     need(body, peri_build(body));
     return body;
 }
@@ -47,8 +47,8 @@ static int32_t layers(peri_body *body, int64_t edge, int64_t from, int64_t to) {
 /* Time of one evaluation of all bonds, by the steps of explicit dynamics, which are a pass and a little each: the best of five. */
 static double one_pass(peri_body *body) {
     double best = 1e300;
-    peri_run run;
-    peri_run_init(&run);
+    peri_advance_desc run;
+    peri_advance_desc_init(&run);
     run.steps = 1;
     need(body, peri_reset(body));
     need(body, peri_advance(body, &run));
@@ -61,8 +61,8 @@ static double one_pass(peri_body *body) {
     return best;
 }
 
-static void row(FILE *csv, const char *scene, peri_body *body, const char *how, const peri_statics *statics) {
-    peri_statics_report report;
+static void row(FILE *csv, const char *scene, peri_body *body, const char *how, const peri_solve_desc *statics) {
+    peri_solve_report report;
     double body_bytes = (double)bytes_now, start = seconds(), taken, most, pass;
     bytes_most = bytes_now;
     need(body, peri_solve(body, statics, &report));
@@ -81,15 +81,15 @@ static void plates(FILE *csv) {
     static const char *const names[] = { "", "multilevel", "blocks", "none" };
     const double pull[2] = { 1e-3, 0 };
     for (int64_t edge = 100; edge <= 800; edge *= 2)
-        for (int32_t p = PERI_MULTILEVEL; p < PERI_PRECONDITIONER_COUNT_; ++p) {
+        for (int32_t p = PERI_PRECONDITIONER_MULTILEVEL; p < peri__end_preconditioner; ++p) {
             char scene[32];
-            peri_statics statics;
+            peri_solve_desc statics;
             peri_body *body;
-            if (p != PERI_MULTILEVEL && edge > 400) continue;
-            body = block(PERI_PLANE_STRESS, edge, 0.3, PERI_F64);
-            need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_X | PERI_Y, NULL, NULL, NULL));
-            need(body, peri_apply_traction(body, layers(body, edge, edge - 1, edge), 1.0, pull, NULL, NULL));
-            peri_statics_init(&statics);
+            if (p != PERI_PRECONDITIONER_MULTILEVEL && edge > 400) continue;
+            body = block(PERI_SPACE_PLANE_STRESS, edge, 0.3, PERI_PRECISION_DOUBLE);
+            need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+            need(body, peri_apply_layer_traction(body, layers(body, edge, edge - 1, edge), 1.0, pull, NULL, NULL));
+            peri_solve_desc_init(&statics);
             statics.tolerance = 1e-8;
             statics.preconditioner = p;
             (void)sprintf(scene, "plate %lld^2", (long long)edge);
@@ -100,16 +100,16 @@ static void plates(FILE *csv) {
 
 static void blocks_of(FILE *csv, int64_t edge) {
     const double pull[3] = { 1e-3, 0, 0 };
-    for (int32_t precision = PERI_F64; precision <= PERI_F32; ++precision) {
+    for (int32_t precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
         char scene[32];
-        peri_statics statics;
-        peri_body *body = block(PERI_SOLID, edge, 0.25, precision);
-        need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_X | PERI_Y | PERI_Z, NULL, NULL, NULL));
-        need(body, peri_prescribe_displacement(body, layers(body, edge, edge - 3, edge), PERI_X | PERI_Y | PERI_Z, pull, NULL, NULL));
-        peri_statics_init(&statics);
-        statics.tolerance = precision == PERI_F64 ? 1e-6 : 1e-4;
+        peri_solve_desc statics;
+        peri_body *body = block(PERI_SPACE_SOLID, edge, 0.25, precision);
+        need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z, NULL, NULL, NULL));
+        need(body, peri_prescribe_displacement(body, layers(body, edge, edge - 3, edge), PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z, pull, NULL, NULL));
+        peri_solve_desc_init(&statics);
+        statics.tolerance = precision == PERI_PRECISION_DOUBLE ? 1e-6 : 1e-4;
         (void)sprintf(scene, "block %lld^3", (long long)edge);
-        row(csv, scene, body, precision == PERI_F64 ? "f64" : "f32, 1e-4", &statics);
+        row(csv, scene, body, precision == PERI_PRECISION_DOUBLE ? "f64" : "f32, 1e-4", &statics);
         peri_body_destroy(body);
         if (edge > 40) break;
     }

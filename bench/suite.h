@@ -10,11 +10,11 @@
 
 #include "bench.h"
 
-#define BENCH_MIXED 4 /* peri_body_desc.precision = PERI_MIXED: state in double, bonds in single precision. Rows that a library refuses
+#define BENCH_MIXED 4 /* peri_body_desc.precision = PERI_PRECISION_MIXED: state in double, bonds in single precision. Rows that a library refuses
                          show "-" */
 
 typedef struct bench_case {
-    int32_t model, space, precision, geometry, threads;
+    int32_t law, space, precision, geometry, threads;
     double  critical; /* critical stretch: 0 = elastic; 0.5 = never reached, but the state of every bond is kept and asked for  */
     int32_t cloud;    /* 1: the lattice perturbed by a quarter of a cell, bonds all different                                   */
     int64_t edge[3];  /* points per edge; the spacing is 1                                                                       */

@@ -3,6 +3,7 @@
 #define TRADEOFF_H
 
 #include "../peri.h"
+#include "../src/base/enums.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -58,9 +59,9 @@ typedef struct trial {
 } trial;
 
 /* E = 1 and density 1 unless changed before trial_build. */
-peri_material trial_material(const knobs *k);
+peri_material_desc trial_material(const knobs *k);
 /* A body with material 0 and the clock running. Calls after one that failed do nothing; trial_fine says whether all went well. */
-void trial_create(trial *t, const knobs *k, double spacing, const peri_material *material);
+void trial_create(trial *t, const knobs *k, double spacing, const peri_material_desc *material);
 void trial_note(trial *t, int64_t result);
 int  trial_fine(const trial *t);
 void trial_build(trial *t, const double *lo, const double *hi, double spacing, peri_point_fn inside);

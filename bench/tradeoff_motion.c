@@ -14,7 +14,7 @@ static double packet_slope(double x) {
     return -(2 * PI * sin(2 * PI * x) + x / (bell * bell) * cos(2 * PI * x)) * exp(-0.5 * x * x / (bell * bell));
 }
 
-static double wave_way(const knobs *k) { return k->space == PERI_SOLID ? 1 : 2; }
+static double wave_way(const knobs *k) { return k->space == PERI_SPACE_SOLID ? 1 : 2; }
 static double wave_half(const knobs *k) { return 1.02 * wave_way(k) + 2 * k->m / k->across; } /* of the thickness */
 
 /* Within 0.9 waves of the way; line: u at x. */
@@ -39,25 +39,25 @@ outcome run_wave(const knobs *k) {
     const int dim = dimension_of(k), n = (int)((2 * MARGIN + wave_way(k)) * k->across + 0.5);
     const double h = 1 / k->across, way = wave_way(k), half = ceil(wave_half(k) * k->across) * h, size = 1e-5 / (2 * PI);
     const double lo[3] = { 0, -half, -half }, hi[3] = { 2 * MARGIN + way, half, half };
-    const peri_material material = trial_material(k);
+    const peri_material_desc material = trial_material(k);
     double lambda, mu, speed, shift = way, *x, *u, *v, *place, *line;
-    peri_run run;
+    peri_advance_desc run;
     trial t;
     lame_of(k, &lambda, &mu);
     speed = sqrt(lambda + 2 * mu);
     trial_create(&t, k, h, &material);
     trial_build(&t, lo, hi, h, NULL);
     trial_pause(&t);
-    x = trial_read(&t, PERI_POSITION);
-    u = trial_read(&t, PERI_DISPLACEMENT);
-    v = trial_read(&t, PERI_VELOCITY);
+    x = trial_read(&t, PERI_FIELD_POSITION);
+    u = trial_read(&t, PERI_FIELD_DISPLACEMENT);
+    v = trial_read(&t, PERI_FIELD_VELOCITY);
     for (int64_t i = 0; v && i < peri_point_count(t.body); ++i) {
         u[dim * i] = size * packet(x[dim * i] - MARGIN);
         v[dim * i] = -size * speed * packet_slope(x[dim * i] - MARGIN);
     }
-    if (trial_fine(&t)) trial_note(&t, peri_write(t.body, PERI_DISPLACEMENT, u, dim * peri_point_count(t.body)));
-    if (trial_fine(&t)) trial_note(&t, peri_write(t.body, PERI_VELOCITY, v, dim * peri_point_count(t.body)));
-    peri_run_init(&run);
+    if (trial_fine(&t)) trial_note(&t, peri_set_field(t.body, PERI_FIELD_DISPLACEMENT, u, dim * peri_point_count(t.body)));
+    if (trial_fine(&t)) trial_note(&t, peri_set_field(t.body, PERI_FIELD_VELOCITY, v, dim * peri_point_count(t.body)));
+    peri_advance_desc_init(&run);
     run.duration = way / speed;
     run.safety = k->safety;
     run.integrator = k->integrator;
@@ -66,7 +66,7 @@ outcome run_wave(const knobs *k) {
     trial_pause(&t);
     free(u);
     free(v);
-    u = trial_read(&t, PERI_DISPLACEMENT);
+    u = trial_read(&t, PERI_FIELD_DISPLACEMENT);
     place = (double *)calloc((size_t)n, sizeof *place);
     line = (double *)calloc((size_t)n, sizeof *line);
     if (!place || !line) exit(1);
@@ -108,24 +108,25 @@ typedef struct path {
     int           first;              /* frame of the first break                                                        */
 } path;
 
-static void on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     path *p = (path *)user;
     const double x = 0.5 * (p->x[2 * i] + p->x[2 * j]), y = 0.5 * (p->x[2 * i + 1] + p->x[2 * j + 1]);
     const int at = (int)ceil(time / frame - 1e-9);
     (void)stretch;
-    if (y < -1e-9 || at > FRAMES) return;
+    if (y < -1e-9 || at > FRAMES) return 0;
     if (at < p->first) p->first = at;
     if (x > p->tip[at][0]) {
         p->tip[at][0] = x;
         p->tip[at][1] = y;
     }
+    return 0;
 }
 
 static outcome branch(const knobs *k, path *p) {
     const double lx = 0.05, ly = 0.02, horizon = 1e-3, h = horizon / k->m, rim = 0.99 * h;
     const double lo[2] = { -lx, -ly }, hi[2] = { lx, ly }, edge[2] = { -lx, 0 }, middle[2] = { 0, 0 };
-    peri_material glass = trial_material(k);
-    peri_run run;
+    peri_material_desc glass = trial_material(k);
+    peri_advance_desc run;
     double *x;
     trial t;
     glass.young = 72e9;
@@ -135,17 +136,17 @@ static outcome branch(const knobs *k, path *p) {
     p->first = FRAMES;
     trial_create(&t, k, h, &glass);
     trial_build(&t, lo, hi, h, NULL);
-    if (trial_fine(&t)) trial_note(&t, peri_cut_segment(t.body, edge, middle));
+    if (trial_fine(&t)) trial_note(&t, peri_cut_segment(t.body, PERI_CUT_INITIAL, edge, middle));
     for (int side = -1; side <= 1; side += 2) {
         const double pull[2] = { 0, 2e6 * side }, at = side * ly, inner = side * (ly - rim), zone = side * (ly - horizon);
         const int32_t outer = trial_box(&t, -lx, fmin(at, inner), lx, fmax(at, inner));
         const int32_t safe = trial_box(&t, -lx, fmin(at, zone), lx, fmax(at, zone));
-        if (trial_fine(&t)) trial_note(&t, peri_apply_traction(t.body, outer, 2 * lx, pull, NULL, NULL));
+        if (trial_fine(&t)) trial_note(&t, peri_apply_layer_traction(t.body, outer, 2 * lx, pull, NULL, NULL));
         if (trial_fine(&t)) trial_note(&t, peri_set_no_fail(t.body, safe, 1));
     }
     trial_pause(&t);
-    p->x = x = trial_read(&t, PERI_POSITION);
-    peri_run_init(&run);
+    p->x = x = trial_read(&t, PERI_FIELD_POSITION);
+    peri_advance_desc_init(&run);
     run.duration = FRAMES * frame;
     run.safety = k->safety;
     run.integrator = k->integrator;
@@ -168,13 +169,13 @@ outcome run_branching(const knobs *k) {
     double apart = 0, length = 0;
     if (!known) {
         knobs best = *k;
-        best.law = PERI_BOND_BASED;
-        best.correction = PERI_NO_CORRECTION;
+        best.law = PERI_LAW_BOND_BASED;
+        best.correction = PERI_CORRECTION_NONE;
         best.influence = PERI_INFLUENCE_CONSTANT;
-        best.quadrature = PERI_FULL_VOLUME;
-        best.precision = PERI_F64;
-        best.geometry = PERI_NONLINEAR;
-        best.integrator = PERI_VELOCITY_VERLET;
+        best.quadrature = PERI_QUADRATURE_FULL;
+        best.precision = PERI_PRECISION_DOUBLE;
+        best.geometry = PERI_GEOMETRY_NONLINEAR;
+        best.integrator = PERI_INTEGRATOR_VELOCITY_VERLET;
         best.stabilization = -1;
         best.safety = 0.5;
         best.m = best.across = FINEST;

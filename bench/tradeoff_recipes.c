@@ -12,13 +12,13 @@ typedef struct recipe {
 } recipe;
 
 static const recipe recipes[] = {
-    { "bond_single", PERI_BOND_BASED, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F32, 3, -1 },
-    { "bond", PERI_BOND_BASED, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F64, 3, -1 },
-    { "bond_moment", PERI_BOND_BASED, PERI_MOMENT_CORRECTION, PERI_INFLUENCE_LINEAR, PERI_F64, 2, -1 },
-    { "lps_moment", PERI_LPS, PERI_MOMENT_CORRECTION, PERI_INFLUENCE_LINEAR, PERI_F64, 2, -1 },
-    { "gradient_single", PERI_CORRESPONDENCE, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F32, 2, 0.2 },
-    { "gradient", PERI_CORRESPONDENCE, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_F64, 2, 0.2 },
-    { "gradient_steep", PERI_CORRESPONDENCE, PERI_NO_CORRECTION, PERI_INFLUENCE_POWER_3, PERI_F64, 2, 0.2 }
+    { "bond_single", PERI_LAW_BOND_BASED, PERI_CORRECTION_NONE, PERI_INFLUENCE_CONSTANT, PERI_PRECISION_SINGLE, 3, -1 },
+    { "bond", PERI_LAW_BOND_BASED, PERI_CORRECTION_NONE, PERI_INFLUENCE_CONSTANT, PERI_PRECISION_DOUBLE, 3, -1 },
+    { "bond_moment", PERI_LAW_BOND_BASED, PERI_CORRECTION_MOMENT, PERI_INFLUENCE_LINEAR, PERI_PRECISION_DOUBLE, 2, -1 },
+    { "lps_moment", PERI_LAW_LPS, PERI_CORRECTION_MOMENT, PERI_INFLUENCE_LINEAR, PERI_PRECISION_DOUBLE, 2, -1 },
+    { "gradient_single", PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE, PERI_INFLUENCE_CONSTANT, PERI_PRECISION_SINGLE, 2, 0.2 },
+    { "gradient", PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE, PERI_INFLUENCE_CONSTANT, PERI_PRECISION_DOUBLE, 2, 0.2 },
+    { "gradient_steep", PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE, PERI_INFLUENCE_POWER_3, PERI_PRECISION_DOUBLE, 2, 0.2 }
 };
 
 static const double resolutions[] = { 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 0 };
@@ -31,7 +31,7 @@ static void print_recipe(const recipe *r, const problem *p) {
         outcome worst;
         char    series[200] = "";
         double  poisson = 0;
-        const int known = r->law == PERI_BOND_BASED || p->run == run_branching;
+        const int known = r->law == PERI_LAW_BOND_BASED || p->run == run_branching;
         memset(&worst, 0, sizeof worst);
         worst.error = -1;
         for (int n = 0; n < (known ? 1 : 3) && worst.status == PERI_OK; ++n) {

@@ -10,7 +10,7 @@ enum { SOLVE = 150 }; /* evaluations of all bonds that build and solve take, abo
    largest of the four. Seconds: build and one evaluation of the energy. */
 outcome run_uniform(const knobs *k) {
     const double size = 1e-5, spacing = 1 / k->across, lo[3] = { 0, 0, 0 }, hi[3] = { 1, 1, 1 };
-    const peri_material material = trial_material(k);
+    const peri_material_desc material = trial_material(k);
     const int dim = dimension_of(k);
     double lambda, mu, worst = 0, *x;
     trial t;
@@ -18,7 +18,7 @@ outcome run_uniform(const knobs *k) {
     trial_create(&t, k, spacing, &material);
     trial_build(&t, lo, hi, spacing, NULL);
     trial_pause(&t);
-    x = trial_read(&t, PERI_POSITION);
+    x = trial_read(&t, PERI_FIELD_POSITION);
     for (int kind = 0; kind < 4 && trial_fine(&t); ++kind) {
         const int64_t n = peri_point_count(t.body);
         double *u = (double *)calloc((size_t)(n * dim), sizeof *u), h[3][3] = { { 0 } }, trace = 0, square = 0;
@@ -34,9 +34,9 @@ outcome run_uniform(const knobs *k) {
         for (int64_t i = 0; i < n; ++i)
             for (int a = 0; a < dim; ++a)
                 for (int c = 0; c < dim; ++c) u[i * dim + a] += h[a][c] * x[i * dim + c];
-        trial_note(&t, peri_write(t.body, PERI_DISPLACEMENT, u, n * dim));
+        trial_note(&t, peri_set_field(t.body, PERI_FIELD_DISPLACEMENT, u, n * dim));
         trial_resume(&t);
-        trial_note(&t, peri_read_energy(t.body, &energy));
+        trial_note(&t, peri_get_energy(t.body, &energy));
         if (kind == 0) trial_pause(&t);
         if (trial_fine(&t)) worst = fmax(worst, fabs(energy.elastic / (0.5 * lambda * trace * trace + mu * square) - 1));
         free(u);
@@ -51,7 +51,7 @@ double work_uniform(const knobs *k) { return 20 * family_of(k) * pow(k->across, 
 
 /* Depth (and width) 1. In 2D a force at the end of a beam of length 10, plane stress (Timoshenko, Goodier, sections 20, 21, no mean
    rotation of the root); in 3D moments at the end of a bar of length 6 (section 102, exact for any section). The root, two horizons of
-   more beam, has the exact displacements, so that what is compared has no wall in it. The load is as peri_apply_surface_traction spreads
+   more beam, has the exact displacements, so that what is compared has no wall in it. The load is as peri_apply_traction spreads
    it. The tip goes down by a thousandth of the length: squares of rotations are 1e-6. Error: of the deflection of the axis at the tip. */
 typedef struct beam {
     const double *x;
@@ -66,7 +66,7 @@ static double deflection(const beam *b, double x) {
     return b->dim == 3 ? 0.5 * b->slope * x * x : b->slope * (l * x * x / 2 - x * x * x / 6 + (0.2 + 0.225 * b->nu) * x);
 }
 
-static void root(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t root(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const beam *b = (const beam *)user;
     const double l = beam_length(b->dim), s = b->slope, nu = b->nu;
     for (int64_t k = 0; k < count; ++k) {
@@ -82,21 +82,23 @@ static void root(void *user, double time, int64_t count, const int32_t *points, 
         }
         for (int d = 0; d < b->dim; ++d) u[d] *= time;
     }
+    return 0;
 }
 
-static void couple(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t couple(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const beam *b = (const beam *)user;
     for (int64_t k = 0; k < count; ++k) {
         value[3 * k] = -time * b->slope * b->x[3 * points[k] + 1];
         value[3 * k + 1] = value[3 * k + 2] = 0;
     }
+    return 0;
 }
 
 outcome run_cantilever(const knobs *k) {
     const int dim = dimension_of(k);
     const double l = beam_length(dim), h = 1 / k->across, deep = 2 * ceil(k->m) * h, out[3] = { 1, 0, 0 };
     const double lo[3] = { -deep, -0.5, -0.5 }, hi[3] = { l, 0.5, 0.5 };
-    const peri_material material = trial_material(k);
+    const peri_material_desc material = trial_material(k);
     beam b = { NULL, k->poisson, 0, dim };
     double force[3] = { 0, 0, 0 }, *x, *u, sum = 0, want = 0;
     int32_t held, end;
@@ -106,16 +108,16 @@ outcome run_cantilever(const knobs *k) {
     trial_create(&t, k, h, &material);
     trial_build(&t, lo, hi, h, NULL);
     trial_pause(&t);
-    b.x = x = trial_read(&t, PERI_POSITION);
+    b.x = x = trial_read(&t, PERI_FIELD_POSITION);
     trial_resume(&t);
     held = trial_box(&t, -deep, -1, 0, 1);
     end = trial_box(&t, l - 2 * k->m * h, -1, l, 1);
     if (trial_fine(&t))
-        trial_note(&t, peri_prescribe_displacement(t.body, held, PERI_X | PERI_Y | (dim == 3 ? PERI_Z : 0), NULL, root, &b));
+        trial_note(&t, peri_prescribe_displacement(t.body, held, PERI_AXIS_X | PERI_AXIS_Y | (dim == 3 ? PERI_AXIS_Z : 0), NULL, root, &b));
     if (trial_fine(&t))
-        trial_note(&t, peri_apply_surface_traction(t.body, end, 1, out, force, dim == 3 ? couple : NULL, &b));
+        trial_note(&t, peri_apply_traction(t.body, end, 1, out, force, dim == 3 ? couple : NULL, &b));
     trial_solve(&t, PERI_LOOSE_REFUSED, 0);
-    u = trial_read(&t, PERI_DISPLACEMENT);
+    u = trial_read(&t, PERI_FIELD_DISPLACEMENT);
     trial_pause(&t);
     for (int64_t i = 0; u && i < peri_point_count(t.body); ++i) {
         const double *at = &x[dim * i];
@@ -137,7 +139,7 @@ double work_cantilever(const knobs *k) {
 
 /* A hole of radius 1 in an infinite plate under tension along y: Kirsch's displacements on a frame two horizons wide outside of a square
    of half side 3, plane stress. Families at the rim lie on one side and average over a horizon, and the rim is made of cells, so what is
-   compared is the stress (PERI_STRESS) of all points 1.3 to 2.5 radii from the middle. Error: the root of the mean square of what it is
+   compared is the stress (PERI_FIELD_STRESS) of all points 1.3 to 2.5 radii from the middle. Error: the root of the mean square of what it is
    off, over that of Kirsch's. (What comes to the rim itself by extrapolation, the factor 3, has up to 1.2/across of the cells in it,
    of either sign, whatever the law: tests/test_hole.c.) */
 static const double far_stress = 1e-4;
@@ -170,7 +172,7 @@ static int32_t in_frame(void *user, int64_t index, const double *x) {
     return fmax(fabs(x[0]), fabs(x[1])) > 3;
 }
 
-static void kirsch_support(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t kirsch_support(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const beam *plate = (const beam *)user;
     double sigma[3];
     for (int64_t k = 0; k < count; ++k) {
@@ -178,11 +180,12 @@ static void kirsch_support(void *user, double time, int64_t count, const int32_t
         value[2 * k] *= time;
         value[2 * k + 1] *= time;
     }
+    return 0;
 }
 
 outcome run_hole(const knobs *k) {
     const double h = 1 / k->across, side = 3 + 2 * ceil(k->m) * h, lo[2] = { -side, -side }, hi[2] = { side, side };
-    const peri_material material = trial_material(k);
+    const peri_material_desc material = trial_material(k);
     beam plate = { NULL, k->poisson, 0, 2 };
     double *x, *sigma, off = 0, all = 0;
     int32_t frame = -1;
@@ -190,12 +193,12 @@ outcome run_hole(const knobs *k) {
     trial_create(&t, k, h, &material);
     trial_build(&t, lo, hi, h, outside_hole);
     trial_pause(&t);
-    plate.x = x = trial_read(&t, PERI_POSITION);
+    plate.x = x = trial_read(&t, PERI_FIELD_POSITION);
     trial_resume(&t);
     if (trial_fine(&t)) trial_note(&t, frame = peri_select_if(t.body, NULL, in_frame, NULL));
-    if (trial_fine(&t)) trial_note(&t, peri_prescribe_displacement(t.body, frame, PERI_X | PERI_Y, NULL, kirsch_support, &plate));
+    if (trial_fine(&t)) trial_note(&t, peri_prescribe_displacement(t.body, frame, PERI_AXIS_X | PERI_AXIS_Y, NULL, kirsch_support, &plate));
     trial_solve(&t, PERI_LOOSE_REFUSED, 0);
-    sigma = trial_read(&t, PERI_STRESS);
+    sigma = trial_read(&t, PERI_FIELD_STRESS);
     trial_pause(&t);
     for (int64_t i = 0; sigma && i < peri_point_count(t.body); ++i) {
         const double r = hypot(x[2 * i], x[2 * i + 1]);
@@ -246,7 +249,7 @@ static outcome grow(const knobs *k, int edges) {
     const double h = 1 / k->across, b = crack_half_width(k, edges), deep = 2 * k->m * h, length = edges ? 1 : 0.5;
     const double lo[2] = { -b, -2 * b }, hi[2] = { b, 2 * b }, up[2] = { 0, 1 }, down[2] = { 0, -1 };
     const double pull[2] = { 0, far_stress }, push[2] = { 0, -far_stress };
-    const peri_material material = trial_material(k);
+    const peri_material_desc material = trial_material(k);
     double (*rate)(double, double) = edges ? edge_rate : middle_rate;
     double energy[2] = { 0, 0 }, want;
     trial t;
@@ -257,15 +260,15 @@ static outcome grow(const knobs *k, int edges) {
         peri_energy ledger;
         for (int side = -1; side <= 1; side += 2) {
             const double from[2] = { edges ? side * 2 * b : 0, 0 }, to[2] = { edges ? side * (b - end) : side * end, 0 };
-            if (trial_fine(&t)) trial_note(&t, peri_cut_segment(t.body, from, to));
+            if (trial_fine(&t)) trial_note(&t, peri_cut_segment(t.body, PERI_CUT_INITIAL, from, to));
         }
         if (longer == 0) {
             const int32_t top = trial_box(&t, -b, 2 * b - deep, b, 2 * b), bottom = trial_box(&t, -b, -2 * b, b, deep - 2 * b);
-            if (trial_fine(&t)) trial_note(&t, peri_apply_surface_traction(t.body, top, 2 * b, up, pull, NULL, NULL));
-            if (trial_fine(&t)) trial_note(&t, peri_apply_surface_traction(t.body, bottom, 2 * b, down, push, NULL, NULL));
+            if (trial_fine(&t)) trial_note(&t, peri_apply_traction(t.body, top, 2 * b, up, pull, NULL, NULL));
+            if (trial_fine(&t)) trial_note(&t, peri_apply_traction(t.body, bottom, 2 * b, down, push, NULL, NULL));
         }
         trial_solve(&t, PERI_LOOSE_PINNED, longer);
-        if (trial_fine(&t)) trial_note(&t, peri_read_energy(t.body, &ledger));
+        if (trial_fine(&t)) trial_note(&t, peri_get_energy(t.body, &ledger));
         if (trial_fine(&t)) energy[longer] = ledger.elastic;
     }
     trial_pause(&t);

@@ -9,11 +9,11 @@ static const double STEP = 1.3;     /* from row to row of a front, where each is
 static const double PER_BOND[5] = { 0, 1.5e-9, 2.5e-9, 3.5e-9, 4e-9 }; /* [s] about, by law                              */
 
 static const int32_t laws[CORRECTIONS][2] = {
-    { PERI_BOND_BASED, PERI_NO_CORRECTION },     { PERI_BOND_BASED, PERI_VOLUME_CORRECTION },
-    { PERI_BOND_BASED, PERI_ENERGY_CORRECTION }, { PERI_BOND_BASED, PERI_MOMENT_CORRECTION },
-    { PERI_LPS, PERI_NO_CORRECTION },            { PERI_LPS, PERI_MOMENT_CORRECTION },
-    { PERI_OTERKUS, PERI_NO_CORRECTION },        { PERI_OTERKUS, PERI_MOMENT_CORRECTION },
-    { PERI_CORRESPONDENCE, PERI_NO_CORRECTION }, { PERI_CORRESPONDENCE, PERI_MOMENT_CORRECTION }
+    { PERI_LAW_BOND_BASED, PERI_CORRECTION_NONE },     { PERI_LAW_BOND_BASED, PERI_CORRECTION_VOLUME },
+    { PERI_LAW_BOND_BASED, PERI_CORRECTION_ENERGY }, { PERI_LAW_BOND_BASED, PERI_CORRECTION_MOMENT },
+    { PERI_LAW_LPS, PERI_CORRECTION_NONE },            { PERI_LAW_LPS, PERI_CORRECTION_MOMENT },
+    { PERI_LAW_OTERKUS, PERI_CORRECTION_NONE },        { PERI_LAW_OTERKUS, PERI_CORRECTION_MOMENT },
+    { PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE }, { PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_MOMENT }
 };
 
 static int same(double a, double b) { return fabs(a - b) < 1e-9 * (1 + fabs(a)); }
@@ -142,7 +142,7 @@ static void main_grid(table *t) {
         for (int m = 0; m < (tied(p) ? 1 : ratios); ++m)
             for (int a = 0; a < p->usual && p->across[a] > 0; ++a)
                 for (int w = 0; w < (p->product ? 7 : 1); ++w)
-                    for (int32_t q = PERI_FULL_VOLUME; q <= (p->product ? PERI_PARTIAL_MOMENT : PERI_FULL_VOLUME); ++q) {
+                    for (int32_t q = PERI_QUADRATURE_FULL; q <= (p->product ? PERI_QUADRATURE_PARTIAL_MOMENT : PERI_QUADRATURE_FULL); ++q) {
                         knobs k = knobs_of(p, laws[law][0], tied(p) ? p->across[a] : p->ratio[m], p->across[a]);
                         k.correction = laws[law][1];
                         k.influence = shapes[w];
@@ -157,14 +157,14 @@ static int vary(const problem *p, int knob, int choice, knobs *k) {
                                       PERI_INFLUENCE_POWER_3, PERI_INFLUENCE_GAUSSIAN, PERI_INFLUENCE_INVERSE };
     static const double tolerances[] = { 1e-2, 1e-3, 1e-4, 1e-6, 1e-10 }, safeties[] = { 0.3, 0.5, 0.7, 1.0 };
     static const double stiff[] = { 0.1, 0.4, 0.8 };
-    if (knob == 0 && choice < 2) k->precision = choice ? PERI_F32 : PERI_MIXED;
+    if (knob == 0 && choice < 2) k->precision = choice ? PERI_PRECISION_SINGLE : PERI_PRECISION_MIXED;
     else if (knob == 1 && choice < 6) k->influence = shapes[choice];
-    else if (knob == 2 && choice < (k->space == PERI_SOLID ? 2 : 4)) k->quadrature = PERI_VOLUME_RAMP + choice;
-    else if (knob == 3 && choice < 1) k->geometry = p->moves ? PERI_LINEAR : PERI_NONLINEAR;
-    else if (knob == 4 && choice < 3 && k->law == PERI_CORRESPONDENCE) k->stabilization = stiff[choice];
+    else if (knob == 2 && choice < (k->space == PERI_SPACE_SOLID ? 2 : 4)) k->quadrature = PERI_QUADRATURE_RAMP + choice;
+    else if (knob == 3 && choice < 1) k->geometry = p->moves ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR;
+    else if (knob == 4 && choice < 3 && k->law == PERI_LAW_CORRESPONDENCE) k->stabilization = stiff[choice];
     else if (knob == 5 && choice < 5 && !p->moves && p->run != run_uniform) k->tolerance = tolerances[choice];
     else if (knob == 6 && choice < 4 && p->moves) k->safety = safeties[choice];
-    else if (knob == 7 && choice < 1 && p->moves) k->integrator = PERI_CENTRAL_DIFFERENCE;
+    else if (knob == 7 && choice < 1 && p->moves) k->integrator = PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     else return 0;
     return 1;
 }
@@ -301,15 +301,15 @@ void table_csv(const table *t, FILE *file) {
         const outcome *o = &r->out;
         fprintf(file, "%s,%s,%s,%s,%g,%g,%s,%s,%s,%s,", t->p->name, space_name[k->space], law_name[k->law], correction_name[k->correction],
                 k->m, k->across, influence_name[k->influence], quadrature_name[k->quadrature], precision_name[k->precision],
-                k->geometry == PERI_LINEAR ? "linear" : "nonlinear");
-        if (k->law == PERI_CORRESPONDENCE) fprintf(file, "%g", k->stabilization < 0 ? 0.2 : k->stabilization);
+                k->geometry == PERI_GEOMETRY_LINEAR ? "linear" : "nonlinear");
+        if (k->law == PERI_LAW_CORRESPONDENCE) fprintf(file, "%g", k->stabilization < 0 ? 0.2 : k->stabilization);
         fprintf(file, ",");
         if (!t->p->moves && t->p->run != run_uniform) {
             if (k->tolerance > 0) fprintf(file, "%g", k->tolerance);
             else fprintf(file, "default");
         }
         fprintf(file, ",");
-        if (t->p->moves) fprintf(file, "%s,%g,", k->integrator == PERI_VELOCITY_VERLET ? "Verlet" : "central difference", k->safety);
+        if (t->p->moves) fprintf(file, "%s,%g,", k->integrator == PERI_INTEGRATOR_VELOCITY_VERLET ? "Verlet" : "central difference", k->safety);
         else fprintf(file, ",,");
         fprintf(file, "%.6g,%lld,%lld,%lld,", k->poisson, (long long)o->points, (long long)o->bonds, (long long)o->bytes);
         if (o->status == PERI_OK) fprintf(file, "%.4g,%.4g,%.4g,", o->seconds, o->error, r->guarded);
@@ -319,15 +319,15 @@ void table_csv(const table *t, FILE *file) {
 }
 
 void name_series(const knobs *k, int32_t moves, char *text, size_t capacity) {
-    const knobs usual = { k->space, k->law, PERI_NO_CORRECTION, PERI_INFLUENCE_CONSTANT, PERI_FULL_VOLUME, PERI_F64,
-                          moves ? PERI_NONLINEAR : PERI_LINEAR, PERI_VELOCITY_VERLET, k->m, k->across, k->poisson, -1, 0, 0.9 };
+    const knobs usual = { k->space, k->law, PERI_CORRECTION_NONE, PERI_INFLUENCE_CONSTANT, PERI_QUADRATURE_FULL, PERI_PRECISION_DOUBLE,
+                          moves ? PERI_GEOMETRY_NONLINEAR : PERI_GEOMETRY_LINEAR, PERI_INTEGRATOR_VELOCITY_VERLET, k->m, k->across, k->poisson, -1, 0, 0.9 };
     int n = snprintf(text, capacity, "%s, m = %g", law_name[k->law], k->m);
 #define ADD(...) do { if (n >= 0 && (size_t)n < capacity) n += snprintf(text + n, capacity - (size_t)n, __VA_ARGS__); } while (0)
     if (k->correction != usual.correction) ADD(", %s correction", correction_name[k->correction]);
     if (k->influence != usual.influence) ADD(", %s", influence_name[k->influence]);
     if (k->quadrature != usual.quadrature) ADD(", %s volumes", quadrature_name[k->quadrature]);
     if (k->precision != usual.precision) ADD(", %s", precision_name[k->precision]);
-    if (k->geometry != usual.geometry) ADD(", %s geometry", k->geometry == PERI_LINEAR ? "linear" : "nonlinear");
+    if (k->geometry != usual.geometry) ADD(", %s geometry", k->geometry == PERI_GEOMETRY_LINEAR ? "linear" : "nonlinear");
     if (k->stabilization >= 0) ADD(", stabilization %g", k->stabilization);
     if (k->tolerance > 0) ADD(", tolerance %g", k->tolerance);
     if (!same(k->safety, usual.safety)) ADD(", safety %g", k->safety);

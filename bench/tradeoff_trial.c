@@ -18,13 +18,13 @@ static void give(void *user, void *pointer, uint64_t bytes) {
 
 static double now(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-int dimension_of(const knobs *k) { return k->space == PERI_SOLID ? 3 : 2; }
+int dimension_of(const knobs *k) { return k->space == PERI_SPACE_SOLID ? 3 : 2; }
 
 double family_of(const knobs *k) { return (dimension_of(k) == 3 ? 4.0 / 3.0 * PI * k->m : PI) * k->m * k->m; }
 
 void lame_of(const knobs *k, double *lambda, double *mu) {
     *mu = 0.5 / (1 + k->poisson);
-    *lambda = k->poisson / ((1 + k->poisson) * (k->space == PERI_PLANE_STRESS ? 1 - k->poisson : 1 - 2 * k->poisson));
+    *lambda = k->poisson / ((1 + k->poisson) * (k->space == PERI_SPACE_PLANE_STRESS ? 1 - k->poisson : 1 - 2 * k->poisson));
 }
 
 knobs knobs_of(const problem *p, int32_t law, double m, double across) {
@@ -32,26 +32,26 @@ knobs knobs_of(const problem *p, int32_t law, double m, double across) {
     memset(&k, 0, sizeof k);
     k.space = p->space;
     k.law = law;
-    k.correction = PERI_NO_CORRECTION;
+    k.correction = PERI_CORRECTION_NONE;
     k.influence = PERI_INFLUENCE_CONSTANT;
-    k.quadrature = PERI_FULL_VOLUME;
-    k.precision = PERI_F64;
-    k.geometry = p->moves ? PERI_NONLINEAR : PERI_LINEAR;
-    k.integrator = PERI_VELOCITY_VERLET;
+    k.quadrature = PERI_QUADRATURE_FULL;
+    k.precision = PERI_PRECISION_DOUBLE;
+    k.geometry = p->moves ? PERI_GEOMETRY_NONLINEAR : PERI_GEOMETRY_LINEAR;
+    k.integrator = PERI_INTEGRATOR_VELOCITY_VERLET;
     k.m = m;
     k.across = across;
-    k.poisson = p->space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25;
+    k.poisson = p->space == PERI_SPACE_PLANE_STRESS ? 1.0 / 3.0 : 0.25;
     k.stabilization = -1;
     k.safety = 0.9;
     return k;
 }
 
-peri_material trial_material(const knobs *k) {
-    peri_material m;
-    peri_material_init(&m, k->law);
+peri_material_desc trial_material(const knobs *k) {
+    peri_material_desc m;
+    peri_material_desc_init(&m, k->law);
     m.young = 1;
     m.density = 1;
-    if (k->law != PERI_BOND_BASED) m.poisson = k->poisson;
+    if (k->law != PERI_LAW_BOND_BASED) m.poisson = k->poisson;
     if (k->stabilization >= 0) m.stabilization = k->stabilization;
     return m;
 }
@@ -64,11 +64,11 @@ void trial_note(trial *t, int64_t result) {
     peri_error error;
     if (result >= 0 || !trial_fine(t)) return;
     t->out.status = (int32_t)result;
-    (void)peri_last_error(t->body, &error);
-    (void)peri_error_format(&error, t->out.text, (int64_t)sizeof t->out.text);
+    (void)peri_get_error(t->body, &error);
+    (void)peri_format_error(&error, t->out.text, (int64_t)sizeof t->out.text);
 }
 
-void trial_create(trial *t, const knobs *k, double spacing, const peri_material *material) {
+void trial_create(trial *t, const knobs *k, double spacing, const peri_material_desc *material) {
     peri_body_desc d;
     peri_error error;
     memset(t, 0, sizeof *t);
@@ -89,13 +89,13 @@ void trial_create(trial *t, const knobs *k, double spacing, const peri_material 
     d.release = give;
     t->out.status = peri_body_create(&d, &t->body, &error);
     if (trial_fine(t)) trial_note(t, peri_add_material(t->body, material));
-    else (void)peri_error_format(&error, t->out.text, (int64_t)sizeof t->out.text);
+    else (void)peri_format_error(&error, t->out.text, (int64_t)sizeof t->out.text);
 }
 
 void trial_build(trial *t, const double *lo, const double *hi, double spacing, peri_point_fn inside) {
     if (!trial_fine(t)) return;
-    if (inside) trial_note(t, peri_add_shape(t->body, 0, lo, hi, spacing, inside, NULL));
-    else trial_note(t, peri_add_box(t->body, 0, lo, hi, spacing));
+    if (inside) trial_note(t, peri_add_shape(t->body, peri_id(t->body, PERI_KIND_MATERIAL, 1), lo, hi, spacing, inside, NULL));
+    else trial_note(t, peri_add_box(t->body, peri_id(t->body, PERI_KIND_MATERIAL, 1), lo, hi, spacing));
     if (trial_fine(t)) trial_note(t, peri_build(t->body));
 }
 
@@ -112,17 +112,17 @@ double *trial_read(trial *t, int32_t field) {
     int64_t n;
     double *x;
     if (!trial_fine(t)) return NULL;
-    n = peri_field_size(t->body, field);
+    n = peri_size_of_field(t->body, field);
     x = (double *)calloc((size_t)n, sizeof *x);
     if (!x) exit(1);
-    trial_note(t, peri_read(t->body, field, x, n));
+    trial_note(t, peri_get_field(t->body, field, x, n));
     return x;
 }
 
 void trial_solve(trial *t, int32_t loose, double from) {
-    peri_statics s;
+    peri_solve_desc s;
     if (!trial_fine(t)) return;
-    peri_statics_init(&s);
+    peri_solve_desc_init(&s);
     s.tolerance = t->k->tolerance;
     s.loose = loose;
     s.load_from = from;

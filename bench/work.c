@@ -11,7 +11,7 @@
 typedef struct count { int c, l, q; } count;
 
 typedef struct pass {
-    int32_t     model, list; /* of which law, on the list or on columns                                                         */
+    int32_t     law, list; /* of which law, on the list or on columns                                                         */
     count       add, compare, mul;
     int         root, div;
     count       wide; /* of `add`, in mixed precision those in double: differences of the state, and sums                        */
@@ -20,35 +20,35 @@ typedef struct pass {
 
 static const pass passes[] = {
     /* y = xi + eta: D + D; 2 xi + eta: D; (2 xi + eta).eta and y.y: 2 (D - 1) | 2 D */
-    { PERI_BOND_BASED, 0, { -2, 5, 0 }, { 0, 0, 0 }, { 0, 2, 0 }, 1, 0, { 0, 1, 0 }, "eta, y, along = (2 xi + eta).eta, |y|" },
-    { PERI_BOND_BASED, 0, { 2, 1, 0 }, { 1, 0, 0 }, { 4, 1, 0 }, 0, 1, { 0, 1, 0 },
+    { PERI_LAW_BOND_BASED, 0, { -2, 5, 0 }, { 0, 0, 0 }, { 0, 2, 0 }, 1, 0, { 0, 1, 0 }, "eta, y, along = (2 xi + eta).eta, |y|" },
+    { PERI_LAW_BOND_BASED, 0, { 2, 1, 0 }, { 1, 0, 0 }, { 4, 1, 0 }, 0, 1, { 0, 1, 0 },
       "f += c w along/((|y| + |xi|) |xi| |y|) y; along > s0 |xi| (|y| + |xi|)" },
-    { PERI_LPS, 0, { 0, 5, 0 }, { 0, 0, 0 }, { 1, 2, 0 }, 1, 1, { 1, 1, 0 }, "as above; theta += w |xi| along/(|y| + |xi|)" },
-    { PERI_LPS, 0, { -2, 5, 0 }, { 0, 0, 0 }, { 0, 2, 0 }, 1, 0, { 0, 1, 0 }, "eta, y, along, |y| again" },
-    { PERI_LPS, 0, { 5, 1, 0 }, { 1, 0, 0 }, { 6, 1, 0 }, 0, 1, { 0, 1, 0 },
+    { PERI_LAW_LPS, 0, { 0, 5, 0 }, { 0, 0, 0 }, { 1, 2, 0 }, 1, 1, { 1, 1, 0 }, "as above; theta += w |xi| along/(|y| + |xi|)" },
+    { PERI_LAW_LPS, 0, { -2, 5, 0 }, { 0, 0, 0 }, { 0, 2, 0 }, 1, 0, { 0, 1, 0 }, "eta, y, along, |y| again" },
+    { PERI_LAW_LPS, 0, { 5, 1, 0 }, { 1, 0, 0 }, { 6, 1, 0 }, 0, 1, { 0, 1, 0 },
       "f += w ((q_i + q_j) along + (p_i + p_j) |xi| (|y| + |xi|))/((|y| + |xi|) |y|) y; breaking" },
-    { PERI_CORRESPONDENCE, 0, { 0, 1, 1 }, { 0, 0, 0 }, { 0, 1, 1 }, 0, 0, { 0, 1, 1 }, "sum w eta xi" },
-    { PERI_CORRESPONDENCE, 0, { 0, 4, 2 }, { 1, 0, 0 }, { 0, 3, 1 }, 0, 0, { 0, 2, 0 },
+    { PERI_LAW_CORRESPONDENCE, 0, { 0, 1, 1 }, { 0, 0, 0 }, { 0, 1, 1 }, 0, 0, { 0, 1, 1 }, "sum w eta xi" },
+    { PERI_LAW_CORRESPONDENCE, 0, { 0, 4, 2 }, { 1, 0, 0 }, { 0, 3, 1 }, 0, 0, { 0, 2, 0 },
       "f += w ((Q_i + Q_j) xi + (k_i + k_j) eta); (2 xi + eta).eta > s0 (2 + s0) |xi|^2" },
     /* on the list xi is made of two places, and |xi| of xi: D + D, and |xi|^2: D - 1 | D */
-    { PERI_BOND_BASED, 1, { -3, 8, 0 }, { 0, 0, 0 }, { 0, 3, 0 }, 2, 0, { 0, 2, 0 }, "xi, eta, y, along, |xi|, |y|" },
-    { PERI_BOND_BASED, 1, { 2, 1, 0 }, { 1, 0, 0 }, { 6, 1, 0 }, 0, 1, { 0, 1, 0 },
+    { PERI_LAW_BOND_BASED, 1, { -3, 8, 0 }, { 0, 0, 0 }, { 0, 3, 0 }, 2, 0, { 0, 2, 0 }, "xi, eta, y, along, |xi|, |y|" },
+    { PERI_LAW_BOND_BASED, 1, { 2, 1, 0 }, { 1, 0, 0 }, { 6, 1, 0 }, 0, 1, { 0, 1, 0 },
       "f += c w along |xi|/(|xi| (|y| + |xi|) |xi| |y|) y; breaking" },
-    { PERI_LPS, 1, { -1, 8, 0 }, { 0, 0, 0 }, { 3, 3, 0 }, 1, 1, { 1, 2, 0 },
+    { PERI_LAW_LPS, 1, { -1, 8, 0 }, { 0, 0, 0 }, { 3, 3, 0 }, 1, 1, { 1, 2, 0 },
       "xi, eta, y, along, |xi| |y|; theta += w along |xi|^2/(|xi| |y| + |xi|^2)" },
-    { PERI_LPS, 1, { -3, 8, 0 }, { 0, 0, 0 }, { 0, 3, 0 }, 1, 0, { 0, 2, 0 }, "xi, eta, y, along, |xi| |y| again" },
-    { PERI_LPS, 1, { 5, 1, 0 }, { 1, 0, 0 }, { 10, 1, 0 }, 0, 1, { 0, 1, 0 },
+    { PERI_LAW_LPS, 1, { -3, 8, 0 }, { 0, 0, 0 }, { 0, 3, 0 }, 1, 0, { 0, 2, 0 }, "xi, eta, y, along, |xi| |y| again" },
+    { PERI_LAW_LPS, 1, { 5, 1, 0 }, { 1, 0, 0 }, { 10, 1, 0 }, 0, 1, { 0, 1, 0 },
       "f += |xi|^2 ((w q_i + w' q_j) along + (w p_i + w' p_j) R)/(R |xi| |y|) y; R = |xi| |y| + |xi|^2; breaking" },
-    { PERI_CORRESPONDENCE, 1, { 0, 2, 1 }, { 0, 0, 0 }, { 0, 1, 1 }, 0, 0, { 0, 2, 1 }, "xi, then as on columns" },
-    { PERI_CORRESPONDENCE, 1, { 0, 5, 2 }, { 1, 0, 0 }, { 0, 3, 1 }, 0, 0, { 0, 3, 0 }, "xi, then as on columns" },
+    { PERI_LAW_CORRESPONDENCE, 1, { 0, 2, 1 }, { 0, 0, 0 }, { 0, 1, 1 }, 0, 0, { 0, 2, 1 }, "xi, then as on columns" },
+    { PERI_LAW_CORRESPONDENCE, 1, { 0, 5, 2 }, { 1, 0, 0 }, { 0, 3, 1 }, 0, 0, { 0, 3, 0 }, "xi, then as on columns" },
 };
 
 static double of(count k, int32_t dim) { return k.c + k.l * dim + k.q * dim * dim; }
 
 /* Bytes of a step per point, and to *set those of its arrays, each once. */
 static double traffic(const bench_case *c, const bench_facts *f, double *set) {
-    const int32_t dim = c->space == PERI_SOLID ? 3 : 2, states = c->model != PERI_BOND_BASED, tensors = c->model == PERI_CORRESPONDENCE;
-    const double state = c->precision == PERI_F32 ? 4 : 8, real = c->precision == PERI_F64 ? 8 : 4; /* of PERI_MIXED 8 and 4 */
+    const int32_t dim = c->space == PERI_SPACE_SOLID ? 3 : 2, states = c->law != PERI_LAW_BOND_BASED, tensors = c->law == PERI_LAW_CORRESPONDENCE;
+    const double state = c->precision == PERI_PRECISION_SINGLE ? 4 : 8, real = c->precision == PERI_PRECISION_DOUBLE ? 8 : 4; /* of PERI_PRECISION_MIXED 8 and 4 */
     const double family = (double)f->bonds / (double)f->points;
     const double packed = tensors ? dim * (dim + 1) / 2 : 0, planes = tensors ? dim * dim : 1;
     /* march.inl: the first kick reads and writes u, v, f; the second v, and reads f; a byte of material each. Force: u read, f read and
@@ -71,12 +71,12 @@ static double traffic(const bench_case *c, const bench_facts *f, double *set) {
 }
 
 bench_work work_of(const bench_case *c, const bench_facts *f) {
-    const int32_t dim = c->space == PERI_SOLID ? 3 : 2, list = f->columns == 0;
+    const int32_t dim = c->space == PERI_SPACE_SOLID ? 3 : 2, list = f->columns == 0;
     bench_work w;
     memset(&w, 0, sizeof w);
     for (size_t k = 0; k < sizeof passes / sizeof passes[0]; ++k) {
         const pass *p = &passes[k];
-        if (p->model != c->model || p->list != list) continue;
+        if (p->law != c->law || p->list != list) continue;
         w.add += of(p->add, dim) + of(p->compare, dim);
         w.mul += of(p->mul, dim);
         w.root += p->root;
@@ -102,7 +102,7 @@ void work_print(void) {
     table_open(&t, "out/work.csv", columns, (int)(sizeof columns / sizeof columns[0]));
     for (size_t k = 0; k < sizeof passes / sizeof passes[0]; ++k) {
         const pass *p = &passes[k];
-        put_text(&t, p->model == PERI_BOND_BASED ? "bond-based" : p->model == PERI_LPS ? "LPS" : "correspondence");
+        put_text(&t, p->law == PERI_LAW_BOND_BASED ? "bond-based" : p->law == PERI_LAW_LPS ? "LPS" : "correspondence");
         put_text(&t, p->list ? "list" : "columns");
         put_number(&t, of(p->add, 3));
         put_number(&t, of(p->mul, 3));
@@ -116,7 +116,7 @@ void work_print(void) {
 }
 
 double limit_of(const machine *m, const bench_case *c, const bench_work *w, const char **part) {
-    const int single = c->precision != PERI_F64, rung_most = RUNGS - 1;
+    const int single = c->precision != PERI_PRECISION_DOUBLE, rung_most = RUNGS - 1;
     const double pairs = w->root < w->div ? w->root : w->div, sum = w->add - w->wide + w->mul;
     double limit = 0.0, flow, time[3];
     static const char *const names[3] = { "bytes", "roots", "adds" };

@@ -16,25 +16,25 @@ int main(void) {
     const double left[2] = {-0.5 * span, 0.5 * h}, right[2] = {0.5 * span, 0.5 * h}, top[2] = {0, depth - 0.5 * h};
     const double down[2] = {0, -deflection};
     peri_body_desc desc;
-    peri_material concrete;
-    peri_statics statics;
+    peri_material_desc concrete;
+    peri_solve_desc statics;
     peri_energy e;
     double peak = 0;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_PLANE_STRESS;
-    desc.geometry = PERI_LINEAR; /* the deflection is 1/10000 of the span                                                  */
+    desc.space = PERI_SPACE_PLANE_STRESS;
+    desc.geometry = PERI_GEOMETRY_LINEAR; /* the deflection is 1/10000 of the span                                                  */
     desc.horizon = 3 * h;
     desc.thickness = thickness;
     desc.threads = 1; /* few points: threads would wait for each other                                                     */
     peri_body *beam = must_create(&desc);
-    peri_material_init(&concrete, PERI_BOND_BASED);
+    peri_material_desc_init(&concrete, PERI_LAW_BOND_BASED);
     concrete.young = young;
     concrete.density = 2400;
     concrete.fracture_energy = fracture_energy;
     must(beam, peri_add_box(beam, must(beam, peri_add_material(beam, &concrete)), lo, hi, h)); /* 124 x 30 points          */
     must(beam, peri_build(beam));
-    must(beam, peri_cut_segment(beam, below, tip));
+    must(beam, peri_cut_segment(beam, PERI_CUT_INITIAL, below, tip));
 
     /* Two points carry the beam and two push it down: nothing breaks within a horizon of them. */
     must(beam, peri_set_no_fail(beam, must(beam, peri_select_ball(beam, "by the left support", left, 3 * h)), 1));
@@ -43,11 +43,11 @@ int main(void) {
     const int32_t hinge = must(beam, peri_select_ball(beam, "left support", left, 0.6 * h));
     const int32_t roller = must(beam, peri_select_ball(beam, "right support", right, 0.6 * h));
     const int32_t pushed = must(beam, peri_select_ball(beam, "load", top, 0.6 * h));
-    must(beam, peri_prescribe_displacement(beam, hinge, PERI_X | PERI_Y, NULL, NULL, NULL));
-    must(beam, peri_prescribe_displacement(beam, roller, PERI_Y, NULL, NULL, NULL));
-    const int32_t load = must(beam, peri_prescribe_displacement(beam, pushed, PERI_Y, down, NULL, NULL));
+    must(beam, peri_prescribe_displacement(beam, hinge, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+    must(beam, peri_prescribe_displacement(beam, roller, PERI_AXIS_Y, NULL, NULL, NULL));
+    const int32_t load = must(beam, peri_prescribe_displacement(beam, pushed, PERI_AXIS_Y, down, NULL, NULL));
 
-    peri_statics_init(&statics);
+    peri_solve_desc_init(&statics);
     statics.steps = STEPS;
     statics.curve_load = load;
     statics.curve = curve[0];
@@ -66,13 +66,13 @@ int main(void) {
     const double f = 3 * sqrt(notch) * (1.99 - notch * (1 - notch) * (2.15 - 3.93 * notch + 2.7 * notch * notch)) /
                      (2 * (1 + 2 * notch) * pow(1 - notch, 1.5)); /* ASTM E399, span = 4 depths                            */
     const double griffith = sqrt(young * fracture_energy) * thickness * pow(depth, 1.5) / (span * f);
-    must(beam, peri_read_energy(beam, &e));
+    must(beam, peri_get_energy(beam, &e));
     printf("peak load %.0f N; linear fracture mechanics, for a sharp crack and no lattice: %.0f N\n", peak, griffith);
     printf("at %.0f um the load is down to %.0f N\n", -1e6 * curve[STEPS - 1][2], -curve[STEPS - 1][4]);
     /* 18 bonds cross the middle per row of points at horizon 3 h. More than G0 is lost as the crack leaps from row to row. */
     printf("the crack took %.1f mJ, %.1f mJ of it in bonds; G0 times its area is %.1f mJ\n", 1e3 * (e.external - e.elastic),
            1e3 * e.fracture, 1e3 * fracture_energy * thickness * h * curve[STEPS - 1][5] / 18);
-    must(beam, picture_field("out/bending.png", beam, PERI_DAMAGE, 0, 0.6, 1300, 300));
+    must(beam, picture_field("out/bending.png", beam, PERI_FIELD_DAMAGE, 0, 0.6, 1300, 300));
     peri_body_destroy(beam);
     return 0;
 }

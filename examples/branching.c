@@ -10,7 +10,7 @@
 static int32_t watch(void *user, peri_body *body) {
     (void)user;
     progress("branching", body, 642 * 67e-9);
-    must(body, peri_save_history(body, "out/branching.csv", 1));
+    must(body, peri_export_history(body, "out/branching.csv", 1));
     return 0; /* go on */
 }
 
@@ -21,43 +21,43 @@ int main(void) {
     const double upper_zone[2] = {-lx, ly - horizon}, lower_zone[2] = {lx, horizon - ly};
     const clock_t start = clock();
     peri_body_desc desc;
-    peri_material glass;
-    peri_run run;
+    peri_material_desc glass;
+    peri_advance_desc run;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_PLANE_STRESS;
+    desc.space = PERI_SPACE_PLANE_STRESS;
     desc.horizon = horizon;
     peri_body *pane = must_create(&desc);
-    peri_material_init(&glass, PERI_BOND_BASED);
+    peri_material_desc_init(&glass, PERI_LAW_BOND_BASED);
     glass.young = 72e9;          /* [Pa] */
     glass.density = 2440;        /* [kg/m^3] */
     glass.fracture_energy = 3.8; /* [J/m^2] */
     must(pane, peri_add_box(pane, must(pane, peri_add_material(pane, &glass)), lo, hi, h)); /* 300 x 120 points */
     must(pane, peri_build(pane));
-    must(pane, peri_cut_segment(pane, edge, middle));
+    must(pane, peri_cut_segment(pane, PERI_CUT_INITIAL, edge, middle));
 
     /* The load acts on the outermost rows, each 0.1 m long; bonds near them must not break, or the rows come off. */
     const int32_t upper = must(pane, peri_select_box(pane, "upper row", upper_row, hi));
     const int32_t lower = must(pane, peri_select_box(pane, "lower row", lo, lower_row));
-    must(pane, peri_apply_traction(pane, upper, 0.1, up, NULL, NULL));
-    must(pane, peri_apply_traction(pane, lower, 0.1, down, NULL, NULL));
+    must(pane, peri_apply_layer_traction(pane, upper, 0.1, up, NULL, NULL));
+    must(pane, peri_apply_layer_traction(pane, lower, 0.1, down, NULL, NULL));
     must(pane, peri_set_no_fail(pane, must(pane, peri_select_box(pane, "upper zone", upper_zone, hi)), 1));
     must(pane, peri_set_no_fail(pane, must(pane, peri_select_box(pane, "lower zone", lo, lower_zone)), 1));
 
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.time_step = 67e-9; /* [s], 642 steps: 43 us */
     run.steps = 642;
     run.frame_steps = 20;
     run.on_frame = watch;
-    must(pane, peri_save_history(pane, "out/branching.csv", 0));
+    must(pane, peri_export_history(pane, "out/branching.csv", 0));
     must(pane, peri_advance(pane, &run));
 
     printf("%ld points, %ld bonds, %ld cut, %ld broken in %ld steps; %.2f s of processor time\n",
            (long)peri_point_count(pane), (long)(peri_bond_count(pane) / 2), (long)peri_cut_count(pane),
            (long)peri_broken_count(pane), (long)peri_step_count(pane), (double)(clock() - start) / CLOCKS_PER_SEC);
     print_energy(pane);
-    must(pane, picture_field("out/branching.png", pane, PERI_DAMAGE, 0, 0.6, 1300, 20));
-    must(pane, peri_save_vtu(pane, "out/branching.vtu"));
+    must(pane, picture_field("out/branching.png", pane, PERI_FIELD_DAMAGE, 0, 0.6, 1300, 20));
+    must(pane, peri_export_vtu(pane, "out/branching.vtu"));
     peri_body_destroy(pane);
     return 0;
 }

@@ -10,12 +10,12 @@
 int main(void) {
     const double horizon = 6e-3, duration = 0.25e-3;      /* [m], [s]                                                    */
     const double most_bytes = 50e6, most_step = 35e-3;    /* the budget: while it is built, and [s] of one core per step */
-    const int32_t precisions[2] = {PERI_F32, PERI_F64};
+    const int32_t precisions[2] = {PERI_PRECISION_SINGLE, PERI_PRECISION_DOUBLE};
     const char *names[2] = {"single", "double"};
     double spacing = 0.0;
     int chosen = -1;
-    peri_material concrete;
-    peri_material_init(&concrete, PERI_LPS);
+    peri_material_desc concrete;
+    peri_material_desc_init(&concrete, PERI_LAW_LPS);
     concrete.young = 30e9; /* [Pa] */
     concrete.poisson = 0.2;
     concrete.density = 2400;        /* [kg/m^3] */
@@ -29,7 +29,7 @@ int main(void) {
         peri_plan_report cost;
         peri_error error;
         peri_body_desc_init(&desc);
-        desc.space = PERI_SOLID;
+        desc.space = PERI_SPACE_SOLID;
         desc.horizon = horizon;
         desc.precision = precisions[which];
         peri_plan_desc_init(&plan);
@@ -41,7 +41,7 @@ int main(void) {
         plan.measure = 1; /* builds a small body of this kind and advances it: a tenth of a second */
         if (peri_plan(&plan, &cost, &error) < 0) stop(&error);
 
-        const double steps = ceil(duration / (0.9 * cost.stable_step)); /* 0.9: the default safety of peri_run */
+        const double steps = ceil(duration / (0.9 * cost.stable_step)); /* 0.9: the default safety of peri_advance_desc */
         const int fits = (double)cost.peak <= most_bytes && cost.seconds <= most_step;
         printf("%-9s  %8d  %6ld  %5.2f M  %8.1f  %11.1f  %7.1f  %5.0f  %5.1f%s\n", names[which], spacings, (long)cost.points,
                1e-6 * (double)cost.bonds, 1e-6 * (double)cost.bytes, 1e-6 * (double)cost.peak, 1e3 * cost.seconds, steps,

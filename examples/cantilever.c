@@ -16,20 +16,20 @@ int main(void) {
     const double out[2] = {1, 0}, traction[2] = {0, force / area};
     static double x[ROWS * ALL][2], u[ROWS * ALL][2], stress[ROWS * ALL][3];
     peri_body_desc desc;
-    peri_material steel;
-    peri_statics statics;
-    peri_statics_report report;
+    peri_material_desc steel;
+    peri_solve_desc statics;
+    peri_solve_report report;
     double reaction[2], error = 0;
     int tenth;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_PLANE_STRESS;
+    desc.space = PERI_SPACE_PLANE_STRESS;
     desc.thickness = thickness;
     desc.horizon = horizon;
-    desc.geometry = PERI_LINEAR; /* small displacements: one linear system */
+    desc.geometry = PERI_GEOMETRY_LINEAR; /* small displacements: one linear system */
     desc.influence = PERI_INFLUENCE_POWER_3;
     peri_body *bar = must_create(&desc);
-    peri_material_init(&steel, PERI_CORRESPONDENCE);
+    peri_material_desc_init(&steel, PERI_LAW_CORRESPONDENCE);
     steel.young = young;
     steel.poisson = poisson;
     steel.density = 7850; /* [kg/m^3] */
@@ -38,16 +38,16 @@ int main(void) {
     must(bar, peri_build(bar));
 
     /* The wall holds two horizons of bar: points feel what moves that far away. The force is spread over the end face likewise. */
-    const int32_t held = must(bar, peri_prescribe_displacement(bar, must(bar, peri_select_box(bar, "wall", lo, wall)), PERI_X | PERI_Y,
+    const int32_t held = must(bar, peri_prescribe_displacement(bar, must(bar, peri_select_box(bar, "wall", lo, wall)), PERI_AXIS_X | PERI_AXIS_Y,
                                                                NULL, NULL, NULL));
-    must(bar, peri_apply_surface_traction(bar, must(bar, peri_select_box(bar, "end", end, hi)), depth, out, traction, NULL, NULL));
+    must(bar, peri_apply_traction(bar, must(bar, peri_select_box(bar, "end", end, hi)), depth, out, traction, NULL, NULL));
 
-    peri_statics_init(&statics);
+    peri_solve_desc_init(&statics);
     must(bar, peri_solve(bar, &statics, &report));
-    must(bar, peri_read(bar, PERI_POSITION, x[0], ROWS * ALL * 2));
-    must(bar, peri_read(bar, PERI_DISPLACEMENT, u[0], ROWS * ALL * 2));
-    must(bar, peri_read(bar, PERI_STRESS, stress[0], ROWS * ALL * 3));
-    must(bar, peri_read_reaction(bar, held, reaction));
+    must(bar, peri_get_field(bar, PERI_FIELD_POSITION, x[0], ROWS * ALL * 2));
+    must(bar, peri_get_field(bar, PERI_FIELD_DISPLACEMENT, u[0], ROWS * ALL * 2));
+    must(bar, peri_get_field(bar, PERI_FIELD_STRESS, stress[0], ROWS * ALL * 3));
+    must(bar, peri_get_reaction(bar, held, reaction));
 
     printf("   x [mm]   deflection [mm]   beam theory    stress in row 19 of 20 [MPa]   beam theory\n");
     for (tenth = 1; tenth <= 10; ++tenth) {
@@ -59,7 +59,7 @@ int main(void) {
     }
     printf("The tip goes %.2f %% further than in beam theory; the wall gives %.3f N. %ld iterations.\n", 100 * error, reaction[1],
            (long)report.iterations);
-    must(bar, peri_save_vtu(bar, "out/cantilever.vtu"));
+    must(bar, peri_export_vtu(bar, "out/cantilever.vtu"));
     peri_body_destroy(bar);
     return 0;
 }

@@ -8,13 +8,13 @@
 
 static const double pane[2] = {0.1, 0.04}, crack = 0.02; /* [m] */
 
-static peri_goal goal_of(int32_t preset, double seconds, int64_t bytes) {
-    peri_goal goal;
-    peri_goal_init(&goal);
+static peri_choose_desc goal_of(int32_t preset, double seconds, int64_t bytes) {
+    peri_choose_desc goal;
+    peri_choose_desc_init(&goal);
     goal.preset = preset;
     goal.seconds = seconds; /* of one step, on this machine */
     goal.bytes = bytes;
-    goal.quantity = PERI_FOR_FRACTURE; /* when does the crack run? */
+    goal.quantity = PERI_QUANTITY_FRACTURE; /* when does the crack run? */
     goal.feature = crack;              /* the length that the resolution goes by */
     goal.hi[0] = pane[0];
     goal.hi[1] = pane[1];
@@ -23,18 +23,18 @@ static peri_goal goal_of(int32_t preset, double seconds, int64_t bytes) {
 
 int main(void) {
     const char *names[6] = {"game", "teaching", "engineering", "reference", "0.3 ms per step", "1 MB"};
-    const peri_goal goals[6] = {goal_of(PERI_PRESET_GAME, 0, 0),        goal_of(PERI_PRESET_TEACHING, 0, 0),
+    const peri_choose_desc goals[6] = {goal_of(PERI_PRESET_GAME, 0, 0),        goal_of(PERI_PRESET_TEACHING, 0, 0),
                                 goal_of(PERI_PRESET_ENGINEERING, 0, 0), goal_of(PERI_PRESET_REFERENCE, 0, 0),
                                 goal_of(0, 0.3e-3, 0),                  goal_of(0, 0, 1000000)};
     peri_body_desc desc;
-    peri_material glass;
-    peri_choice choice;
+    peri_material_desc glass;
+    peri_choose_report choice;
     peri_error error;
     printf("%-16s  error  spacing   points     MB  choice\n", "goal");
     for (int k = 0; k < 6; ++k) {
         peri_body_desc_init(&desc);
-        desc.space = PERI_PLANE_STRESS;
-        peri_material_init(&glass, PERI_LPS);
+        desc.space = PERI_SPACE_PLANE_STRESS;
+        peri_material_desc_init(&glass, PERI_LAW_LPS);
         glass.young = 72e9; /* [Pa] */
         glass.poisson = 0.22;
         glass.density = 2440;        /* [kg/m^3] */
@@ -50,10 +50,10 @@ int main(void) {
     if (peri_body_create(&desc, &body, &error) < 0) stop(&error);
     peri_add_box(body, peri_add_material(body, &glass), lo, pane, choice.spacing);
     if (peri_build(body) < 0) {
-        peri_last_error(body, &error);
+        peri_get_error(body, &error);
         stop(&error);
     }
-    printf("built: %ld points, %ld bonds cut, step %.0f ns\n", (long)peri_point_count(body), (long)peri_cut_segment(body, edge, tip),
+    printf("built: %ld points, %ld bonds cut, step %.0f ns\n", (long)peri_point_count(body), (long)peri_cut_segment(body, PERI_CUT_INITIAL, edge, tip),
            1e9 * peri_stable_step(body));
     peri_body_destroy(body);
     return 0;

@@ -17,18 +17,18 @@ int main(void) {
     const double up[2] = {0, 0.5}, down[2] = {0, -0.5};                                                /* [m/s] */
     const double lower[2] = {0, 0}, upper[2] = {3 * pitch, side}, foot[2] = {3 * pitch, horizon}, head[2] = {0, side - horizon};
     peri_body_desc desc;
-    peri_run run;
+    peri_advance_desc run;
     int k;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_PLANE_STRESS;
+    desc.space = PERI_SPACE_PLANE_STRESS;
     desc.thickness = 5e-3;
     desc.horizon = horizon;
     peri_body *plates = must_create(&desc);
     for (k = 0; k < 3; ++k) {
         const double lo[2] = {k * pitch, 0}, hi[2] = {k * pitch + side, side};
-        peri_material plexiglas;
-        peri_material_init(&plexiglas, PERI_LPS);
+        peri_material_desc plexiglas;
+        peri_material_desc_init(&plexiglas, PERI_LAW_LPS);
         plexiglas.young = 2.94e9; /* [Pa] */
         plexiglas.poisson = 0.38;
         plexiglas.density = 1180;        /* [kg/m^3] */
@@ -40,16 +40,16 @@ int main(void) {
     for (k = 0; k < 3; ++k) { /* a notch in the middle, at 45 degrees */
         const double x = k * pitch + side / 2, y = side / 2, half = 0.008;
         const double from[2] = {x - half, y - half}, to[2] = {x + half, y + half};
-        must(plates, peri_cut_segment(plates, from, to));
+        must(plates, peri_cut_segment(plates, PERI_CUT_INITIAL, from, to));
     }
     const int32_t top = must(plates, peri_select_box(plates, "top", head, upper));
     const int32_t bottom = must(plates, peri_select_box(plates, "bottom", lower, foot));
-    must(plates, peri_prescribe_velocity(plates, top, PERI_X | PERI_Y, up, NULL, NULL));
-    must(plates, peri_prescribe_velocity(plates, bottom, PERI_X | PERI_Y, down, NULL, NULL));
+    must(plates, peri_prescribe_velocity(plates, top, PERI_AXIS_X | PERI_AXIS_Y, up, NULL, NULL));
+    must(plates, peri_prescribe_velocity(plates, bottom, PERI_AXIS_X | PERI_AXIS_Y, down, NULL, NULL));
     must(plates, peri_set_no_fail(plates, top, 1));
     must(plates, peri_set_no_fail(plates, bottom, 1));
 
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.duration = duration;
     run.frame_steps = 10;
     run.on_frame = watch;
@@ -57,8 +57,8 @@ int main(void) {
     must(plates, peri_advance(plates, &run));
     printf("%ld bonds broken in %ld steps\n", (long)peri_broken_count(plates), (long)peri_step_count(plates));
     print_energy(plates);
-    must(plates, picture_field("out/criteria.png", plates, PERI_DAMAGE, 0, 0.6, 1000, 3));
-    must(plates, peri_save_vtu(plates, "out/criteria.vtu"));
+    must(plates, picture_field("out/criteria.png", plates, PERI_FIELD_DAMAGE, 0, 0.6, 1000, 3));
+    must(plates, peri_export_vtu(plates, "out/criteria.vtu"));
     peri_body_destroy(plates);
     return 0;
 }

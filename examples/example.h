@@ -14,7 +14,7 @@
 /* Ends the program with the text of an error record. */
 static inline void stop(const peri_error *error) {
     char text[256] = "";
-    (void)peri_error_format(error, text, (int64_t)sizeof text);
+    (void)peri_format_error(error, text, (int64_t)sizeof text);
     fprintf(stderr, "\nerror %ld: %s\n", (long)error->code, text);
     exit(EXIT_FAILURE);
 }
@@ -24,7 +24,7 @@ static inline void stop(const peri_error *error) {
 static inline int32_t must(const peri_body *body, int64_t result) {
     if (result < 0) {
         peri_error error = {0};
-        if (body == NULL || peri_last_error(body, &error) < 0 || error.code != (int32_t)result) {
+        if (body == NULL || peri_get_error(body, &error) < 0 || error.code != (int32_t)result) {
             error.code = (int32_t)result; /* an error without a record of this body, such as that of a picture */
             error.index = -1;
             error.field = "";
@@ -57,7 +57,7 @@ static inline void progress(const char *label, const peri_body *body, double dur
 /* The ledger: what came in = what is still there + what was used up + what the time step left open. */
 static inline void print_energy(peri_body *body) {
     peri_energy e;
-    (void)must(body, peri_read_energy(body, &e));
+    (void)must(body, peri_get_energy(body, &e));
     printf("energy [J]   in:   initial %.4e   external %.4e   obstacle %.4e\n", e.initial, e.external, e.obstacle);
     printf("             has:  kinetic %.4e   elastic  %.4e\n", e.kinetic, e.elastic);
     printf("             used: fracture %.4e  damping  %.4e\n", e.fracture, e.damping);

@@ -21,16 +21,16 @@ int main(void) {
     const double left_end[2] = {lo[0] + 6 * h, hi[1]}, right_end[2] = {hi[0] - 6 * h, lo[1]}, width = 2 * hi[1];
     const double right[2] = {1, 0}, left[2] = {-1, 0}, pull_right[2] = {far_stress, 0}, pull_left[2] = {-far_stress, 0};
     peri_body_desc desc;
-    peri_material steel;
-    peri_statics statics;
-    peri_statics_report report;
+    peri_material_desc steel;
+    peri_solve_desc statics;
+    peri_solve_report report;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_PLANE_STRESS;
-    desc.geometry = PERI_LINEAR; /* small strains                                                                          */
+    desc.space = PERI_SPACE_PLANE_STRESS;
+    desc.geometry = PERI_GEOMETRY_LINEAR; /* small strains                                                                          */
     desc.horizon = 3 * h;
     peri_body *strip = must_create(&desc);
-    peri_material_init(&steel, PERI_CORRESPONDENCE);
+    peri_material_desc_init(&steel, PERI_LAW_CORRESPONDENCE);
     steel.young = 200e9;
     steel.poisson = 0.3;
     steel.density = 7850;
@@ -40,17 +40,17 @@ int main(void) {
     /* On the ends: spread over the two horizons that feel them, such that a strip without a hole would be strained evenly. */
     const int32_t at_left = must(strip, peri_select_box(strip, "left end", lo, left_end));
     const int32_t at_right = must(strip, peri_select_box(strip, "right end", right_end, hi));
-    must(strip, peri_apply_surface_traction(strip, at_left, width, left, pull_left, NULL, NULL));
-    must(strip, peri_apply_surface_traction(strip, at_right, width, right, pull_right, NULL, NULL));
-    peri_statics_init(&statics);
+    must(strip, peri_apply_traction(strip, at_left, width, left, pull_left, NULL, NULL));
+    must(strip, peri_apply_traction(strip, at_right, width, right, pull_right, NULL, NULL));
+    peri_solve_desc_init(&statics);
     statics.loose = PERI_LOOSE_PINNED; /* nothing holds the strip: the loads balance each other                            */
     must(strip, peri_solve(strip, &statics, &report));
 
     const int64_t n = peri_point_count(strip);
     double *x = (double *)malloc((size_t)n * 2 * sizeof *x), *stress = (double *)malloc((size_t)n * 3 * sizeof *x);
     if (x == NULL || stress == NULL) return 1;
-    must(strip, peri_read(strip, PERI_POSITION, x, 2 * n));
-    must(strip, peri_read(strip, PERI_STRESS, stress, 3 * n)); /* xx yy xy                                                 */
+    must(strip, peri_get_field(strip, PERI_FIELD_POSITION, x, 2 * n));
+    must(strip, peri_get_field(strip, PERI_FIELD_STRESS, stress, 3 * n)); /* xx yy xy                                                 */
     printf("%ld points, %ld iterations\n", (long)n, (long)report.iterations);
     printf("  r/a   stress/S   Kirsch   Kirsch with the width\n");
     for (int64_t i = 0, row = 0; i < n; ++i) { /* the column at x = h/2, upwards                                            */

@@ -10,10 +10,11 @@ static const double h = 2e-3, radius = 10e-3, speed = 5, duration = 90e-6; /* [m
 
 /* The centre of the ball at a time. It comes from below and meets the lowest points, which lie h/2 inside the face
    z = 0 of the plate, at t = 0. */
-static void ball_place(void *user, double time, double *place) {
+static int32_t ball_place(void *user, double time, double *place) {
     (void)user;
     place[0] = place[1] = 0;
     place[2] = speed * time - radius + h / 2;
+    return 0;
 }
 
 static int32_t on_rim(void *user, int64_t index, const double *x) {
@@ -29,7 +30,7 @@ typedef struct watcher {
 static int32_t watch(void *user, peri_body *plate) {
     watcher *w = (watcher *)user;
     double force[3];
-    must(plate, peri_read_obstacle_force(plate, w->ball, force));
+    must(plate, peri_get_obstacle_force(plate, w->ball, force));
     if (force[2] > w->peak) w->peak = force[2], w->time = peri_time(plate);
     progress("impact", plate, duration);
     return 0;
@@ -40,25 +41,25 @@ int main(void) {
     double place[3];
     watcher w = {0, 0, 0};
     peri_body_desc desc;
-    peri_material glass;
-    peri_run run;
+    peri_material_desc glass;
+    peri_advance_desc run;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_SOLID;
+    desc.space = PERI_SPACE_SOLID;
     desc.horizon = 3 * h;
     peri_body *plate = must_create(&desc);
-    peri_material_init(&glass, PERI_BOND_BASED);
+    peri_material_desc_init(&glass, PERI_LAW_BOND_BASED);
     glass.young = 72e9;          /* [Pa] */
     glass.density = 2440;        /* [kg/m^3] */
     glass.fracture_energy = 135; /* [J/m^2]; for glass, values from 3.8 to 135 are in use */
     must(plate, peri_add_box(plate, must(plate, peri_add_material(plate, &glass)), lo, hi, h));
     must(plate, peri_build(plate));
     must(plate, peri_prescribe_velocity(plate, must(plate, peri_select_if(plate, "rim", on_rim, NULL)),
-                                        PERI_X | PERI_Y | PERI_Z, NULL, NULL, NULL));
+                                        PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z, NULL, NULL, NULL));
     ball_place(NULL, 0, place);
     w.ball = must(plate, peri_add_ball_obstacle(plate, place, radius, 0, ball_place, NULL));
 
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.duration = duration;
     run.frame_steps = 2;
     run.on_frame = watch;
@@ -69,8 +70,8 @@ int main(void) {
     printf("%ld of %ld bonds broken in %ld steps\n", (long)peri_broken_count(plate),
            (long)(peri_bond_count(plate) / 2), (long)peri_step_count(plate));
     print_energy(plate);
-    must(plate, picture_field("out/impact.png", plate, PERI_DAMAGE, 0, 1, 800, 1));
-    must(plate, peri_save_vtu(plate, "out/impact.vtu"));
+    must(plate, picture_field("out/impact.png", plate, PERI_FIELD_DAMAGE, 0, 1, 800, 1));
+    must(plate, peri_export_vtu(plate, "out/impact.vtu"));
     peri_body_destroy(plate);
     return 0;
 }

@@ -1,4 +1,4 @@
-/* lecture.c - the method in two short functions: the prototype microelastic brittle (PMB) model, step by step.
+/* lecture.c - the method in two short functions: the prototype microelastic brittle (PMB) law, step by step.
 
      rho a_i = sum of  mu c s V_j y/|y|  over the family of i      y = x_j + u_j - x_i - u_i
      u(t+dt) = 2 u(t) - u(t-dt) + dt^2 a(t)                        s = (|y| - |x_j - x_i|) / |x_j - x_i|
@@ -8,7 +8,7 @@
    does the same run by itself. Both break the same bonds and agree in every displacement, up to rounding. */
 #include "example.h"
 
-enum { N = 32 * 8 * 8, M = 122, STEPS = 200, XYZ = PERI_X | PERI_Y | PERI_Z }; /* points, whole family, time steps */
+enum { N = 32 * 8 * 8, M = 122, STEPS = 200, XYZ = PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z }; /* points, whole family, time steps */
 static const double h = 1e-3, dt = 1e-7, speed = 8;   /* spacing [m], time step [s], speed of the two ends [m/s] */
 static double x[3 * N], u[3 * N], before[3 * N];      /* places, displacements u(t) and u(t-dt) [m] */
 static double a[3 * N], library[3 * N];               /* accelerations [m/s^2]; u as peri_advance finds it */
@@ -41,19 +41,19 @@ int main(void) {
     const double left[3] = {3 * h, 8 * h, 8 * h}, right[3] = {29 * h, 0, 0}; /* corners of the ends */
     double c, s0, most = 0, apart = 0;
     int64_t broken; /* bonds */
-    peri_body_desc desc;  peri_material glass;  peri_run run;
+    peri_body_desc desc;  peri_material_desc glass;  peri_advance_desc run;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_SOLID;  desc.horizon = 3 * h;
+    desc.space = PERI_SPACE_SOLID;  desc.horizon = 3 * h;
     desc.break_timing = PERI_BREAK_AFTER_DRIFT; /* a bond beyond s0 does not act once more */
     peri_body *body = must_create(&desc);
-    peri_material_init(&glass, PERI_BOND_BASED);
+    peri_material_desc_init(&glass, PERI_LAW_BOND_BASED);
     glass.young = 72e9;  glass.density = 2440;  glass.critical_stretch = 2e-3; /* [Pa], [kg/m^3] */
     must(body, peri_add_box(body, must(body, peri_add_material(body, &glass)), lo, hi, h));
     must(body, peri_build(body));
-    must(body, peri_read(body, PERI_POSITION, x, 3 * N));
-    must(body, peri_read_bond_constants(body, 0, 0, &c, &s0));
-    must(body, peri_read_families(body, 0, N, family[0], (int64_t)N * M)); /* N rows of peri_family_width(body) = M */
+    must(body, peri_get_field(body, PERI_FIELD_POSITION, x, 3 * N));
+    must(body, peri_get_bond_constants(body, 0, 0, &c, &s0));
+    must(body, peri_get_families(body, 0, N, family[0], (int64_t)N * M)); /* N rows of peri_family_width(body) = M */
     for (int k = 0; k < N * M; ++k) mu[k / M][k % M] = 1;
 
     for (int n = 0; broken = accelerate(c, s0, glass.density), n < STEPS; ++n)
@@ -65,10 +65,10 @@ int main(void) {
         }
     must(body, peri_prescribe_velocity(body, peri_select_box(body, NULL, lo, left), XYZ, minus_v, NULL, NULL));
     must(body, peri_prescribe_velocity(body, peri_select_box(body, NULL, right, hi), XYZ, v, NULL, NULL));
-    peri_run_init(&run);
-    run.integrator = PERI_CENTRAL_DIFFERENCE;  run.time_step = dt;  run.steps = STEPS;
+    peri_advance_desc_init(&run);
+    run.integrator = PERI_INTEGRATOR_CENTRAL_DIFFERENCE;  run.time_step = dt;  run.steps = STEPS;
     must(body, peri_advance(body, &run));
-    must(body, peri_read(body, PERI_DISPLACEMENT, library, 3 * N));
+    must(body, peri_get_field(body, PERI_FIELD_DISPLACEMENT, library, 3 * N));
     for (int k = 0; k < 3 * N; ++k) {
         most = fmax(most, fabs(u[k]));
         apart = fmax(apart, fabs(u[k] - library[k]));

@@ -175,7 +175,7 @@ static inline void picture_rectangle(unsigned char *index, int width, int height
 static inline int32_t picture_field(const char *path, peri_body *body, int32_t field, double lo, double hi,
                                     int pixels_wide, double magnify) {
     enum { MARGIN = 10, BAR = 14 };
-    const int64_t n = peri_point_count(body), size = peri_field_size(body, field);
+    const int64_t n = peri_point_count(body), size = peri_size_of_field(body, field);
     const int dim = peri_dimension(body);
     int64_t i, k;
     double *x, *u, *v, *f, box[2][2] = {{0, 0}, {0, 0}}, cell = 0, scale, spread, range[2] = {HUGE_VAL, -HUGE_VAL};
@@ -183,17 +183,17 @@ static inline int32_t picture_field(const char *path, peri_body *body, int32_t f
     int width, height, step, d;
     int32_t result = PERI_ERROR_MEMORY;
 
-    if (n < 1) return PERI_ERROR_NO_POINTS;
+    if (n < 1) return PERI_ERROR_EMPTY;
     if (size < n) return PERI_ERROR_FIELD;
     x = (double *)malloc((size_t)(n * dim) * sizeof *x);
     u = (double *)malloc((size_t)(n * dim) * sizeof *u);
     v = (double *)malloc((size_t)n * sizeof *v);
     f = (double *)malloc((size_t)size * sizeof *f);
     if (!x || !u || !v || !f) goto done;
-    if ((result = peri_read(body, PERI_POSITION, x, n * dim)) < 0) goto done;
-    if ((result = peri_read(body, PERI_DISPLACEMENT, u, n * dim)) < 0) goto done;
-    if ((result = peri_read(body, PERI_VOLUME, v, n)) < 0) goto done;
-    if ((result = peri_read(body, field, f, size)) < 0) goto done;
+    if ((result = peri_get_field(body, PERI_FIELD_POSITION, x, n * dim)) < 0) goto done;
+    if ((result = peri_get_field(body, PERI_FIELD_DISPLACEMENT, u, n * dim)) < 0) goto done;
+    if ((result = peri_get_field(body, PERI_FIELD_VOLUME, v, n)) < 0) goto done;
+    if ((result = peri_get_field(body, field, f, size)) < 0) goto done;
 
     for (i = 0; i < n; ++i) {
         double square = 0.0;

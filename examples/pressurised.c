@@ -19,11 +19,12 @@ static void westergaard(const double *at, double *value) {
     value[1] = copysign(1, at[1]) * (2 * (1 - NU) * P * (im - y) - y * z_re) / (2 * mu);
 }
 
-static void far_field(void *user, double load_factor, int64_t count, const int32_t *points, double *value) {
+static int32_t far_field(void *user, double load_factor, int64_t count, const int32_t *points, double *value) {
     int64_t k;
     (void)user;
     (void)load_factor; /* of one step: 1 */
     for (k = 0; k < count; ++k) westergaard(positions[points[k]], &value[2 * k]);
+    return 0;
 }
 
 static int32_t outside(void *limit, int64_t index, const double *x) {
@@ -35,31 +36,31 @@ int main(void) {
     const double left[2] = {-A + 1e-6, 0}, right[2] = {A - 1e-6, 0}; /* bonds that only touch the tips stay whole */
     const double near_lo[2] = {-A - 2 * horizon, -2 * horizon}, near_hi[2] = {A + 2 * horizon, 2 * horizon};
     double limit = SIDE / 2 - 2 * horizon, off = 0, all = 0, want[2];
-    peri_statics statics;
+    peri_solve_desc statics;
     peri_body_desc desc;
-    peri_material rock;
+    peri_material_desc rock;
     int i;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_PLANE_STRAIN;
-    desc.geometry = PERI_LINEAR;
+    desc.space = PERI_SPACE_PLANE_STRAIN;
+    desc.geometry = PERI_GEOMETRY_LINEAR;
     desc.horizon = horizon;
     desc.influence = PERI_INFLUENCE_POWER_3; /* short-sighted: keeps the tip sharp */
     peri_body *block = must_create(&desc);
-    peri_material_init(&rock, PERI_CORRESPONDENCE);
+    peri_material_desc_init(&rock, PERI_LAW_CORRESPONDENCE);
     rock.young = YOUNG;
     rock.poisson = NU;
     rock.density = 2600;
     must(block, peri_add_box(block, must(block, peri_add_material(block, &rock)), lo, hi, h));
     must(block, peri_build(block));
-    must(block, peri_read(block, PERI_POSITION, positions[0], 2 * N * N));
-    must(block, peri_cut_segment(block, left, right));
+    must(block, peri_get_field(block, PERI_FIELD_POSITION, positions[0], 2 * N * N));
+    must(block, peri_cut_segment(block, PERI_CUT_INITIAL, left, right));
     must(block, peri_apply_pressure(block, must(block, peri_select_box(block, "crack", near_lo, near_hi)), P, NULL, NULL));
     const int32_t edge = must(block, peri_select_if(block, "edge", outside, &limit));
-    must(block, peri_prescribe_displacement(block, edge, PERI_X | PERI_Y, NULL, far_field, NULL));
-    peri_statics_init(&statics);
+    must(block, peri_prescribe_displacement(block, edge, PERI_AXIS_X | PERI_AXIS_Y, NULL, far_field, NULL));
+    peri_solve_desc_init(&statics);
     must(block, peri_solve(block, &statics, NULL));
-    must(block, peri_read(block, PERI_DISPLACEMENT, u[0], 2 * N * N));
+    must(block, peri_get_field(block, PERI_FIELD_DISPLACEMENT, u[0], 2 * N * N));
 
     printf("opening [mm]      peri   Westergaard (of these points)   Sneddon (of the faces)\n");
     for (i = (N + 1) * N / 2; i < (N + 1) * N / 2 + 20; i += 4) { /* the row above the crack, from its middle to the tip */
@@ -73,7 +74,7 @@ int main(void) {
         all += want[0] * want[0] + want[1] * want[1];
     }
     printf("all displacements: root mean square error %.2f %%\n", 100 * sqrt(off / all));
-    must(block, picture_field("out/pressurised.png", block, PERI_DISPLACEMENT, 0, 0, 900, 300));
+    must(block, picture_field("out/pressurised.png", block, PERI_FIELD_DISPLACEMENT, 0, 0, 900, 300));
     peri_body_destroy(block);
     return 0;
 }

@@ -13,7 +13,7 @@ static double x[POINTS][2], u[POINTS][2];
 /* Radius of the outermost ring: the first peak of u_x on the way from the right edge to the middle, along the row of
    points just above it; a parabola through three points gives the place between them. */
 static double ring(peri_body *body) {
-    must(body, peri_read(body, PERI_DISPLACEMENT, u[0], 2 * POINTS));
+    must(body, peri_get_field(body, PERI_FIELD_DISPLACEMENT, u[0], 2 * POINTS));
     for (int i = POINTS / 2 + CELLS - 2; i > POINTS / 2 + CELLS / 2; --i) {
         const double in = u[i - 1][0], at = u[i][0], out = u[i + 1][0];
         if (at > A / 100 && at > out && at >= in)
@@ -26,29 +26,29 @@ int main(void) {
     const double lo[2] = {0, 0}, hi[2] = {5, 5}, h = side / CELLS, speed = sqrt(1 / (1 - 1.0 / 9));
     double first, last;
     peri_body_desc desc;
-    peri_material plate;
-    peri_run run;
+    peri_material_desc plate;
+    peri_advance_desc run;
 
     peri_body_desc_init(&desc);
-    desc.space = PERI_PLANE_STRESS;
+    desc.space = PERI_SPACE_PLANE_STRESS;
     desc.horizon = 0.1; /* 4 cells */
     peri_body *body = must_create(&desc);
-    peri_material_init(&plate, PERI_BOND_BASED);
+    peri_material_desc_init(&plate, PERI_LAW_BOND_BASED);
     plate.young = 1;
     plate.density = 1; /* no fracture energy: bonds do not break */
     must(body, peri_add_box(body, must(body, peri_add_material(body, &plate)), lo, hi, h));
     must(body, peri_build(body));
 
-    must(body, peri_read(body, PERI_POSITION, x[0], 2 * POINTS));
+    must(body, peri_get_field(body, PERI_FIELD_POSITION, x[0], 2 * POINTS));
     for (int i = 0; i < POINTS; ++i) {
         const double rx = x[i][0] - side / 2, ry = x[i][1] - side / 2, r = sqrt(rx * rx + ry * ry);
         const double at = (r - R) / (2 * sigma), size = fabs(r - R) < 6 * sigma ? A * exp(-at * at) : 0;
         u[i][0] = size * rx / r;
         u[i][1] = size * ry / r;
     }
-    must(body, peri_write(body, PERI_DISPLACEMENT, u[0], 2 * POINTS));
+    must(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, u[0], 2 * POINTS));
 
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.time_step = 0.01;
     run.steps = 90;
     must(body, peri_advance(body, &run));
@@ -59,8 +59,8 @@ int main(void) {
            last, R, R + speed * 1.8);
     printf("speed over the last 0.9 s: %.4f m/s, in the continuum c_P = %.4f m/s\n", (last - first) / 0.9, speed);
     print_energy(body);
-    must(body, picture_field("out/wave.png", body, PERI_DISPLACEMENT, 0, 0, 1000, 0));
-    must(body, peri_save_vtu(body, "out/wave.vtu"));
+    must(body, picture_field("out/wave.png", body, PERI_FIELD_DISPLACEMENT, 0, 0, 1000, 0));
+    must(body, peri_export_vtu(body, "out/wave.vtu"));
     peri_body_destroy(body);
     return 0;
 }

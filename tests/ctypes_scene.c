@@ -7,25 +7,27 @@
 
 static void show(double v) { printf("%.17g\n", v); }
 
-static void pull(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t pull(void *user, double time, int64_t count, const int32_t *points, double *value) {
     int64_t i;
     ++*(int *)user;
     for (i = 0; i < count; ++i) value[2 * i] = value[2 * i] * (1.0 + 0.25 * time) + points[i] * 0.0001;
+    return 0;
 }
 static int32_t on_frame(void *user, peri_body *body) {
     double u[2 * 96];
     ++*(int *)user;
-    if (peri_read(body, PERI_DISPLACEMENT, u, 2 * 96) < 0) return 1;
+    if (peri_get_field(body, PERI_FIELD_DISPLACEMENT, u, 2 * 96) < 0) return 1;
     show(peri_time(body));
     show(u[2 * 95]);
     return 0;
 }
-static void on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     ++*(int *)user;
     show(i);
     show(j);
     show(time);
     show(stretch);
+    return 0;
 }
 
 static int32_t on_iteration(void *user, int64_t iteration, double residual) {
@@ -36,17 +38,17 @@ static int32_t on_iteration(void *user, int64_t iteration, double residual) {
 /* The equilibrium of the same body, half the load in each of two steps. */
 static int32_t solve(peri_body *body) {
     double curve[12] = {0}, told = 0;
-    peri_statics s;
-    peri_statics_report report;
+    peri_solve_desc s;
+    peri_solve_report report;
     int32_t status, k;
     show((double)sizeof s);
     show((double)sizeof report);
-    show((double)offsetof(peri_statics, on_iteration));
-    peri_statics_init(&s);
+    show((double)offsetof(peri_solve_desc, on_iteration));
+    peri_solve_desc_init(&s);
     show((double)s.iterations);
     s.fracture = 0;
     s.steps = 2;
-    s.curve_load = 0;
+    s.curve_load = peri_id(body, PERI_KIND_LOAD, 1);
     s.curve = curve;
     s.curve_rows = 2;
     s.on_iteration = on_iteration;
@@ -62,7 +64,7 @@ static int32_t solve(peri_body *body) {
 }
 
 /* What the body holds, and what its like would cost. */
-static int32_t weigh(const peri_body *body, const peri_body_desc *d, const peri_material *m) {
+static int32_t weigh(const peri_body *body, const peri_body_desc *d, const peri_material_desc *m) {
     peri_memory memory;
     peri_plan_desc plan;
     peri_plan_report planned;
@@ -70,7 +72,7 @@ static int32_t weigh(const peri_body *body, const peri_body_desc *d, const peri_
     show((double)sizeof plan);
     show((double)sizeof planned);
     show((double)offsetof(peri_plan_desc, spacing));
-    if (peri_read_memory(body, &memory) < 0) return -1;
+    if (peri_get_memory(body, &memory) < 0) return -1;
     show((double)memory.points);
     show((double)memory.families);
     show((double)memory.damage);
@@ -97,53 +99,53 @@ static int32_t weigh(const peri_body *body, const peri_body_desc *d, const peri_
 int main(void) {
     const double lo[2] = {0, 0}, hi[2] = {1.6, 0.6}, left[2] = {0.2, 0.6}, right[2] = {1.4, 0}, t[2] = {0.09, 0};
     const double a[2] = {0.8, 0}, b[2] = {0.8, 0.2};
-    const int32_t fields[4] = {PERI_DISPLACEMENT, PERI_VELOCITY, PERI_DAMAGE, PERI_FAMILY_SIZE};
+    const int32_t fields[4] = {PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_FAMILY_SIZE};
     double v[2 * 96], force[2];
     int loads = 0, frames = 0, breaks = 0, k;
     int64_t i, status = 0;
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *body = NULL;
     peri_error error;
-    peri_run run;
+    peri_advance_desc run;
     peri_energy e;
     peri_view view;
 
     show((double)sizeof(peri_error));
     show((double)sizeof(peri_body_desc));
-    show((double)sizeof(peri_material));
-    show((double)sizeof(peri_run));
+    show((double)sizeof(peri_material_desc));
+    show((double)sizeof(peri_advance_desc));
     show((double)sizeof(peri_view));
     show((double)sizeof(peri_energy));
     show((double)offsetof(peri_body_desc, horizon));
     show((double)offsetof(peri_body_desc, log_user));
-    show((double)offsetof(peri_run, on_frame));
+    show((double)offsetof(peri_advance_desc, on_frame));
 
     peri_body_desc_init(&d);
     show(d.precision);
     show(d.thickness);
-    d.space = PERI_PLANE_STRESS;
+    d.space = PERI_SPACE_PLANE_STRESS;
     d.horizon = 0.3;
     d.thickness = 0.5;
     if (peri_body_create(&d, &body, &error) < 0) return 1;
-    peri_material_init(&m, PERI_BOND_BASED);
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = 3;
     m.density = 2;
     m.critical_stretch = 0.02;
     status |= peri_add_material(body, &m);
-    show((double)peri_add_box(body, 0, lo, hi, 0.1));
+    show((double)peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 0.1));
     status |= peri_build(body);
     show((double)peri_bond_count(body));
-    show((double)peri_cut_segment(body, a, b));
+    show((double)peri_cut_segment(body, PERI_CUT_INITIAL, a, b));
     status |= peri_select_box(body, "left", lo, left);
     status |= peri_select_box(body, "right", right, hi);
-    status |= peri_prescribe_displacement(body, peri_find_set(body, "left"), PERI_X | PERI_Y, NULL, NULL, NULL);
-    status |= peri_apply_traction(body, peri_find_set(body, "right"), 0.6, t, pull, &loads);
+    status |= peri_prescribe_displacement(body, peri_find_set(body, "left"), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL);
+    status |= peri_apply_layer_traction(body, peri_find_set(body, "right"), 0.6, t, pull, &loads);
     status |= peri_set_no_fail(body, 1, 1);
     status |= peri_set_no_fail(body, 2, 1);
     status |= peri_on_break(body, on_break, &breaks);
     show(peri_stable_step(body));
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     show(run.safety);
     run.duration = 8;
     run.frame_steps = 20;
@@ -152,11 +154,11 @@ int main(void) {
     status |= peri_advance(body, &run);
     if (status < 0) return 2;
     for (k = 0; k < 4; ++k) {
-        int64_t n = peri_field_size(body, fields[k]);
-        if (peri_read(body, fields[k], v, n) < 0) return 3;
+        int64_t n = peri_size_of_field(body, fields[k]);
+        if (peri_get_field(body, fields[k], v, n) < 0) return 3;
         for (i = 0; i < n; ++i) show(v[i]);
     }
-    if (peri_read_energy(body, &e) < 0 || peri_read_reaction(body, 0, force) < 0) return 4;
+    if (peri_get_energy(body, &e) < 0 || peri_get_reaction(body, peri_id(body, PERI_KIND_LOAD, 1), force) < 0) return 4;
     show(e.kinetic);
     show(e.elastic);
     show(e.external);
@@ -165,14 +167,14 @@ int main(void) {
     show(e.error);
     show(force[0]);
     show(force[1]);
-    if (peri_view_field(body, PERI_VELOCITY, &view) < 0) return 5;
+    if (peri_view_field(body, PERI_FIELD_VELOCITY, &view) < 0) return 5;
     show(view.scale * ((const double *)view.data)[95 * view.point_stride + view.component_stride] + view.offset[1]);
     show(loads);
     show(frames);
     show(breaks);
     run.time_step = 1;
     show(peri_advance(body, &run));
-    if (peri_last_error(body, &error) < 0) return 6;
+    if (peri_get_error(body, &error) < 0) return 6;
     show(error.code);
     show(error.value);
     if (solve(body) < 0 || weigh(body, &d, &m) < 0) return 7;

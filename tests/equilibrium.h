@@ -5,15 +5,15 @@
 
 #include "scene.h"
 
-static inline peri_statics statics_of(double tolerance) {
-    peri_statics s;
-    peri_statics_init(&s);
+static inline peri_solve_desc statics_of(double tolerance) {
+    peri_solve_desc s;
+    peri_solve_desc_init(&s);
     s.tolerance = tolerance;
     return s;
 }
 
-static inline peri_statics_report solve(peri_body *b, const peri_statics *s) {
-    peri_statics_report r;
+static inline peri_solve_report solve(peri_body *b, const peri_solve_desc *s) {
+    peri_solve_report r;
     memset(&r, 0, sizeof r);
     (void)MUST(b, peri_solve(b, s, &r));
     return r;
@@ -21,7 +21,7 @@ static inline peri_statics_report solve(peri_body *b, const peri_statics *s) {
 
 static inline int32_t last_code(const peri_body *b) {
     peri_error e;
-    return peri_last_error(b, &e) == PERI_OK ? e.code : PERI_OK;
+    return peri_get_error(b, &e) == PERI_OK ? e.code : PERI_OK;
 }
 
 /* The points of lo..hi in spacings, whatever lies beyond in the axes not given. */
@@ -48,7 +48,7 @@ static inline double furthest(const double *a, const double *b, int64_t n) { /* 
 
 /* Force of each dof that belongs to a force density: times volume and thickness. */
 static inline double *forces_of(peri_body *b, const double *density, int32_t space) {
-    double *v = get(b, PERI_VOLUME), *f;
+    double *v = get(b, PERI_FIELD_VOLUME), *f;
     int64_t n = peri_point_count(b), k;
     int dim = peri_dimension(b);
     f = (double *)calloc((size_t)(n * dim), sizeof *f);
@@ -64,14 +64,14 @@ static inline double *dense_stiffness(peri_body *b, int64_t *n) {
     int32_t *column;
     double *value, *a;
     *n = 0;
-    if (MUST(b, peri_assemble(b, &m)) < 0) return NULL;
+    if (MUST(b, peri_matrix_create(b, &m)) < 0) return NULL;
     rows = peri_matrix_rows(m);
     entries = peri_matrix_entries(m);
     start = (int64_t *)calloc((size_t)rows + 1, sizeof *start);
     column = (int32_t *)calloc((size_t)entries, sizeof *column);
     value = (double *)calloc((size_t)entries, sizeof *value);
     a = (double *)calloc((size_t)(rows * rows), sizeof *a);
-    CHECK(peri_read_matrix(m, start, column, value) == PERI_OK);
+    CHECK(peri_get_matrix(m, start, column, value) == PERI_OK);
     CHECK(start[0] == 0 && start[rows] == entries && rows == peri_point_count(b) * peri_dimension(b));
     for (i = 0; i < rows; ++i)
         for (k = start[i]; k < start[i + 1]; ++k) {

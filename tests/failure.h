@@ -7,7 +7,7 @@
 #define CRITICAL 0.02 /* stretch, where bonds break */
 
 typedef struct kind { /* what is simulated; limit: critical stretch, or fracture energy of the energy criteria; 0 = none */
-    int32_t space, model, criterion;
+    int32_t space, law, criterion;
     double  poisson, limit;
 } kind;
 
@@ -16,26 +16,26 @@ static const char *const criterion_name[4] = {"", "stretch", "bond energy", "nod
 /* G0 whose bond-based critical stretch for w = 1 is CRITICAL: limits of all criteria are then of the same size. */
 static inline double toughness(int32_t space) {
     const double h = 3 * H;
-    if (space == PERI_PLANE_STRESS) return CRITICAL * CRITICAL * 9 * YOUNG * h / (4 * PI);
-    if (space == PERI_PLANE_STRAIN) return CRITICAL * CRITICAL * 12 * YOUNG * h / (5 * PI);
+    if (space == PERI_SPACE_PLANE_STRESS) return CRITICAL * CRITICAL * 9 * YOUNG * h / (4 * PI);
+    if (space == PERI_SPACE_PLANE_STRAIN) return CRITICAL * CRITICAL * 12 * YOUNG * h / (5 * PI);
     return CRITICAL * CRITICAL * 6 * YOUNG * h / 5;
 }
-static inline kind kind_of(int32_t space, int32_t model, int32_t criterion, double nu) {
+static inline kind kind_of(int32_t space, int32_t law, int32_t criterion, double nu) {
     kind k = {0, 0, 0, 0, 0};
     k.space = space;
-    k.model = model;
+    k.law = law;
     k.criterion = criterion;
     k.poisson = nu;
     k.limit = criterion == PERI_CRITERION_STRETCH ? CRITICAL : toughness(space);
     return k;
 }
 
-static inline peri_material stuff(kind k) {
-    peri_material m;
-    peri_material_init(&m, k.model);
+static inline peri_material_desc stuff(kind k) {
+    peri_material_desc m;
+    peri_material_desc_init(&m, k.law);
     m.young = YOUNG;
     m.density = DENSITY;
-    if (k.model != PERI_BOND_BASED) m.poisson = k.poisson;
+    if (k.law != PERI_LAW_BOND_BASED) m.poisson = k.poisson;
     m.criterion = k.criterion;
     if (k.criterion == PERI_CRITERION_STRETCH) m.critical_stretch = k.limit;
     else m.fracture_energy = k.limit;
@@ -44,14 +44,14 @@ static inline peri_material stuff(kind k) {
 
 /* Serial, horizon 3 H, thickness THICK. */
 static inline peri_body_desc plan(int32_t space) {
-    specimen s = specimen_of(space, PERI_BOND_BASED, 0, H, 3, 1, 1, 1);
+    specimen s = specimen_of(space, PERI_LAW_BOND_BASED, 0, H, 3, 1, 1, 1);
     s.desc.thickness = thickness(space);
     return s.desc;
 }
 
 /* A box of nx x ny (x nz) cells of size H with one corner at the origin, of one material, built. */
 static inline peri_body *make(const peri_body_desc *d, kind k, int nx, int ny, int nz) {
-    specimen s = specimen_of(k.space, k.model, k.poisson, H, 3, nx, ny, nz);
+    specimen s = specimen_of(k.space, k.law, k.poisson, H, 3, nx, ny, nz);
     s.desc = *d;
     s.material = stuff(k);
     return specimen_make(&s);
@@ -72,7 +72,7 @@ static inline int32_t slab(peri_body *b, double from, double to) {
 static inline int32_t *rows_of(peri_body *b) {
     int64_t n = peri_point_count(b) * peri_family_width(b);
     int32_t *rows = (int32_t *)calloc((size_t)n + 1, sizeof *rows);
-    (void)MUST(b, peri_read_families(b, 0, peri_point_count(b), rows, n));
+    (void)MUST(b, peri_get_families(b, 0, peri_point_count(b), rows, n));
     return rows;
 }
 

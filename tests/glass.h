@@ -169,17 +169,17 @@ static inline peri_body *plate(const scene *s, const options *o) {
     int32_t glass_id, rows[2], safe[2];
     int k, side, n = s->nx * s->ny;
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
     peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRESS;
+    d.space = PERI_SPACE_PLANE_STRESS;
     d.horizon = s->horizon;
     d.break_timing = PERI_BREAK_AFTER_DRIFT;
     if (o && o->precision) d.precision = o->precision;
     if (o) d.threads = o->threads;
     if (o) d.parallel_for = o->parallel_for;
     (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    peri_material_init(&m, PERI_BOND_BASED);
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = s->young;
     m.density = s->density;
     m.fracture_energy = s->g0;
@@ -198,13 +198,13 @@ static inline peri_body *plate(const scene *s, const options *o) {
     }
     (void)MUST(b, peri_build(b));
     lo[0] = -w, lo[1] = 0;
-    (void)MUST(b, peri_cut_segment(b, lo, c));
+    (void)MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, lo, c));
     for (side = 0; side < 2; ++side) {
         lo[0] = -w, hi[0] = w;
         lo[1] = side ? h - s->cell : -h;
         hi[1] = side ? h : -h + s->cell;
         rows[side] = (int32_t)MUST(b, peri_select_box(b, side ? "top" : "bottom", lo, hi));
-        CHECK(peri_set_size(b, rows[side]) == s->nx);
+        CHECK(peri_size_of_set(b, rows[side]) == s->nx);
         lo[1] = side ? h - s->horizon : -h;
         hi[1] = side ? h : -h + s->horizon;
         safe[side] = (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi));

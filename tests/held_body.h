@@ -9,7 +9,7 @@
 #define ALL_LAWS 5 /* models[], and the four side by side */
 
 static inline int32_t law_of(int k) { return k < LAWS ? models[k] : 0; }
-static inline const char *law_text(int k) { return k < LAWS ? law_name[models[k]] : "mixed"; }
+static inline const char *law_text(int k) { return k < LAWS ? law_name[models[k % 100]] : "mixed"; }
 
 /* A random body force on all points, from the numbers in user; in statics `time` is the load factor. */
 typedef struct wind {
@@ -17,12 +17,13 @@ typedef struct wind {
     double size;
     const double *numbers;
 } wind;
-static inline void blow(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static inline int32_t blow(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const wind *w = (const wind *)user;
     int64_t k;
     int d;
     for (k = 0; k < count; ++k)
         for (d = 0; d < w->dim; ++d) value[k * w->dim + d] = time * w->size * w->numbers[points[k] * w->dim + d];
+    return 0;
 }
 
 /* A small body that is held, moved and blown at; and the same in numbers. */
@@ -39,7 +40,7 @@ typedef struct task {
    later. */
 static inline task task_of(peri_body *b, int32_t space, double size) {
     task t;
-    double *x = get(b, PERI_POSITION), most = 0, moved[3] = {2e-3 * H, 0, 0}, later[3] = {0, -1e-3 * H, 0};
+    double *x = get(b, PERI_FIELD_POSITION), most = 0, moved[3] = {2e-3 * H, 0, 0}, later[3] = {0, -1e-3 * H, 0};
     int dim = peri_dimension(b), d;
     int64_t i, points = peri_point_count(b);
     memset(&t, 0, sizeof t);
@@ -53,8 +54,8 @@ static inline task task_of(peri_body *b, int32_t space, double size) {
     t.reaction = (double *)calloc((size_t)t.n, sizeof(double));
     for (i = 0; i < points; ++i) most = fmax(most, x[i * dim]);
     t.grip = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, -1, 1.3 * H), (1 << dim) - 1, NULL, NULL, NULL));
-    t.roller = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, most - 0.5 * H, most + H), PERI_X, moved, NULL, NULL));
-    t.pull = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, -1, 0.8 * H), PERI_Y, later, NULL, NULL));
+    t.roller = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, most - 0.5 * H, most + H), PERI_AXIS_X, moved, NULL, NULL));
+    t.pull = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, -1, 0.8 * H), PERI_AXIS_Y, later, NULL, NULL));
     for (i = 0; i < points; ++i) {
         for (d = 0; d < dim && x[i * dim] <= 1.3 * H; ++d) t.held[i * dim + d] = 1;
         if (x[i * dim] >= most - 0.5 * H) {
@@ -91,9 +92,9 @@ static inline int32_t some(void *user, int32_t i, int32_t j, const double *xi, c
     (void)xj;
     return test_random(&seed) < 0.125;
 }
-static inline peri_body *held_body(const scene *s, int32_t model, double nu, int lattice, int broken) {
-    peri_body *b = lattice ? lattice_body(s, model, nu, 0) : small_body(s, model, nu, -1, 0);
-    if (broken) CHECK(MUST(b, peri_cut_if(b, some, NULL)) > peri_bond_count(b) / 32);
+static inline peri_body *held_body(const scene *s, int32_t law, double nu, int lattice, int broken) {
+    peri_body *b = lattice ? lattice_body(s, law, nu, 0) : small_body(s, law, nu, -1, 0);
+    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, some, NULL)) > peri_bond_count(b) / 32);
     return b;
 }
 

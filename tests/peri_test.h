@@ -7,6 +7,7 @@
 #define PERI_TEST_H
 
 #include "../peri.h"
+#include "../src/base/enums.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,7 +51,7 @@ static inline int64_t test_must(const peri_body *body, int64_t result, const cha
     if (result < 0) {
         char buffer[256] = "";
         peri_error error;
-        if (body && peri_last_error(body, &error) == PERI_OK) (void)peri_error_format(&error, buffer, sizeof buffer);
+        if (body && peri_get_error(body, &error) == PERI_OK) (void)peri_format_error(&error, buffer, sizeof buffer);
         test_bad++;
         printf("    %s:%d: %s failed: %s [%s]\n", file, line, text, peri_status_text((int32_t)result), buffer);
     }
@@ -84,9 +85,9 @@ static inline int test_end(const char *program) {
 /* A body of the descriptor with one material of unit modulus and density; critical_stretch 0: bonds do not break. */
 static inline peri_body *test_unit_body(const peri_body_desc *desc, double critical_stretch) {
     peri_body *body = NULL;
-    peri_material m;
+    peri_material_desc m;
     CHECK(peri_body_create(desc, &body, NULL) == PERI_OK);
-    peri_material_init(&m, PERI_BOND_BASED);
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = 1.0;
     m.density = 1.0;
     m.critical_stretch = critical_stretch;

@@ -3,7 +3,7 @@
    SOURCE OF TRUTH: peri.h. A call returns a status that is listed; one that is refused has changed nothing and left its record; one that
    succeeds leaves the record alone; counts agree with each other, damage lies in [0, 1]; a clone moves as its body does, to the last bit.
    As long as no call has reported PERI_ERROR_UNSTABLE displacements and velocities are finite, and so is all that can be read where only
-   numbers of ordinary size went in. peri_read_memory is what the allocator counts, and destroying gives everything back.
+   numbers of ordinary size went in. peri_get_memory is what the allocator counts, and destroying gives everything back.
 
    A program is: scene, then calls. Each call takes a byte for which, a byte for the mood (see begin_call), then what it asks for; past the
    end all bytes are 0. The bytes kept in program_corpus.h mean what they mean by this decoding: let calls be added at the end of the table
@@ -232,14 +232,14 @@ static void meddle(program *p) {
     peri_view view;
     p->partial = 1;
     if (!b || p->level + 2 > LEVELS) return;
-    if (peri_field_size(b, PERI_DAMAGE) > 0) {
-        HOLDS(p, CALL(p, s, peri_read_energy(b, &energy)) == PERI_OK);
-        HOLDS(p, CALL(p, s, peri_read(b, PERI_FORCE_DENSITY, p->other, ROOM)) == PERI_OK);
-        (void)CALL(p, s, peri_view_field(b, PERI_DAMAGE, &view));
+    if (peri_size_of_field(b, PERI_FIELD_DAMAGE) > 0) {
+        HOLDS(p, CALL(p, s, peri_get_energy(b, &energy)) == PERI_OK);
+        HOLDS(p, CALL(p, s, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, p->other, ROOM)) == PERI_OK);
+        (void)CALL(p, s, peri_view_field(b, PERI_FIELD_DAMAGE, &view));
         HOLDS(p, CALL(p, s, peri_reset(b)) == PERI_ERROR_ORDER);
         HOLDS(p, CALL(p, s, peri_add_velocity(b, PERI_ALL, v)) == PERI_ERROR_ORDER);
         HOLDS(p, CALL(p, s, peri_apply_body_force(b, PERI_ALL, v, NULL, NULL)) == PERI_ERROR_ORDER);
-        HOLDS(p, peri_clone(b, &copy, NULL) == PERI_ERROR_ORDER && !copy);
+        HOLDS(p, peri_body_clone(b, &copy, NULL) == PERI_ERROR_ORDER && !copy);
     }
     HOLDS(p, CALL(p, s, peri_build(b)) == PERI_ERROR_ORDER);
     peri_body_destroy(b);
@@ -248,7 +248,7 @@ static void meddle(program *p) {
 
 enum { LOAD_KEEPS, LOAD_WAVES, LOAD_VARIES, LOAD_MEDDLES, LOAD_FAILS, LOAD_BURSTS, LOAD_KINDS };
 
-static void on_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t on_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const hook *h = (const hook *)user;
     int64_t k;
     for (k = 1; k < count; ++k) HOLDS(h->p, points[k - 1] < points[k]);
@@ -259,15 +259,17 @@ static void on_load(void *user, double time, int64_t count, const int32_t *point
         if (h->kind == LOAD_BURSTS) value[k] = k % 2 ? 1e300 : -1e300;
     }
     if (h->kind == LOAD_MEDDLES) meddle(h->p);
+    return 0;
 }
 
 enum { MOVE_RESTS, MOVE_SWINGS, MOVE_MEDDLES, MOVE_FAILS, MOVE_KINDS };
 
-static void on_motion(void *user, double time, double *where) {
+static int32_t on_motion(void *user, double time, double *where) {
     const hook *h = (const hook *)user;
     if (h->kind == MOVE_SWINGS) where[0] += h->size * sin(time);
     if (h->kind == MOVE_MEDDLES) meddle(h->p);
     if (h->kind == MOVE_FAILS && time > 0.0) where[0] = (double)NAN;
+    return 0;
 }
 
 static int32_t on_point(void *user, int64_t index, const double *x) {
@@ -283,27 +285,28 @@ static int32_t on_pair(void *user, int32_t i, int32_t j, const double *xi, const
     return h->kind == 0 ? 1 : h->kind == 1 ? 0 : h->kind == 2 ? (i + j) % 3 == 0 : xi[0] < xj[0];
 }
 
-static void on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     const hook *h = (const hook *)user;
     HOLDS(h->p, i < j && !(time < 0.0 && time > 0.0) && stretch != 0.0);
     if (h->kind == 1) meddle(h->p);
+    return 0;
 }
 
 enum { INFLUENCE_ONE, INFLUENCE_FALLS, INFLUENCE_DECAYS, INFLUENCE_NEGATIVE, INFLUENCE_FAILS, INFLUENCE_NONE, INFLUENCE_HUGE,
        INFLUENCE_TINY, INFLUENCE_KINDS };
 
-static double on_influence(void *user, double q) {
+static int32_t on_influence(void *user, double q, double *w) {
     const hook *h = (const hook *)user;
     HOLDS(h->p, q > 0.0);
     switch (h->kind) {
-    case INFLUENCE_FALLS: return 1.0 - 0.5 * q;
-    case INFLUENCE_DECAYS: return exp(-q);
-    case INFLUENCE_NEGATIVE: return 0.5 - q;
-    case INFLUENCE_FAILS: return q > 0.5 ? (double)NAN : 1.0;
-    case INFLUENCE_NONE: return 0.0;
-    case INFLUENCE_HUGE: return 1e300;
-    case INFLUENCE_TINY: return 1e-300;
-    default: return 1.0;
+    case INFLUENCE_FALLS: { *w = 1.0 - 0.5 * q; return 0; }
+    case INFLUENCE_DECAYS: { *w = exp(-q); return 0; }
+    case INFLUENCE_NEGATIVE: { *w = 0.5 - q; return 0; }
+    case INFLUENCE_FAILS: { *w = q > 0.5 ? (double)NAN : 1.0; return 0; }
+    case INFLUENCE_NONE: { *w = 0.0; return 0; }
+    case INFLUENCE_HUGE: { *w = 1e300; return 0; }
+    case INFLUENCE_TINY: { *w = 1e-300; return 0; }
+    default: { *w = 1.0; return 0; }
     }
 }
 

@@ -12,7 +12,7 @@ static double speed_of(const slot *o) { return sqrt(o->stress / (o->density > 0.
 
 static int32_t some_set(program *p, int s) {
     int32_t sets = 0;
-    while (p->slots[s].body && peri_set_size(p->slots[s].body, sets) > 0) sets++;
+    while (p->slots[s].body && peri_size_of_set(p->slots[s].body, sets) > 0) sets++;
     return some_id(p, sets);
 }
 
@@ -52,9 +52,9 @@ static int64_t select_points(program *p, int s) {
 static int64_t look_at_sets(program *p, int s) {
     peri_body *b = p->slots[s].body;
     const int32_t set = some_set(p, s), found = peri_find_set(b, GIVEN(0, "a"));
-    const int64_t size = peri_set_size(b, set);
-    if (found >= 0) HOLDS(p, found > 0 && peri_set_size(b, found) > 0);
-    const int64_t status = CALL(p, s, peri_read_set(b, set, GIVEN(0, p->ids), p->mood == MOOD_CHOICES ? number_of(p, 0, 4) : ROOM));
+    const int64_t size = peri_size_of_set(b, set);
+    if (found >= 0) HOLDS(p, found > 0 && peri_size_of_set(b, found) > 0);
+    const int64_t status = CALL(p, s, peri_get_set(b, set, GIVEN(0, p->ids), p->mood == MOOD_CHOICES ? number_of(p, 0, 4) : ROOM));
     int64_t k;
     for (k = 0; status == PERI_OK && k < size; ++k)
         HOLDS(p, p->ids[k] >= 0 && p->ids[k] < points_of(&p->slots[s]) && (k == 0 || p->ids[k] > p->ids[k - 1]));
@@ -70,18 +70,18 @@ static int64_t cut(program *p, int s) {
     int64_t status, k;
     for (k = 0; k < 4; ++k) place(p, o, &p->in[k * o->dim]);
     switch (kind < 6 ? turn + kind % 3 : kind == 6 ? 6 + below(p, 2) : below(p, 6)) {
-    case 0: status = CALL(p, s, peri_cut_segment(o->body, GIVEN(0, p->in), GIVEN(1, p->in + 2))); break;
+    case 0: status = CALL(p, s, peri_cut_segment(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 2))); break;
     case 1: case 2:
-        status = CALL(p, s, peri_cut_polyline(o->body, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 2 + kind % 3, GIVEN(0, p->in)));
+        status = CALL(p, s, peri_cut_polyline(o->body, PERI_CUT_INITIAL, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 2 + kind % 3, GIVEN(0, p->in)));
         break;
-    case 3: status = CALL(p, s, peri_cut_disc(o->body, GIVEN(0, p->in), GIVEN(1, p->in + 3), number(p, o->length, 4.0 * o->length))); break;
-    case 4: status = CALL(p, s, peri_cut_triangle(o->body, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
-    case 5: status = CALL(p, s, peri_cut_rectangle(o->body, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
-    case 6: status = CALL(p, s, peri_cut_if(o->body, GIVEN(0, on_pair), new_hook(p, s, 5))); break;
+    case 3: status = CALL(p, s, peri_cut_disc(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 3), number(p, o->length, 4.0 * o->length))); break;
+    case 4: status = CALL(p, s, peri_cut_triangle(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
+    case 5: status = CALL(p, s, peri_cut_rectangle(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
+    case 6: status = CALL(p, s, peri_cut_if(o->body, PERI_CUT_INITIAL, GIVEN(0, on_pair), new_hook(p, s, 5))); break;
     default:
         for (k = 0; k < 8; ++k) p->ids[k] = some_id(p, points_of(o));
         for (k = 1; k < 8 && draw(p) % 4; k += 2) p->ids[k] = p->ids[k - 1] > 0 ? p->ids[k - 1] - 1 : p->ids[k - 1] + 1;
-        status = CALL(p, s, peri_cut_pairs(o->body, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 4, GIVEN(0, p->ids)));
+        status = CALL(p, s, peri_cut_pairs(o->body, PERI_CUT_INITIAL, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 4, GIVEN(0, p->ids)));
     }
     if (status >= 0 && !p->partial) HOLDS(p, peri_cut_count(o->body) + peri_broken_count(o->body) == before + status);
     return status;
@@ -102,7 +102,7 @@ static int64_t look_at_bonds(program *p, int s) {
     const int64_t points = points_of(o), width = o->body ? peri_family_width(o->body) : 0;
     const int64_t first = number_of(p, 0, points > 0 ? points : 1), count = number_of(p, 0, 3);
     const int64_t room = width > 0 && p->mood != MOOD_CHOICES ? ROOM : below(p, 64);
-    const int64_t status = CALL(p, s, peri_read_families(o->body, first, count, GIVEN(0, p->ids), room));
+    const int64_t status = CALL(p, s, peri_get_families(o->body, first, count, GIVEN(0, p->ids), room));
     const int32_t i = some_id(p, points), j = some_id(p, points);
     (void)CALL(p, s, peri_bond_is_intact(o->body, i, j));
     return status;
@@ -127,13 +127,13 @@ static int64_t write_state(program *p, int s) {
     const int kind = draw(p);
     const double size = (kind % 2 ? o->length : speed_of(o)) * (kind / 2 % 2 ? 0.01 : 0.2), step = 0.1 + below(p, 32);
     const int64_t n = points_of(o) * o->dim;
-    const int32_t field = p->mood == MOOD_CHOICES ? choice(p, 1, 17) : kind % 2 ? PERI_DISPLACEMENT : PERI_VELOCITY;
+    const int32_t field = p->mood == MOOD_CHOICES ? choice(p, 1, 17) : kind % 2 ? PERI_FIELD_DISPLACEMENT : PERI_FIELD_VELOCITY;
     int64_t k;
     for (k = 0; k < n; ++k) p->in[k] = size * sin(step * (double)(k % 97) + (double)(k % o->dim));
     k = draw(p);
     if (p->mood == MOOD_NUMBERS && n > 0) p->in[k % n] = number(p, -size, size);
     const int64_t count = p->mood == MOOD_CHOICES && draw(p) % 2 ? below(p, 9) : n;
-    const int64_t status = CALL(p, s, peri_write(o->body, field, GIVEN(0, p->in), count));
+    const int64_t status = CALL(p, s, peri_set_field(o->body, field, GIVEN(0, p->in), count));
     if (o->busy && o->body) HOLDS(p, status == PERI_ERROR_ORDER);
     return status;
 }
@@ -155,10 +155,10 @@ static int64_t some_load(program *p, int s) {
     case 0: case 1: return CALL(p, s, peri_prescribe_displacement(o->body, set, axes, draw(p) % 2 ? v : NULL, fn, h));
     case 2: return CALL(p, s, peri_prescribe_velocity(o->body, set, axes, draw(p) % 2 ? v : NULL, fn, h));
     case 3: return CALL(p, s, peri_apply_body_force(o->body, set, GIVEN(0, v), fn, h));
-    case 4: return CALL(p, s, peri_apply_traction(o->body, set, area, GIVEN(0, v), fn, h));
-    case 5: return CALL(p, s, peri_apply_surface_traction(o->body, set, area, GIVEN(0, n), GIVEN(1, v), fn, h));
+    case 4: return CALL(p, s, peri_apply_layer_traction(o->body, set, area, GIVEN(0, v), fn, h));
+    case 5: return CALL(p, s, peri_apply_traction(o->body, set, area, GIVEN(0, n), GIVEN(1, v), fn, h));
     case 6: return CALL(p, s, peri_apply_pressure(o->body, set, pressure, fn, h));
-    default: return CALL(p, s, peri_apply_bond_pressure(o->body, set, pressure, fn, h));
+    default: return CALL(p, s, peri_apply_bond_pressure_for_comparison(o->body, set, pressure, fn, h));
     }
 }
 
@@ -179,7 +179,7 @@ static int64_t load_face(program *p, int s) {
     vector(p, 0.02 * o->stress, v);
     p->partial = 1;
     const int64_t set = CALL(p, s, peri_select_box(o->body, NULL, lo, hi));
-    return set < 0 ? set : CALL(p, s, peri_apply_surface_traction(o->body, (int32_t)set, area, n, v, NULL, NULL));
+    return set < 0 ? set : CALL(p, s, peri_apply_traction(o->body, (int32_t)set, area, n, v, NULL, NULL));
 }
 
 static int64_t add_load(program *p, int s) {
@@ -218,8 +218,8 @@ static int64_t remove_obstacle(program *p, int s) {
 static int64_t look_at_forces(program *p, int s) {
     slot *o = &p->slots[s];
     double force[3] = {0, 0, 0};
-    const int64_t status = draw(p) % 2 ? CALL(p, s, peri_read_reaction(o->body, some_id(p, o->loads), GIVEN(0, force)))
-                                       : CALL(p, s, peri_read_obstacle_force(o->body, some_id(p, o->obstacles), GIVEN(1, force)));
+    const int64_t status = draw(p) % 2 ? CALL(p, s, peri_get_reaction(o->body, some_id(p, o->loads), GIVEN(0, force)))
+                                       : CALL(p, s, peri_get_obstacle_force(o->body, some_id(p, o->obstacles), GIVEN(1, force)));
     if (status == PERI_OK && !o->lost && !o->wild) HOLDS(p, finite_all(force, o->dim));
     return status;
 }
@@ -246,8 +246,8 @@ static int64_t advance(program *p, int s) {
     const int kind = draw(p), lasts = kind % 4 == 0, frames = kind / 4 % 2;
     const double stable = o->body ? peri_stable_step(o->body) : 1.0, start = peri_time(o->body);
     const int64_t before = peri_step_count(o->body);
-    peri_run r;
-    peri_run_init(&r);
+    peri_advance_desc r;
+    peri_advance_desc_init(&r);
     r.integrator = choice(p, 1, 2);
     if (lasts) r.duration = stable * number(p, 0.5, 8.0);
     else r.steps = number_of(p, 1, 10);
@@ -283,11 +283,11 @@ static int32_t on_iteration(void *user, int64_t iteration, double residual) {
 static int64_t solve(program *p, int s) {
     slot *o = &p->slots[s];
     const int kind = draw(p), more = draw(p);
-    peri_statics t;
-    peri_statics_report report;
-    peri_statics_init(&t);
-    t.method = p->mood == MOOD_CHOICES ? choice(p, 1, 3) : kind % 8 < 6 ? PERI_NEWTON : kind % 8 == 6 ? PERI_BICGSTAB : PERI_RELAXATION;
-    t.preconditioner = kind / 8 % 4 ? PERI_MULTILEVEL : choice(p, 1, 3);
+    peri_solve_desc t;
+    peri_solve_report report;
+    peri_solve_desc_init(&t);
+    t.method = p->mood == MOOD_CHOICES ? choice(p, 1, 3) : kind % 8 < 6 ? PERI_METHOD_NEWTON : kind % 8 == 6 ? PERI_METHOD_BICGSTAB : PERI_METHOD_RELAXATION;
+    t.preconditioner = kind / 8 % 4 ? PERI_PRECONDITIONER_MULTILEVEL : choice(p, 1, 3);
     t.loose = p->mood == MOOD_CHOICES ? choice(p, 1, 3) : 1 + kind / 32 % 4 % 3;
     t.fracture = kind / 128;
     t.criticality = more % 4 == 0 ? number(p, 0.0, 1.0) : 0.0;
@@ -319,7 +319,7 @@ static int64_t solve(program *p, int s) {
     if (status == PERI_ERROR_LOOSE && told_all && report.newton == 0 && report.iterations == 0 && report.broken == 0
         && report.steps == 0 && !p->partial)
         p->partial = PARTLY;
-    else if (status != PERI_ERROR_ARGUMENT && status != PERI_ERROR_DESCRIPTOR && status != PERI_ERROR_ORDER && status != PERI_ERROR_MODEL)
+    else if (status != PERI_ERROR_ARGUMENT && status != PERI_ERROR_DESCRIPTOR && status != PERI_ERROR_ORDER && status != PERI_ERROR_LAW)
         p->partial = 1;
     if (wild && p->partial) o->wild = 1; /* the body may stand at load_from now */
     return status;
@@ -333,9 +333,9 @@ static int64_t reset(program *p, int s) {
     if (status < 0) return status;
     o->lost = 0;
     HOLDS(p, peri_time(o->body) == 0.0 && peri_step_count(o->body) == 0 && peri_broken_count(o->body) == 0);
-    HOLDS(p, CALL(p, s, peri_read(o->body, PERI_DISPLACEMENT, p->other, ROOM)) == PERI_OK);
+    HOLDS(p, CALL(p, s, peri_get_field(o->body, PERI_FIELD_DISPLACEMENT, p->other, ROOM)) == PERI_OK);
     for (k = 0; k < n; ++k) HOLDS(p, p->other[k] == 0.0);
-    HOLDS(p, CALL(p, s, peri_read(o->body, PERI_DAMAGE_GROWN, p->other, ROOM)) == PERI_OK);
+    HOLDS(p, CALL(p, s, peri_get_field(o->body, PERI_FIELD_DAMAGE_GROWN, p->other, ROOM)) == PERI_OK);
     for (k = 0; k < points_of(o); ++k) HOLDS(p, p->other[k] == 0.0);
     return status;
 }
@@ -345,16 +345,16 @@ static int64_t twins(program *p, int s) {
     slot *o = &p->slots[s];
     const int kind = draw(p);
     peri_body *copy = NULL;
-    peri_run r;
-    peri_statics t;
+    peri_advance_desc r;
+    peri_solve_desc t;
     peri_error e;
     if (o->busy || !o->body || p->mood == MOOD_MEMORY) return 0;
-    int64_t status = peri_clone(o->body, &copy, NULL), other;
+    int64_t status = peri_body_clone(o->body, &copy, NULL), other;
     if (!copy) return status;
-    peri_run_init(&r);
+    peri_advance_desc_init(&r);
     r.steps = 1 + kind % 4;
     r.integrator = 1 + kind / 4 % 2;
-    peri_statics_init(&t);
+    peri_solve_desc_init(&t);
     t.loose = PERI_LOOSE_BALANCED;
     t.iterations = 100;
     t.newton = 3;
@@ -367,11 +367,11 @@ static int64_t twins(program *p, int s) {
     const peri_error record = o->record;
     print a = print_of(p, s, 1);
     o->body = copy;
-    HOLDS(p, peri_last_error(copy, &o->record) == PERI_OK);
+    HOLDS(p, peri_get_error(copy, &o->record) == PERI_OK);
     other = kind / 8 % 2 ? CALL(p, s, peri_advance(o->body, &r)) : CALL(p, s, peri_solve(o->body, &t, NULL));
     print b = print_of(p, s, 1);
     a.count[6] = b.count[6];
-    HOLDS(p, peri_last_error(copy, &e) == PERI_OK);
+    HOLDS(p, peri_get_error(copy, &e) == PERI_OK);
     if (status != other || (!o->lost && !same_print(a, b, PERI_OK))) blame(p, "a copy moves as the body does", __LINE__);
     if (status < 0) HOLDS(p, same_record(&e, &record));
     peri_body_destroy(copy);
@@ -390,10 +390,10 @@ static int64_t look_at_fields(program *p, int s) {
     peri_energy e;
     const int64_t room = p->mood == MOOD_CHOICES && draw(p) % 2 ? below(p, 100) : ROOM;
     switch (below(p, 4)) {
-    case 0: return CALL(p, s, peri_read(o->body, field, GIVEN(0, p->other), room));
+    case 0: return CALL(p, s, peri_get_field(o->body, field, GIVEN(0, p->other), room));
     case 1: return CALL(p, s, peri_view_field(o->body, field, GIVEN(0, &view)));
-    case 2: return CALL(p, s, peri_read_energy(o->body, GIVEN(0, &e)));
-    default: return CALL(p, s, peri_read_momentum(o->body, GIVEN(0, linear), GIVEN(1, angular)));
+    case 2: return CALL(p, s, peri_get_energy(o->body, GIVEN(0, &e)));
+    default: return CALL(p, s, peri_get_momentum(o->body, GIVEN(0, linear), GIVEN(1, angular)));
     }
 }
 
@@ -403,10 +403,10 @@ static int64_t write_out(program *p, int s) {
     static const char *const paths[] = {"/dev/null", "", "no/such/folder/file"};
     const char *path = paths[below(p, 3)];
     switch (below(p, 8)) {
-    case 0: case 1: return CALL(p, s, peri_write_vtu(o->body, GIVEN(0, on_write), h));
-    case 2: case 3: return CALL(p, s, peri_write_history(o->body, choice(p, 0, 2), GIVEN(0, on_write), h));
-    case 4: return CALL(p, s, peri_save_vtu(o->body, GIVEN(0, path)));
-    case 5: return CALL(p, s, peri_save_history(o->body, GIVEN(0, path), 1));
+    case 0: case 1: return CALL(p, s, peri_export_vtu_to(o->body, GIVEN(0, on_write), h));
+    case 2: case 3: return CALL(p, s, peri_export_history_to(o->body, choice(p, 0, 2), GIVEN(0, on_write), h));
+    case 4: return CALL(p, s, peri_export_vtu(o->body, GIVEN(0, path)));
+    case 5: return CALL(p, s, peri_export_history(o->body, GIVEN(0, path), 1));
     default: return 0;
     }
 }
@@ -416,12 +416,12 @@ static int64_t look_at_constants(program *p, int s) {
     double c = 1.0, s0 = 1.0, w0 = 1.0;
     const int kind = draw(p);
     if (kind % 4 == 0) {
-        const int64_t status = CALL(p, s, peri_read_critical_energy(o->body, some_id(p, o->materials), GIVEN(0, &w0)));
+        const int64_t status = CALL(p, s, peri_get_critical_energy(o->body, some_id(p, o->materials), GIVEN(0, &w0)));
         if (status == PERI_OK && !o->wild) HOLDS(p, w0 > 0.0);
         return status;
     }
     const int32_t i = some_id(p, o->materials), j = some_id(p, o->materials);
-    const int64_t status = CALL(p, s, peri_read_bond_constants(o->body, i, j, kind % 8 < 4 ? &c : NULL, GIVEN(0, &s0)));
+    const int64_t status = CALL(p, s, peri_get_bond_constants(o->body, i, j, kind % 8 < 4 ? &c : NULL, GIVEN(0, &s0)));
     if (status == PERI_OK && !o->wild) HOLDS(p, c <= DBL_MAX && c > -DBL_MAX && !(s0 <= 0.0));
     return status;
 }
@@ -452,7 +452,7 @@ static int64_t assemble(program *p, int s) {
     if (draw(p) % 3 == 0) drop_matrix(p);
     if (!p->matrix) {
         const int64_t held = p->memory.bytes - total_of(o);
-        status = CALL(p, s, peri_assemble(o->body, GIVEN(0, &p->matrix)));
+        status = CALL(p, s, peri_matrix_create(o->body, GIVEN(0, &p->matrix)));
         HOLDS(p, (status == PERI_OK) == (p->matrix != NULL));
         p->matrix_bytes = p->memory.bytes - total_of(o) - held;
         HOLDS(p, p->matrix || p->matrix_bytes == 0);
@@ -460,15 +460,15 @@ static int64_t assemble(program *p, int s) {
     rows = peri_matrix_rows(p->matrix);
     entries = peri_matrix_entries(p->matrix);
     if (!p->matrix) {
-        HOLDS(p, rows < 0 && entries < 0 && peri_read_matrix(NULL, NULL, NULL, NULL) == PERI_ERROR_ARGUMENT);
+        HOLDS(p, rows < 0 && entries < 0 && peri_get_matrix(NULL, NULL, NULL, NULL) == PERI_ERROR_ARGUMENT);
         return status;
     }
     HOLDS(p, rows >= 4 && entries >= rows && entries <= rows * rows);
-    if (h->kind != 1) (void)peri_write_matrix(p->matrix, on_write, h);
+    if (h->kind != 1) (void)peri_export_matrix_to(p->matrix, on_write, h);
     int64_t *start = (int64_t *)malloc((size_t)(rows + 1) * sizeof *start);
     int32_t *column = (int32_t *)malloc((size_t)entries * sizeof *column);
     double *value = (double *)malloc((size_t)entries * sizeof *value);
-    HOLDS(p, peri_read_matrix(p->matrix, start, column, draw(p) % 2 ? value : NULL) == PERI_OK);
+    HOLDS(p, peri_get_matrix(p->matrix, start, column, draw(p) % 2 ? value : NULL) == PERI_OK);
     HOLDS(p, start[0] == 0 && start[rows] == entries);
     for (k = 0; k < rows; ++k) {
         int64_t at;

@@ -33,9 +33,9 @@ static int names_a_point(const slot *s, const peri_error *e) {
 
 static void check_text(program *p, const peri_error *e) {
     char text[256];
-    int64_t length = peri_error_format(e, text, sizeof text);
+    int64_t length = peri_format_error(e, text, sizeof text);
     HOLDS(p, length > 0 && (length >= (int64_t)sizeof text || (int64_t)strlen(text) == length));
-    HOLDS(p, peri_error_format(e, NULL, 0) == length && strncmp(text, e->text, strlen(e->text) < 100 ? strlen(e->text) : 100) == 0);
+    HOLDS(p, peri_format_error(e, NULL, 0) == length && strncmp(text, e->text, strlen(e->text) < 100 ? strlen(e->text) : 100) == 0);
 }
 
 static int64_t told(program *p, int s, int64_t status, int line) {
@@ -48,7 +48,7 @@ static int64_t told(program *p, int s, int64_t status, int line) {
         if (status != PERI_ERROR_ARGUMENT) blame(p, "a call without a body is refused as an argument", line);
         return status;
     }
-    HOLDS(p, peri_last_error(o->body, &e) == PERI_OK);
+    HOLDS(p, peri_get_error(o->body, &e) == PERI_OK);
     if (status < 0) {
         const int32_t code = (int32_t)status;
         if (status < PERI_ERROR_CONVERGENCE) blame(p, "the status is listed", line);
@@ -90,7 +90,7 @@ static uint64_t hash(uint64_t h, const void *data, size_t bytes) {
 
 static int64_t total_of(const slot *s) {
     peri_memory m;
-    return s->body && peri_read_memory(s->body, &m) == PERI_OK ? m.total : 0;
+    return s->body && peri_get_memory(s->body, &m) == PERI_OK ? m.total : 0;
 }
 
 static int finite_all(const double *x, int64_t n) {
@@ -116,19 +116,19 @@ static print print_of(program *p, int s, int deep) {
     r.count[6] = total_of(o);
     r.time = peri_time(o->body);
     if (r.count[2] == 0) return r;
-    while (peri_set_size(o->body, set) > 0) set++;
+    while (peri_size_of_set(o->body, set) > 0) set++;
     r.count[7] = set;
-    for (field = PERI_DISPLACEMENT; field <= PERI_VELOCITY; ++field) {
-        const int64_t n = peri_field_size(o->body, field);
-        HOLDS(p, CALL(p, s, peri_read(p->slots[s].body, field, p->other, ROOM)) == PERI_OK);
+    for (field = PERI_FIELD_DISPLACEMENT; field <= PERI_FIELD_VELOCITY; ++field) {
+        const int64_t n = peri_size_of_field(o->body, field);
+        HOLDS(p, CALL(p, s, peri_get_field(p->slots[s].body, field, p->other, ROOM)) == PERI_OK);
         r.state = hash(r.state, p->other, (size_t)n * sizeof(double));
         if (!o->lost && !finite_all(p->other, n)) blame(p, "motion is finite where no instability was reported", __LINE__);
     }
     if (deep && !o->lost) {
         peri_energy e;
-        HOLDS(p, CALL(p, s, peri_read_energy(p->slots[s].body, &e)) == PERI_OK);
+        HOLDS(p, CALL(p, s, peri_get_energy(p->slots[s].body, &e)) == PERI_OK);
         r.deep = hash(0, &e, sizeof e);
-        HOLDS(p, CALL(p, s, peri_read(p->slots[s].body, PERI_DAMAGE, p->other, ROOM)) == PERI_OK);
+        HOLDS(p, CALL(p, s, peri_get_field(p->slots[s].body, PERI_FIELD_DAMAGE, p->other, ROOM)) == PERI_OK);
         r.deep = hash(r.deep, p->other, (size_t)r.count[0] * sizeof(double));
         r.step = peri_stable_step(o->body);
     }
@@ -151,7 +151,7 @@ static void check_memory(program *p) {
         const slot *o = &p->slots[s];
         if (o->busy) return; /* solvers hold some of their own */
         if (!o->body) continue;
-        HOLDS(p, peri_read_memory(o->body, &m) == PERI_OK);
+        HOLDS(p, peri_get_memory(o->body, &m) == PERI_OK);
         HOLDS(p, m.points >= 0 && m.families >= 0 && m.damage >= 0 && m.state >= 0 && m.laws > 0 && m.loads >= 0 && m.fields >= 0);
         HOLDS(p, m.total == m.points + m.families + m.damage + m.state + m.laws + m.loads + m.fields);
         HOLDS(p, m.shared >= 0 && m.shared < m.total);
@@ -164,8 +164,8 @@ static void check_memory(program *p) {
 
 static void check_field(program *p, int s, int32_t field) {
     const slot *o = &p->slots[s];
-    const int64_t n = peri_field_size(o->body, field);
-    const int64_t status = CALL(p, s, peri_read(p->slots[s].body, field, p->other, ROOM));
+    const int64_t n = peri_size_of_field(o->body, field);
+    const int64_t status = CALL(p, s, peri_get_field(p->slots[s].body, field, p->other, ROOM));
     peri_view view;
     int64_t i, c = 0;
     int d;
@@ -173,12 +173,12 @@ static void check_field(program *p, int s, int32_t field) {
     HOLDS(p, status == PERI_OK && n > 0 && n <= ROOM);
     if (p->fault) return;
     if (!o->lost && !o->wild && !finite_all(p->other, n)) blame(p, "a field is finite where only ordinary numbers went in", __LINE__);
-    for (i = 0; i < n && (field == PERI_DAMAGE || field == PERI_DAMAGE_GROWN); ++i) HOLDS(p, p->other[i] >= 0.0 && p->other[i] <= 1.0);
-    if (field > PERI_VOLUME || CALL(p, s, peri_view_field(p->slots[s].body, field, &view)) < 0) return;
+    for (i = 0; i < n && (field == PERI_FIELD_DAMAGE || field == PERI_FIELD_DAMAGE_GROWN); ++i) HOLDS(p, p->other[i] >= 0.0 && p->other[i] <= 1.0);
+    if (field > PERI_FIELD_VOLUME || CALL(p, s, peri_view_field(p->slots[s].body, field, &view)) < 0) return;
     for (i = 0; i < view.count; ++i)
         for (d = 0; d < view.components; ++d, ++c) {
             const int64_t at = i * view.point_stride + d * view.component_stride;
-            const double raw = view.type == PERI_F32 ? (double)((const float *)view.data)[at] : ((const double *)view.data)[at];
+            const double raw = view.type == PERI_TYPE_F32 ? (double)((const float *)view.data)[at] : ((const double *)view.data)[at];
             const double x = view.offset[d] + view.scale * raw;
             if (!(p->other[c] == x || (x != x && p->other[c] != p->other[c]))) blame(p, "a view shows what is read", __LINE__);
         }
@@ -208,8 +208,8 @@ static void check_body(program *p, int s) {
     if (p->calls % 4 == 0 && !o->lost) {
         peri_energy e;
         double linear[3], angular[3];
-        HOLDS(p, CALL(p, s, peri_read_energy(p->slots[s].body, &e)) == PERI_OK);
-        HOLDS(p, CALL(p, s, peri_read_momentum(p->slots[s].body, linear, angular)) == PERI_OK);
+        HOLDS(p, CALL(p, s, peri_get_energy(p->slots[s].body, &e)) == PERI_OK);
+        HOLDS(p, CALL(p, s, peri_get_momentum(p->slots[s].body, linear, angular)) == PERI_OK);
         if (!o->wild) {
             HOLDS(p, finite_all(&e.kinetic, 1) && finite_all(&e.elastic, 1) && finite_all(&e.external, 1) && finite_all(&e.obstacle, 1));
             HOLDS(p, finite_all(&e.damping, 1) && finite_all(&e.fracture, 1) && finite_all(&e.initial, 1) && finite_all(&e.error, 1));
@@ -225,7 +225,7 @@ static void check_families(program *p, int s) {
     const int64_t points = peri_point_count(b), width = peri_family_width(b);
     int64_t i, k, live = 0, bonds = 0;
     for (i = 0; i < points && width > 0 && width <= ROOM; ++i) {
-        HOLDS(p, CALL(p, s, peri_read_families(b, i, 1, p->ids, ROOM)) == PERI_OK);
+        HOLDS(p, CALL(p, s, peri_get_families(b, i, 1, p->ids, ROOM)) == PERI_OK);
         for (k = 0; k < width; ++k) {
             const int32_t j = p->ids[k];
             int64_t here, back;

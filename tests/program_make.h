@@ -9,7 +9,7 @@ static double young_of(const slot *o, double x) { return o->stress * x; }
 static void empty_slot(slot *o) {
     int k;
     memset(o, 0, sizeof *o);
-    o->space = PERI_PLANE_STRESS;
+    o->space = PERI_SPACE_PLANE_STRESS;
     o->dim = 2;
     o->length = o->stress = o->density = 1.0;
     for (k = 0; k < 3; ++k) o->hi[k] = 4.0;
@@ -30,13 +30,13 @@ static void drop(program *p, int s) {
 static void fill_desc(program *p, int s, peri_body_desc *d) {
     static const int32_t influences[] = {1, 1, 1, 1, 1, 1, 1, 3, 3, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 16};
     static const int32_t quadratures[] = {1, 1, 1, 1, 2, 3, 3, 5, 4, 2}, corrections[] = {1, 1, 1, 2, 3, 4, 4, 1};
-    static const int32_t precisions[] = {PERI_F64, PERI_F64, PERI_F32, PERI_MIXED}, kernels[] = {0, 0, 1, 2};
+    static const int32_t precisions[] = {PERI_PRECISION_DOUBLE, PERI_PRECISION_DOUBLE, PERI_PRECISION_SINGLE, PERI_PRECISION_MIXED}, kernels[] = {0, 0, 1, 2};
     static const double lengths[] = {1.0, 1.0, 1e-9, 3e4}, stresses[] = {1.0, 7e10}, densities[] = {1.0, 2440.0};
     slot *o = &p->slots[s];
     const int flags = draw(p), more = draw(p);
     peri_body_desc_init(d);
     o->space = d->space = choice(p, 1, 3);
-    o->dim = d->space == PERI_SOLID ? 3 : 2;
+    o->dim = d->space == PERI_SPACE_SOLID ? 3 : 2;
     o->length = lengths[flags % 4];
     o->stress = stresses[flags / 4 % 2];
     o->density = densities[flags / 8 % 2];
@@ -46,7 +46,7 @@ static void fill_desc(program *p, int s, peri_body_desc *d) {
     d->influence = p->mood == MOOD_CHOICES ? choice(p, 1, 16) : influences[below(p, 24)];
     d->quadrature = p->mood == MOOD_CHOICES ? choice(p, 1, 5) : quadratures[below(p, o->dim == 3 ? 7 : 10)];
     d->correction = p->mood == MOOD_CHOICES ? choice(p, 1, 4) : corrections[more % 8];
-    if (p->mood == 0 && d->quadrature >= PERI_PARTIAL_CENTROID) d->correction = PERI_NO_CORRECTION;
+    if (p->mood == 0 && d->quadrature >= PERI_QUADRATURE_PARTIAL_CENTROID) d->correction = PERI_CORRECTION_NONE;
     d->break_timing = p->mood == MOOD_CHOICES ? choice(p, 1, 2) : 1 + more / 8 % 2;
     d->ledger = more / 16 % 4 != 3;
     d->threads = 1;
@@ -63,7 +63,7 @@ static void fill_desc(program *p, int s, peri_body_desc *d) {
     if (more / 64 == 2) d->log = on_log;
     d->log_user = p;
     o->quadrature = d->quadrature;
-    o->heavy = o->dim == 3 && (d->quadrature == PERI_PARTIAL_VOLUME || d->correction == PERI_MOMENT_CORRECTION);
+    o->heavy = o->dim == 3 && (d->quadrature == PERI_QUADRATURE_PARTIAL || d->correction == PERI_CORRECTION_MOMENT);
     if (p->nulls == 2) d->cookie ^= 1;
     if (p->trace)
         printf("    space %d precision %d geometry %d influence %d quadrature %d correction %d kernel %d horizon %g, %g long\n", d->space,
@@ -84,29 +84,29 @@ static int64_t make_body(program *p, int s) {
     const int32_t status = peri_body_create(GIVEN(3, &d), &o->body, &e);
     HOLDS(p, status == e.code && (status == PERI_OK) == (o->body != NULL) && e.field && e.text);
     if (o->body && !d.allocate) drop(p, s); /* not counted */
-    if (o->body) HOLDS(p, peri_last_error(o->body, &o->record) == PERI_OK && o->record.code == PERI_OK);
+    if (o->body) HOLDS(p, peri_get_error(o->body, &o->record) == PERI_OK && o->record.code == PERI_OK);
     p->partial = 1;
     return status;
 }
 
-static void fill_material(program *p, int s, peri_material *m, int32_t model) {
+static void fill_material(program *p, int s, peri_material_desc *m, int32_t law) {
     static const double youngs[] = {1.0, 1.0, 2.0, 0.5};
     const slot *o = &p->slots[s];
     const int flags = draw(p);
     const double modulus = p->mood == MOOD_NUMBERS ? number(p, 0.0, 2.0) : youngs[flags % 4];
-    peri_material_init(m, model);
+    peri_material_desc_init(m, law);
     if (flags / 4 % 4 == 3) m->bulk = young_of(o, modulus);
     else m->young = young_of(o, modulus);
     m->density = o->density * number(p, 0.5, 1.0);
-    if (model != PERI_BOND_BASED) m->poisson = number(p, -0.5, 0.4375);
+    if (law != PERI_LAW_BOND_BASED) m->poisson = number(p, -0.5, 0.4375);
     if (p->mood == MOOD_CHOICES) m->criterion = choice(p, 1, 3);
-    else if (model != PERI_BOND_BASED) m->criterion = 1 + flags / 16 % 4 % 3;
+    else if (law != PERI_LAW_BOND_BASED) m->criterion = 1 + flags / 16 % 4 % 3;
     if (m->criterion != PERI_CRITERION_STRETCH || flags / 64 == 1) m->fracture_energy = o->stress * o->length * number(p, 1e-4, 1e-2);
     else if (flags / 64 > 1) m->critical_stretch = number(p, 0.005, 0.1);
     if (p->mood == MOOD_NUMBERS) m->stabilization = number(p, 0.0, 1.0);
     if (p->nulls == 1) m->cookie = 0;
     if (p->trace)
-        printf("    model %d criterion %d young %g bulk %g poisson %g density %g G0 %g s0 %g k %g\n", m->model, m->criterion, m->young,
+        printf("    law %d criterion %d young %g bulk %g poisson %g density %g G0 %g s0 %g k %g\n", m->law, m->criterion, m->young,
                m->bulk, m->poisson, m->density, m->fracture_energy, m->critical_stretch, m->stabilization);
 }
 
@@ -116,17 +116,17 @@ static int32_t some_model(program *p) {
 }
 
 static int64_t add_material(program *p, int s) {
-    peri_material m;
-    fill_material(p, s, &m, p->mood == 0 && p->slots[s].quadrature >= PERI_PARTIAL_CENTROID ? PERI_BOND_BASED : some_model(p));
+    peri_material_desc m;
+    fill_material(p, s, &m, p->mood == 0 && p->slots[s].quadrature >= PERI_QUADRATURE_PARTIAL_CENTROID ? PERI_LAW_BOND_BASED : some_model(p));
     const int64_t id = CALL(p, s, peri_add_material(p->slots[s].body, GIVEN(0, &m)));
     if (id >= 0) p->slots[s].materials = (int32_t)id + 1;
     return id;
 }
 
 static int64_t set_interface(program *p, int s) {
-    peri_material m;
+    peri_material_desc m;
     const int32_t count = p->slots[s].materials, i = some_id(p, count), j = p->mood == 0 && count > 1 ? (i + 1) % count : some_id(p, count);
-    fill_material(p, s, &m, PERI_BOND_BASED);
+    fill_material(p, s, &m, PERI_LAW_BOND_BASED);
     return CALL(p, s, peri_set_interface(p->slots[s].body, i, j, GIVEN(0, &m)));
 }
 
@@ -245,13 +245,13 @@ static int64_t clone(program *p, int s) {
     peri_body *copy = NULL;
     if (!to->busy) drop(p, 1 - s);
     if (to->body) return 0;
-    const int32_t status = peri_clone(from->body, GIVEN(0, &copy), &e);
+    const int32_t status = peri_body_clone(from->body, GIVEN(0, &copy), &e);
     HOLDS(p, status == e.code && (status == PERI_OK) == (copy != NULL));
     if (!copy) return status;
     *to = *from;
     to->body = copy;
     to->busy = 0;
-    HOLDS(p, peri_last_error(copy, &to->record) == PERI_OK && to->record.code == PERI_OK);
+    HOLDS(p, peri_get_error(copy, &to->record) == PERI_OK && to->record.code == PERI_OK);
     print a = print_of(p, s, 0), b = print_of(p, 1 - s, 0);
     a.count[6] = b.count[6];
     if (from->busy == 0 && !same_print(a, b, PERI_OK)) blame(p, "a copy is as the body", __LINE__);
@@ -265,7 +265,7 @@ static int64_t clone(program *p, int s) {
 static int64_t plan(program *p, int s) {
     slot was = p->slots[s], *o = &p->slots[s];
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_plan_desc q;
     peri_plan_report report;
     peri_error e, f;
@@ -288,9 +288,9 @@ static int64_t plan(program *p, int s) {
     d.log = NULL;
     int64_t deed = peri_body_create(&d, &b, &f);
     if (deed >= 0) deed = peri_add_material(b, &m);
-    if (deed >= 0) deed = peri_add_box(b, 0, q.lo, q.hi, q.spacing);
+    if (deed >= 0) deed = peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), q.lo, q.hi, q.spacing);
     if (deed >= 0) deed = peri_build(b);
-    if (deed < 0 && b) (void)peri_last_error(b, &f);
+    if (deed < 0 && b) (void)peri_get_error(b, &f);
     if (p->trace) printf("    plan %d %s, deed %d %s\n", status, status < 0 ? e.field : "", (int)deed, deed < 0 ? f.field : "");
     const hook *h = (const hook *)d.influence_user;
     const int negative = d.influence == PERI_INFLUENCE_POLE_HALF || (h && h->kind == INFLUENCE_NEGATIVE);
@@ -302,8 +302,8 @@ static int64_t plan(program *p, int s) {
     if (status == PERI_OK && deed >= 0) {
         peri_memory held;
         HOLDS(p, report.points == peri_point_count(b) && report.bonds == peri_bond_count(b) && report.width == peri_family_width(b));
-        HOLDS(p, peri_read_memory(b, &held) == PERI_OK);
-        if (d.correction == PERI_NO_CORRECTION) HOLDS(p, held.total == report.bytes);
+        HOLDS(p, peri_get_memory(b, &held) == PERI_OK);
+        if (d.correction == PERI_CORRECTION_NONE) HOLDS(p, held.total == report.bytes);
         HOLDS(p, report.stable_step > 0.0 && report.peak >= 0);
     }
     peri_body_destroy(b);

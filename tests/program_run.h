@@ -9,14 +9,14 @@ static int64_t ask_for_nothing(program *p, int s) {
     peri_memory m;
     (void)s;
     peri_body_desc_init(NULL);
-    peri_material_init(NULL, 1);
-    peri_run_init(NULL);
-    peri_statics_init(NULL);
+    peri_material_desc_init(NULL, 1);
+    peri_advance_desc_init(NULL);
+    peri_solve_desc_init(NULL);
     peri_plan_desc_init(NULL);
     peri_body_destroy(NULL);
     peri_matrix_destroy(NULL);
     HOLDS(p, peri_status_text((int32_t)(draw(p) - 64)) != NULL);
-    HOLDS(p, peri_error_format(NULL, NULL, 0) == PERI_ERROR_ARGUMENT && peri_read_memory(NULL, &m) == PERI_ERROR_ARGUMENT);
+    HOLDS(p, peri_format_error(NULL, NULL, 0) == PERI_ERROR_ARGUMENT && peri_get_memory(NULL, &m) == PERI_ERROR_ARGUMENT);
     HOLDS(p, peri_point_count(NULL) == PERI_ERROR_ARGUMENT && peri_time(NULL) == 0.0 && peri_stable_step(NULL) == 0.0);
     HOLDS(p, peri_kernel_text(NULL)[0] == 0 && peri_find_set(NULL, "a") == PERI_ERROR_ARGUMENT);
     return 0;
@@ -105,13 +105,13 @@ static void hold_scene(program *p, int s, int kind) {
     }
     hi[0] = o->lo[0] + 1.25 * o->length;
     set = (int32_t)CALL(p, s, peri_select_box(o->body, "left", lo, hi));
-    (void)CALL(p, s, peri_prescribe_displacement(o->body, set, kind % 4 ? (1 << o->dim) - 1 : PERI_X, NULL, NULL, NULL));
+    (void)CALL(p, s, peri_prescribe_displacement(o->body, set, kind % 4 ? (1 << o->dim) - 1 : PERI_AXIS_X, NULL, NULL, NULL));
     lo[0] = o->hi[0] - 1.25 * o->length;
     hi[0] = o->hi[0];
     set = (int32_t)CALL(p, s, peri_select_box(o->body, "right", lo, hi));
     pull[kind / 4 % 2] = (kind / 8 % 2 ? 0.5 : 0.05) * (kind / 16 % 2 ? o->length : speed_of(o));
-    if (kind / 16 % 2) (void)CALL(p, s, peri_prescribe_displacement(o->body, set, PERI_X | PERI_Y, pull, NULL, NULL));
-    else (void)CALL(p, s, peri_prescribe_velocity(o->body, set, PERI_X | PERI_Y, pull, NULL, NULL));
+    if (kind / 16 % 2) (void)CALL(p, s, peri_prescribe_displacement(o->body, set, PERI_AXIS_X | PERI_AXIS_Y, pull, NULL, NULL));
+    else (void)CALL(p, s, peri_prescribe_velocity(o->body, set, PERI_AXIS_X | PERI_AXIS_Y, pull, NULL, NULL));
     p->slots[s].loads = 2;
     if (kind / 32 % 2) (void)cut(p, s);
 }
@@ -132,28 +132,28 @@ static void make_scene(program *p) {
     if (kind % 16 == 2) return;
     if (build(p, s) != PERI_OK || points_of(&p->slots[s]) == 0) { /* an influence function that cannot be, a point alone, ... */
         peri_body_desc d;
-        peri_material m;
+        peri_material_desc m;
         slot *o = &p->slots[s];
         const double hi[3] = {6.0, 4.0, 2.0};
         drop(p, s);
         peri_body_desc_init(&d);
-        d.space = PERI_PLANE_STRESS + kind / 16 % 3;
-        d.precision = kind / 64 < 3 ? PERI_F64 : PERI_MIXED;
+        d.space = PERI_SPACE_PLANE_STRESS + kind / 16 % 3;
+        d.precision = kind / 64 < 3 ? PERI_PRECISION_DOUBLE : PERI_PRECISION_MIXED;
         d.horizon = 2.5;
         d.threads = 1;
         d.allocate = pool_allocate;
         d.release = pool_release;
         d.memory_user = &p->memory;
         o->space = d.space;
-        o->dim = d.space == PERI_SOLID ? 3 : 2;
+        o->dim = d.space == PERI_SPACE_SOLID ? 3 : 2;
         o->family = ++p->families;
         memcpy(o->hi, hi, sizeof hi);
         HOLDS(p, peri_body_create(&d, &o->body, &o->record) == PERI_OK);
-        peri_material_init(&m, PERI_BOND_BASED);
+        peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
         m.young = m.density = 1.0;
         m.critical_stretch = 0.02;
         HOLDS(p, CALL(p, s, peri_add_material(o->body, &m)) == 0);
-        HOLDS(p, CALL(p, s, peri_add_box(o->body, 0, o->lo, o->hi, 1.0)) > 0);
+        HOLDS(p, CALL(p, s, peri_add_box(o->body, peri_id(o->body, PERI_KIND_MATERIAL, 1), o->lo, o->hi, 1.0)) > 0);
         HOLDS(p, CALL(p, s, peri_build(o->body)) == PERI_OK);
         o->materials = 1;
     }

@@ -7,7 +7,7 @@
 
 #define LAWS 4
 
-static const int32_t models[LAWS] = {PERI_BOND_BASED, PERI_LPS, PERI_OTERKUS, PERI_CORRESPONDENCE};
+static const int32_t models[LAWS] = {PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE};
 
 typedef struct scene {
     int32_t space, geometry, influence, correction, precision;
@@ -20,13 +20,13 @@ static inline scene scene_of(int32_t space, int32_t geometry, int32_t influence,
     s.geometry = geometry;
     s.influence = influence;
     s.correction = correction;
-    s.precision = PERI_F64;
+    s.precision = PERI_PRECISION_DOUBLE;
     s.reach = reach;
     return s;
 }
 
 static inline peri_body *scene_body(const scene *s) {
-    specimen p = specimen_of(s->space, PERI_BOND_BASED, 0, H, s->reach, 1, 1, 1);
+    specimen p = specimen_of(s->space, PERI_LAW_BOND_BASED, 0, H, s->reach, 1, 1, 1);
     peri_body *b = NULL;
     p.desc.precision = s->precision;
     p.desc.geometry = s->geometry;
@@ -38,12 +38,12 @@ static inline peri_body *scene_body(const scene *s) {
 }
 
 /* An unbreakable material; nu is not used where it is bond-based, `stable` < 0 leaves the default of the stabilization. */
-static inline int32_t add_law(peri_body *b, int32_t model, double nu, double stable) {
-    peri_material m;
-    peri_material_init(&m, model);
+static inline int32_t add_law(peri_body *b, int32_t law, double nu, double stable) {
+    peri_material_desc m;
+    peri_material_desc_init(&m, law);
     m.young = YOUNG;
     m.density = DENSITY;
-    if (model != PERI_BOND_BASED) m.poisson = nu;
+    if (law != PERI_LAW_BOND_BASED) m.poisson = nu;
     if (stable >= 0) m.stabilization = stable;
     return (int32_t)MUST(b, peri_add_material(b, &m));
 }
@@ -181,15 +181,15 @@ static inline void stiffness_of_sums(int dim, double alpha, double t[3][3], doub
                      By Cauchy-Schwarz theta^2 <= d^2 sum w V sum w e^2 V, so W >= 0 needs b + a d^2 sum w V >= 0 where a < 0: no larger b
      correspondence  F is exact for any family, and so is W; the stabilization is 0
    With the moment correction: that of the solid, which is what it is for. */
-static inline void stiffness_of_law(const scene *s, const sums *o, int32_t model, double nu, tensor4 *out) {
+static inline void stiffness_of_law(const scene *s, const sums *o, int32_t law, double nu, tensor4 *out) {
     int dim = dim_of(s->space);
     double d2 = dim * dim, none[3][3] = {{0}};
-    moduli e = moduli_of(s->space, model == PERI_BOND_BASED ? bond_nu(s->space) : nu);
-    if (model == PERI_CORRESPONDENCE || s->correction == PERI_MOMENT_CORRECTION) {
+    moduli e = moduli_of(s->space, law == PERI_LAW_BOND_BASED ? bond_nu(s->space) : nu);
+    if (law == PERI_LAW_CORRESPONDENCE || s->correction == PERI_CORRECTION_MOMENT) {
         stiffness_of_solid(dim, e, out);
-    } else if (model == PERI_LPS) {
+    } else if (law == PERI_LAW_LPS) {
         stiffness_of_sums(dim, e.a * dim / (o->m * o->m), (double(*)[3])o->t, e.b / o->m, &o->q, out);
-    } else if (model == PERI_OTERKUS) {
+    } else if (law == PERI_LAW_OTERKUS) {
         int none_to_shear = dim * (dim + 2) * o->shear < 0.2 * o->m;
         double b = none_to_shear ? dim * (dim + 2) * e.mu / (2 * o->m) : e.mu / (2 * o->shear);
         double d = dim / o->length, a, over = o->m * o->plain / (o->length * o->length) - 1;
@@ -198,8 +198,8 @@ static inline void stiffness_of_law(const scene *s, const sums *o, int32_t model
         stiffness_of_sums(dim, 2 * a * d * d, (double(*)[3])o->l, 2 * b, &o->q, out);
     } else {
         double h = s->reach * H, whole = dim == 3 ? 4.0 / 3 * PI * h * h * h : PI * h * h, c = 2 * d2 * e.bulk / o->full;
-        if (s->correction == PERI_VOLUME_CORRECTION) c *= whole / (o->volume + pow(H, dim));
-        if (s->correction == PERI_ENERGY_CORRECTION) c = 2 * d2 * e.bulk / o->length;
+        if (s->correction == PERI_CORRECTION_VOLUME) c *= whole / (o->volume + pow(H, dim));
+        if (s->correction == PERI_CORRECTION_ENERGY) c = 2 * d2 * e.bulk / o->length;
         stiffness_of_sums(dim, 0, none, 0.5 * c, &o->r, out);
     }
 }
@@ -222,7 +222,7 @@ static inline double largest_entry(const tensor4 *t) {
 
 /* Displacements u = grad x of all points. */
 static inline void stretch_body(peri_body *b, double grad[3][3]) {
-    double *x = get(b, PERI_POSITION), u[3];
+    double *x = get(b, PERI_FIELD_POSITION), u[3];
     int dim = peri_dimension(b), a, c;
     int64_t i;
     for (i = 0; i < peri_point_count(b); ++i) {
@@ -230,7 +230,7 @@ static inline void stretch_body(peri_body *b, double grad[3][3]) {
             for (c = 0, u[a] = 0; c < dim; ++c) u[a] += grad[a][c] * x[i * dim + c];
         memcpy(&x[i * dim], u, (size_t)dim * sizeof(double));
     }
-    put(b, PERI_DISPLACEMENT, x);
+    put(b, PERI_FIELD_DISPLACEMENT, x);
     free(x);
 }
 
@@ -245,19 +245,19 @@ static inline int32_t heads(void *user, int32_t i, int32_t j, const double *xi, 
     return test_random(&seed) < 0.5;
 }
 
-/* A perturbed grid of 6 x 5 or 4 x 3 x 3 cells of one law; model 0: the four laws side by side in four such grids. broken: half of
+/* A perturbed grid of 6 x 5 or 4 x 3 x 3 cells of one law; law 0: the four laws side by side in four such grids. broken: half of
    the bonds are cut. */
-static inline peri_body *small_body(const scene *s, int32_t model, double nu, double stable, int broken) {
+static inline peri_body *small_body(const scene *s, int32_t law, double nu, double stable, int broken) {
     static const double lo[4][2] = {{0, 0}, {3, 0}, {0, 3}, {3, 3}};
-    int solid = s->space == PERI_SOLID, k;
+    int solid = s->space == PERI_SPACE_SOLID, k;
     double from[3] = {0, 0, 0}, to[3];
     peri_body *b = scene_body(s);
-    if (model) {
+    if (law) {
         to[0] = H * (solid ? 4 : 6);
         to[1] = H * (solid ? 3 : 5);
         to[2] = H * 3;
-        (void)add_law(b, model, nu, stable);
-        (void)MUST(b, peri_add_perturbed_box(b, 0, from, to, H, 0.8, 7));
+        (void)add_law(b, law, nu, stable);
+        (void)MUST(b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), from, to, H, 0.8, 7));
     } else {
         for (k = 0; k < LAWS; ++k) {
             double cells = solid ? 2 : 3;
@@ -270,22 +270,22 @@ static inline peri_body *small_body(const scene *s, int32_t model, double nu, do
         }
     }
     (void)MUST(b, peri_build(b));
-    if (broken) CHECK(MUST(b, peri_cut_if(b, heads, NULL)) > peri_bond_count(b) / 8);
+    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, heads, NULL)) > peri_bond_count(b) / 8);
     return b;
 }
 
 /* A regular grid of 33 x 3 or 17 x 3 x 2 cells, of one law: long enough for the kernels that work on rows of a lattice. */
-static inline peri_body *lattice_body(const scene *s, int32_t model, double nu, int broken) {
-    const double lo[3] = {0, 0, 0}, hi[3] = {H * (s->space == PERI_SOLID ? 17 : 33), H * 3, H * 2};
+static inline peri_body *lattice_body(const scene *s, int32_t law, double nu, int broken) {
+    const double lo[3] = {0, 0, 0}, hi[3] = {H * (s->space == PERI_SPACE_SOLID ? 17 : 33), H * 3, H * 2};
     peri_body *b = scene_body(s);
-    (void)MUST(b, peri_add_box(b, add_law(b, model, nu, -1), lo, hi, H));
+    (void)MUST(b, peri_add_box(b, add_law(b, law, nu, -1), lo, hi, H));
     (void)MUST(b, peri_build(b));
-    if (broken) CHECK(MUST(b, peri_cut_if(b, heads, NULL)) > peri_bond_count(b) / 8);
+    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, heads, NULL)) > peri_bond_count(b) / 8);
     return b;
 }
 
 static inline scene small_scene(int32_t space, int32_t geometry, int32_t correction) {
-    return scene_of(space, geometry, PERI_INFLUENCE_GAUSSIAN, correction, space == PERI_SOLID ? 1.9 : 2.6);
+    return scene_of(space, geometry, PERI_INFLUENCE_GAUSSIAN, correction, space == PERI_SPACE_SOLID ? 1.9 : 2.6);
 }
 
 #endif

@@ -15,7 +15,7 @@ static void refuse(const peri_body *b, int32_t code, int64_t result, const char 
     } else reached[code + 32] = 1;
     if (!b) return;
     memset(&seen, 0, sizeof seen);
-    if (peri_last_error(b, &seen) != PERI_OK || seen.code != code || !seen.field || !seen.text || !seen.text[0] || seen.reserved) {
+    if (peri_get_error(b, &seen) != PERI_OK || seen.code != code || !seen.field || !seen.text || !seen.text[0] || seen.reserved) {
         test_bad++;
         printf("    line %d: %s: record: code %d, index %d, field %s, text %s\n", line, text, (int)seen.code, (int)seen.index,
                seen.field ? seen.field : "NULL", seen.text ? seen.text : "NULL");

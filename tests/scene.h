@@ -12,15 +12,15 @@
 #define DENSITY 2.0
 #define THICK   0.5 /* of the 2D bodies                                                                                   */
 
-static inline double thickness(int32_t space) { return space == PERI_SOLID ? 1.0 : THICK; }
+static inline double thickness(int32_t space) { return space == PERI_SPACE_SOLID ? 1.0 : THICK; }
 
 static const char *const law_name[] = {"", "bond-based", "LPS", "Oterkus", "correspondence"};
 static const char *const space_name[] = {"", "plane stress", "plane strain", "solid"};
 
-static inline int dim_of(int32_t space) { return space == PERI_SOLID ? 3 : 2; }
+static inline int dim_of(int32_t space) { return space == PERI_SPACE_SOLID ? 3 : 2; }
 
 /* Poisson ratio of central springs: 1/3 in plane stress, else 1/4 ([T] 1.2, [P] A). */
-static inline double bond_nu(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
+static inline double bond_nu(int32_t space) { return space == PERI_SPACE_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
 
 /* Entry (a, b) of a tensor field: xx yy xy, or xx yy zz xy yz xz. */
 static inline int packed(int dim, int a, int b) {
@@ -38,7 +38,7 @@ static inline moduli moduli_of(int32_t space, double nu) {
     const int dim = dim_of(space);
     moduli m;
     m.mu = YOUNG / (2 * (1 + nu));
-    m.lambda = space == PERI_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
+    m.lambda = space == PERI_SPACE_PLANE_STRESS ? YOUNG * nu / (1 - nu * nu) : YOUNG * nu / ((1 + nu) * (1 - 2 * nu));
     m.bulk = m.lambda + 2 * m.mu / dim;
     m.a = dim == 3 ? 3 * m.bulk - 5 * m.mu : 2 * m.lambda - 2 * m.mu;
     m.b = dim == 3 ? 15 * m.mu : 8 * m.mu;
@@ -47,8 +47,8 @@ static inline moduli moduli_of(int32_t space, double nu) {
 
 /* Micromodulus for a constant influence function: plane stress and strain [P] C.15, C.18 (per thickness), 3D [T] 1.24. */
 static inline double micromodulus(int32_t space, double young, double horizon) {
-    if (space == PERI_PLANE_STRESS) return 9.0 * young / (PI * pow(horizon, 3.0));
-    if (space == PERI_PLANE_STRAIN) return 48.0 * young / (5.0 * PI * pow(horizon, 3.0));
+    if (space == PERI_SPACE_PLANE_STRESS) return 9.0 * young / (PI * pow(horizon, 3.0));
+    if (space == PERI_SPACE_PLANE_STRAIN) return 48.0 * young / (5.0 * PI * pow(horizon, 3.0));
     return 12.0 * young / (PI * pow(horizon, 4.0)); /* 18 K/(pi h^4), K = 2E/3 */
 }
 
@@ -61,14 +61,14 @@ static inline peri_body *empty(int32_t space, int32_t precision, int32_t geometr
     d.geometry = geometry;
     d.horizon = horizon;
     d.threads = 1; /* these bodies are too small to share */
-    if (space != PERI_SOLID) d.thickness = THICK;
+    if (space != PERI_SPACE_SOLID) d.thickness = THICK;
     (void)MUST(NULL, peri_body_create(&d, &b, NULL));
     return b;
 }
 
 static inline int32_t unbreakable(peri_body *b, double young, double density) {
-    peri_material m;
-    peri_material_init(&m, PERI_BOND_BASED);
+    peri_material_desc m;
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = young;
     m.density = density;
     return (int32_t)MUST(b, peri_add_material(b, &m));
@@ -76,32 +76,32 @@ static inline int32_t unbreakable(peri_body *b, double young, double density) {
 
 /* A block of nx x ny (x nz) cells of size H with one corner at the origin, horizon 3 H. */
 static inline peri_body *block(int32_t space, int32_t precision, int32_t geometry, int nx, int ny, int nz) {
-    specimen s = specimen_of(space, PERI_BOND_BASED, 0, H, 3, nx, ny, nz);
+    specimen s = specimen_of(space, PERI_LAW_BOND_BASED, 0, H, 3, nx, ny, nz);
     s.desc.precision = precision;
     s.desc.geometry = geometry;
     s.desc.thickness = thickness(space);
     s.material.young = YOUNG;
     s.material.density = DENSITY;
     peri_body *b = specimen_make(&s);
-    CHECK(peri_point_count(b) == nx * ny * (space == PERI_SOLID ? nz : 1));
+    CHECK(peri_point_count(b) == nx * ny * (space == PERI_SPACE_SOLID ? nz : 1));
     return b;
 }
 
 static inline double *get(peri_body *b, int32_t field) {
-    int64_t n = MUST(b, peri_field_size(b, field));
+    int64_t n = MUST(b, peri_size_of_field(b, field));
     double *x = (double *)calloc((size_t)(n < 0 ? 0 : n) + 1, sizeof *x);
-    (void)MUST(b, peri_read(b, field, x, n));
+    (void)MUST(b, peri_get_field(b, field, x, n));
     return x;
 }
 
 static inline void put(peri_body *b, int32_t field, const double *x) {
-    (void)MUST(b, peri_write(b, field, x, peri_field_size(b, field)));
+    (void)MUST(b, peri_set_field(b, field, x, peri_size_of_field(b, field)));
 }
 
 /* `steps` steps of dt; dt = 0 takes the default. */
 static inline int32_t go(peri_body *b, int32_t integrator, int64_t steps, double dt, double damping) {
-    peri_run r;
-    peri_run_init(&r);
+    peri_advance_desc r;
+    peri_advance_desc_init(&r);
     r.integrator = integrator;
     r.steps = steps;
     r.time_step = dt;

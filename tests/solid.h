@@ -5,7 +5,7 @@
 #include "scene.h"
 
 typedef struct solid {
-    int32_t space, model, correction, geometry, precision, influence, quadrature;
+    int32_t space, law, correction, geometry, precision, influence, quadrature;
     double  nu, stabilization, ratio, spacing; /* stabilization < 0: the default; ratio = horizon/spacing                   */
 } solid;
 
@@ -14,16 +14,16 @@ static const char *const correction_name[] = {"", "none", "volume", "energy", "m
 static inline int parts_of(int dim) { return dim == 3 ? 6 : 3; }
 
 /* Small strains, double, full volumes, constant influence, horizon 3; Poisson ratio 0.3 where the law lets one choose. */
-static inline solid solid_of(int32_t space, int32_t model, int32_t correction) {
+static inline solid solid_of(int32_t space, int32_t law, int32_t correction) {
     solid s;
     s.space = space;
-    s.model = model;
+    s.law = law;
     s.correction = correction;
-    s.geometry = PERI_LINEAR;
-    s.precision = PERI_F64;
+    s.geometry = PERI_GEOMETRY_LINEAR;
+    s.precision = PERI_PRECISION_DOUBLE;
     s.influence = PERI_INFLUENCE_CONSTANT;
-    s.quadrature = PERI_FULL_VOLUME;
-    s.nu = model == PERI_BOND_BASED ? bond_nu(space) : 0.3;
+    s.quadrature = PERI_QUADRATURE_FULL;
+    s.nu = law == PERI_LAW_BOND_BASED ? bond_nu(space) : 0.3;
     s.stabilization = -1;
     s.ratio = 3;
     s.spacing = H;
@@ -58,7 +58,7 @@ static inline void solid_stress(const solid *s, const double *eps, double *sigma
 
 /* A block of nx x ny (x nz) cells with a corner at the origin. */
 static inline specimen solid_specimen(const solid *s, int nx, int ny, int nz) {
-    specimen p = specimen_of(s->space, s->model, s->nu, s->spacing, s->ratio, nx, ny, nz);
+    specimen p = specimen_of(s->space, s->law, s->nu, s->spacing, s->ratio, nx, ny, nz);
     p.desc.correction = s->correction;
     p.desc.geometry = s->geometry;
     p.desc.precision = s->precision;
@@ -67,11 +67,11 @@ static inline specimen solid_specimen(const solid *s, int nx, int ny, int nz) {
     p.desc.thickness = thickness(s->space);
     p.material.young = YOUNG;
     p.material.density = DENSITY;
-    if (s->model == PERI_CORRESPONDENCE && s->stabilization >= 0) p.material.stabilization = s->stabilization;
+    if (s->law == PERI_LAW_CORRESPONDENCE && s->stabilization >= 0) p.material.stabilization = s->stabilization;
     return p;
 }
 
-static inline peri_material solid_material(const solid *s) { return solid_specimen(s, 1, 1, 1).material; }
+static inline peri_material_desc solid_material(const solid *s) { return solid_specimen(s, 1, 1, 1).material; }
 
 /* A body without points, with material 0. */
 static inline peri_body *solid_new(const solid *s) {
@@ -86,7 +86,7 @@ static inline peri_body *solid_block(const solid *s, int nx, int ny, int nz) {
 
 /* u = h x with h[dim*dim], row by row. */
 static inline void stretch_by(peri_body *b, const double *h) {
-    double *x = get(b, PERI_POSITION), *u = get(b, PERI_DISPLACEMENT);
+    double *x = get(b, PERI_FIELD_POSITION), *u = get(b, PERI_FIELD_DISPLACEMENT);
     int64_t i, n = peri_point_count(b);
     int dim = peri_dimension(b), a, c;
     for (i = 0; i < n; ++i)
@@ -94,7 +94,7 @@ static inline void stretch_by(peri_body *b, const double *h) {
             u[i * dim + a] = 0;
             for (c = 0; c < dim; ++c) u[i * dim + a] += h[a * dim + c] * x[i * dim + c];
         }
-    put(b, PERI_DISPLACEMENT, u);
+    put(b, PERI_FIELD_DISPLACEMENT, u);
     free(x);
     free(u);
 }

@@ -7,7 +7,7 @@
 
 typedef struct specimen {
     peri_body_desc desc;
-    peri_material  material;
+    peri_material_desc  material;
     double         lo[3], hi[3], spacing;
     double         scatter; /* > 0: points are moved at random by up to this share of half a spacing, from seed              */
     uint64_t       seed;
@@ -15,17 +15,17 @@ typedef struct specimen {
 
 /* One thread (most bodies are too small to share), unit modulus and density, no fracture; poisson where the law lets one choose. From the
    origin to (nx, ny, nz) cells of `spacing`; horizon over spacing is `reach`. */
-static inline specimen specimen_of(int32_t space, int32_t model, double poisson, double spacing, double reach, int nx, int ny, int nz) {
+static inline specimen specimen_of(int32_t space, int32_t law, double poisson, double spacing, double reach, int nx, int ny, int nz) {
     specimen s;
     memset(&s, 0, sizeof s);
     peri_body_desc_init(&s.desc);
     s.desc.space = space;
     s.desc.horizon = reach * spacing;
     s.desc.threads = 1;
-    peri_material_init(&s.material, model);
+    peri_material_desc_init(&s.material, law);
     s.material.young = 1;
     s.material.density = 1;
-    if (model != PERI_BOND_BASED) s.material.poisson = poisson;
+    if (law != PERI_LAW_BOND_BASED) s.material.poisson = poisson;
     s.spacing = spacing;
     s.hi[0] = nx * spacing;
     s.hi[1] = ny * spacing;
@@ -44,8 +44,8 @@ static inline peri_body *specimen_start(const specimen *s) {
 /* With its box, built. */
 static inline peri_body *specimen_make(const specimen *s) {
     peri_body *b = specimen_start(s);
-    if (s->scatter > 0) (void)MUST(b, peri_add_perturbed_box(b, 0, s->lo, s->hi, s->spacing, s->scatter, s->seed));
-    else (void)MUST(b, peri_add_box(b, 0, s->lo, s->hi, s->spacing));
+    if (s->scatter > 0) (void)MUST(b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), s->lo, s->hi, s->spacing, s->scatter, s->seed));
+    else (void)MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), s->lo, s->hi, s->spacing));
     (void)MUST(b, peri_build(b));
     return b;
 }

@@ -12,24 +12,24 @@ static const char *const shape_name[SHAPES] = {"Const", "Inv", "Linear", "Quadr"
 
 /* A law with its means against its own errors. Stabilization counts for correspondence only, where 0 is the "gradient" law of [C]. */
 typedef struct study_law {
-    int32_t model, correction;
+    int32_t law, correction;
     double  stabilization;
     const char *name;
 } study_law;
 
-static const study_law SILLING = {PERI_LPS, PERI_NO_CORRECTION, 0, "Silling"};
-static const study_law OTERKUS = {PERI_OTERKUS, PERI_NO_CORRECTION, 0, "Oterkus"};
-static const study_law GRADIENT = {PERI_CORRESPONDENCE, PERI_NO_CORRECTION, 0, "gradient"};
+static const study_law SILLING = {PERI_LAW_LPS, PERI_CORRECTION_NONE, 0, "Silling"};
+static const study_law OTERKUS = {PERI_LAW_OTERKUS, PERI_CORRECTION_NONE, 0, "Oterkus"};
+static const study_law GRADIENT = {PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE, 0, "gradient"};
 
 /* A square with cells x cells points at the centres of its cells, one corner at lo[2]; plane strain, small displacements. */
 static inline peri_body *study_square(const study_law *law, int shape, double ratio, int cells, const double *lo, double side, double young,
                                       double nu) {
-    specimen s = specimen_of(PERI_PLANE_STRAIN, law->model, nu, side / cells, ratio, cells, cells, 1);
-    s.desc.geometry = PERI_LINEAR;
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRAIN, law->law, nu, side / cells, ratio, cells, cells, 1);
+    s.desc.geometry = PERI_GEOMETRY_LINEAR;
     s.desc.influence = study_influence[shape];
     s.desc.correction = law->correction;
     s.material.young = young;
-    if (law->model == PERI_CORRESPONDENCE) s.material.stabilization = law->stabilization;
+    if (law->law == PERI_LAW_CORRESPONDENCE) s.material.stabilization = law->stabilization;
     for (int d = 0; d < 2; ++d) {
         s.lo[d] = lo[d];
         s.hi[d] = lo[d] + side;
@@ -49,9 +49,9 @@ static inline int32_t study_box(peri_body *b, double x0, double y0, double x1, d
 }
 
 /* One linear solve without fracture. Returns the status of peri_solve, which a singular system may fail. */
-static inline int32_t study_solve(peri_body *b, double tolerance, int64_t iterations, peri_statics_report *report) {
-    peri_statics s;
-    peri_statics_init(&s);
+static inline int32_t study_solve(peri_body *b, double tolerance, int64_t iterations, peri_solve_report *report) {
+    peri_solve_desc s;
+    peri_solve_desc_init(&s);
     s.fracture = 0;
     s.tolerance = tolerance;
     s.iterations = iterations;

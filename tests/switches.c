@@ -49,7 +49,7 @@ static const char *const no_output = NULL;
 static const struct {
     int32_t     value;
     const char *name;
-} precisions[3] = { { PERI_F64, "double" }, { PERI_MIXED, "mixed" }, { PERI_F32, "single" } };
+} precisions[3] = { { PERI_PRECISION_DOUBLE, "double" }, { PERI_PRECISION_MIXED, "mixed" }, { PERI_PRECISION_SINGLE, "single" } };
 
 static const char *without_precision(int p) { return p == 0 ? no_f64 : p == 1 ? no_mixed : no_f32; }
 
@@ -70,10 +70,10 @@ static void show(const char *what, int p, int dim, uint64_t hash) {
 }
 
 static void show_field(const char *what, int p, int dim, peri_body *b, int32_t field) {
-    const int64_t n = peri_field_size(b, field);
+    const int64_t n = peri_size_of_field(b, field);
     double *values = (double *)malloc((size_t)n * sizeof *values);
     uint64_t hash = 0;
-    MUST(b, peri_read(b, field, values, n));
+    MUST(b, peri_get_field(b, field, values, n));
     (void)mix(&hash, values, n * (int64_t)sizeof *values);
     show(what, p, dim, hash);
     free(values);
@@ -82,42 +82,42 @@ static void show_field(const char *what, int p, int dim, peri_body *b, int32_t f
 /* A call that is left out: the status, and the switch as the field of the body's record. */
 static void left_out(const peri_body *b, int64_t status, const char *without) {
     peri_error error;
-    CHECK(peri_last_error(b, &error) == PERI_OK && says_left_out(status, &error, without));
+    CHECK(peri_get_error(b, &error) == PERI_OK && says_left_out(status, &error, without));
 }
 
 static void try_statics(peri_body *b, int p, int dim) {
     const double normal[3] = { 0, 1, 0 };
     double work[1] = { 0 };
-    peri_statics st;
-    peri_statics_report report;
+    peri_solve_desc st;
+    peri_solve_report report;
     peri_matrix *matrix = NULL;
-    peri_statics_init(&st);
+    peri_solve_desc_init(&st);
     const int32_t solved = peri_solve(b, &st, &report);
     if (!no_statics) {
         MUST(b, solved);
-        show_field("statics", p, dim, b, PERI_STRESS);
-        MUST(b, peri_assemble(b, &matrix));
-        CHECK(peri_matrix_rows(matrix) == peri_field_size(b, PERI_DISPLACEMENT) && peri_matrix_entries(matrix) > 0);
+        show_field("statics", p, dim, b, PERI_FIELD_STRESS);
+        MUST(b, peri_matrix_create(b, &matrix));
+        CHECK(peri_matrix_rows(matrix) == peri_size_of_field(b, PERI_FIELD_DISPLACEMENT) && peri_matrix_entries(matrix) > 0);
         peri_matrix_destroy(matrix);
         return;
     }
     left_out(b, solved, no_statics);
     CHECK(report.iterations == 0);
-    left_out(b, peri_apply_surface_traction(b, PERI_ALL, 1.0, normal, normal, NULL, NULL), no_statics);
+    left_out(b, peri_apply_traction(b, PERI_ALL, 1.0, normal, normal, NULL, NULL), no_statics);
     left_out(b, peri_apply_pressure(b, PERI_ALL, 1.0, NULL, NULL), no_statics);
-    left_out(b, peri_apply_bond_pressure(b, PERI_ALL, 1.0, NULL, NULL), no_statics);
+    left_out(b, peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1.0, NULL, NULL), no_statics);
     left_out(b, peri_multiply_stiffness(b, work, work, 1), no_statics);
-    left_out(b, peri_assemble(b, &matrix), no_statics);
+    left_out(b, peri_matrix_create(b, &matrix), no_statics);
     CHECK(matrix == NULL && peri_matrix_rows(matrix) == PERI_ERROR_ARGUMENT && peri_matrix_entries(matrix) == PERI_ERROR_ARGUMENT);
-    CHECK(peri_read_matrix(matrix, NULL, NULL, NULL) == PERI_ERROR_ARGUMENT);
-    CHECK(peri_write_matrix(matrix, mix, NULL) == PERI_ERROR_ARGUMENT);
+    CHECK(peri_get_matrix(matrix, NULL, NULL, NULL) == PERI_ERROR_ARGUMENT);
+    CHECK(peri_export_matrix_to(matrix, mix, NULL) == PERI_ERROR_ARGUMENT);
     peri_matrix_destroy(matrix);
     CHECK(peri_solve(NULL, &st, NULL) == PERI_ERROR_ARGUMENT);
 }
 
 static void try_output(peri_body *b, int p, int dim) {
     uint64_t hash = 0;
-    const int32_t vtu = peri_write_vtu(b, mix, &hash), history = peri_write_history(b, 1, mix, &hash);
+    const int32_t vtu = peri_export_vtu_to(b, mix, &hash), history = peri_export_history_to(b, 1, mix, &hash);
     if (!no_output) {
         MUST(b, vtu);
         MUST(b, history);
@@ -128,12 +128,12 @@ static void try_output(peri_body *b, int p, int dim) {
     left_out(b, vtu, no_output);
     left_out(b, history, no_output);
 #ifndef PERI_NO_STDIO
-    left_out(b, peri_save_vtu(b, "build/checks/left_out.vtu"), no_output);
-    left_out(b, peri_save_history(b, "build/checks/left_out.csv", 0), no_output);
+    left_out(b, peri_export_vtu(b, "build/checks/left_out.vtu"), no_output);
+    left_out(b, peri_export_history(b, "build/checks/left_out.csv", 0), no_output);
 #endif
 }
 
-static void try_advice(const peri_body_desc *d, const peri_material *m, const double *lo, const double *hi, int p, int dim) {
+static void try_advice(const peri_body_desc *d, const peri_material_desc *m, const double *lo, const double *hi, int p, int dim) {
     peri_plan_desc plan;
     peri_plan_report report;
     peri_error error;
@@ -156,17 +156,17 @@ static void try_advice(const peri_body_desc *d, const peri_material *m, const do
 }
 
 /* A box that is pulled apart, then at rest under its grips. */
-static void scene(int32_t model, int p, int dim) {
+static void scene(int32_t law, int p, int dim) {
     const double lo[3] = { 0, 0, 0 }, hi[3] = { 12, 6, 4 }, half[3] = { 6, 6, 4 }, left[3] = { 1, 6, 4 }, right[3] = { 11, 0, 0 };
     const double pull[3] = { 0.2, 0.01, 0 }, way[3] = { 0.01, 0, 0 };
     const char *without = without_space(dim) ? without_space(dim) : without_precision(p);
     peri_body_desc d;
-    peri_material m;
-    peri_run run;
+    peri_material_desc m;
+    peri_advance_desc run;
     peri_error error;
     peri_body *b = NULL;
     peri_body_desc_init(&d);
-    d.space = dim == 3 ? PERI_SOLID : PERI_PLANE_STRAIN;
+    d.space = dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN;
     d.precision = precisions[p].value;
     d.horizon = 2.6;
     const int32_t created = peri_body_create(&d, &b, &error);
@@ -175,19 +175,19 @@ static void scene(int32_t model, int p, int dim) {
         return;
     }
     CHECK(created == PERI_OK);
-    peri_material_init(&m, model);
+    peri_material_desc_init(&m, law);
     m.young = m.density = 1;
     m.critical_stretch = 0.03;
-    if (model != PERI_BOND_BASED) m.poisson = 0.2;
+    if (law != PERI_LAW_BOND_BASED) m.poisson = 0.2;
     MUST(b, peri_add_material(b, &m));
-    MUST(b, peri_add_box(b, 0, lo, hi, 1.0));
+    MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
     MUST(b, peri_build(b));
     MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, half)), pull));
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = 20;
     MUST(b, peri_advance(b, &run));
     CHECK(peri_broken_count(b) > 10);
-    show_field(model == PERI_BOND_BASED ? "bond-based" : "correspondence", p, dim, b, PERI_DISPLACEMENT);
+    show_field(law == PERI_LAW_BOND_BASED ? "bond-based" : "correspondence", p, dim, b, PERI_FIELD_DISPLACEMENT);
     try_output(b, p, dim);
     MUST(b, peri_reset(b));
     MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, left)), dim == 2 ? 3 : 7, NULL, NULL, NULL));
@@ -199,19 +199,19 @@ static void scene(int32_t model, int p, int dim) {
 
 /* Named presets, in every space: the best of the precisions that are there. */
 static void try_choose(int dim) {
-    peri_goal goal;
+    peri_choose_desc goal;
     peri_body_desc d;
-    peri_material m;
-    peri_choice choice;
+    peri_material_desc m;
+    peri_choose_report choice;
     peri_error error;
-    peri_goal_init(&goal);
+    peri_choose_desc_init(&goal);
     goal.preset = PERI_PRESET_GAME;
-    goal.quantity = PERI_FOR_DEFORMATION;
+    goal.quantity = PERI_QUANTITY_DEFORMATION;
     goal.feature = 1.0;
     for (int k = 0; k < 3; ++k) goal.hi[k] = 1.0;
     peri_body_desc_init(&d);
-    d.space = dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS;
-    peri_material_init(&m, PERI_LPS);
+    d.space = dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS;
+    peri_material_desc_init(&m, PERI_LAW_LPS);
     m.young = m.density = 1.0;
     m.poisson = 0.3;
     const int32_t chosen = peri_choose(&goal, &d, &m, &choice, &error);
@@ -220,15 +220,15 @@ static void try_choose(int dim) {
     else if (no_f64 && no_f32) CHECK(chosen == PERI_ERROR_RANGE); /* nothing was measured in mixed precision */
     else {
         CHECK(chosen == PERI_OK && choice.cost.bonds > 0);
-        CHECK(!(d.precision == PERI_F64 && no_f64) && !(d.precision == PERI_F32 && no_f32) && d.precision != PERI_MIXED);
+        CHECK(!(d.precision == PERI_PRECISION_DOUBLE && no_f64) && !(d.precision == PERI_PRECISION_SINGLE && no_f32) && d.precision != PERI_PRECISION_MIXED);
     }
 }
 
 int main(void) {
     for (int p = 0; p < 3; ++p)
         for (int dim = 2; dim <= 3; ++dim) {
-            scene(PERI_BOND_BASED, p, dim);
-            scene(PERI_CORRESPONDENCE, p, dim);
+            scene(PERI_LAW_BOND_BASED, p, dim);
+            scene(PERI_LAW_CORRESPONDENCE, p, dim);
         }
     try_choose(2);
     try_choose(3);

@@ -268,7 +268,7 @@ typedef struct bending {
     beam       b;
 } bending;
 
-static void count_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t count_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     bending *t = (bending *)user;
     const beam *b = &t->b;
     int p = col_of(b, j) - col_of(b, i), q = j / b->cols - i / b->cols, half = b->cols / 2;
@@ -279,6 +279,7 @@ static void count_break(void *user, int32_t i, int32_t j, double time, double st
     t->least += unit * pow(limit_of(b), 2);
     t->broken++;
     t->aside += (col_of(b, i) < half) == (col_of(b, j) < half);
+    return 0;
 }
 
 static void bending_free(bending *t) {
@@ -290,7 +291,7 @@ static bending *bending_of(const beam *b, double deflection, int32_t geometry) {
     double below[2], tip[2], down[2], c, s0;
     int32_t held[4], set;
     bending *t = (bending *)calloc(1, sizeof *t);
-    specimen s = specimen_of(PERI_PLANE_STRESS, PERI_BOND_BASED, 0, b->h, b->ratio, b->cols, b->rows, 1);
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, b->h, b->ratio, b->cols, b->rows, 1);
     held_points(b, held);
     below[0] = tip[0] = down[0] = 0;
     below[1] = -b->h;
@@ -306,18 +307,18 @@ static bending *bending_of(const beam *b, double deflection, int32_t geometry) {
     s.material.fracture_energy = G0;
     t->body = specimen_make(&s);
     CHECK(peri_point_count(t->body) == (int64_t)b->cols * b->rows);
-    (void)MUST(t->body, peri_read_bond_constants(t->body, 0, 0, &c, &s0));
+    (void)MUST(t->body, peri_get_bond_constants(t->body, peri_id(t->body, PERI_KIND_MATERIAL, 1), peri_id(t->body, PERI_KIND_MATERIAL, 1), &c, &s0));
     CHECK_NEAR(c * DEPTH, micromodulus(b), 1e-12, 0); /* c is per true volume                                            */
     CHECK_NEAR(s0, limit_of(b), 1e-12, 0);
-    if (b->notch > 0) (void)MUST(t->body, peri_cut_segment(t->body, below, tip));
+    if (b->notch > 0) (void)MUST(t->body, peri_cut_segment(t->body, PERI_CUT_INITIAL, below, tip));
     (void)MUST(t->body, peri_on_break(t->body, count_break, t));
     (void)MUST(t->body, peri_set_no_fail(t->body, peri_select_if(t->body, "guarded", take_guarded, &t->b), 1));
     set = peri_select_points(t->body, "left", 1, held + 2);
-    (void)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_X | PERI_Y, NULL, NULL, NULL));
+    (void)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
     set = peri_select_points(t->body, "right", 1, held + 3);
-    (void)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_Y, NULL, NULL, NULL));
+    (void)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_AXIS_Y, NULL, NULL, NULL));
     set = peri_select_points(t->body, "top", 2, held);
-    t->load = (int32_t)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_Y, down, NULL, NULL));
+    t->load = (int32_t)MUST(t->body, peri_prescribe_displacement(t->body, set, PERI_AXIS_Y, down, NULL, NULL));
     return t;
 }
 
@@ -327,9 +328,9 @@ enum { FACTOR, MOVE_X, MOVE_Y, FORCE_X, FORCE_Y, BROKEN, WIDE };
 /* In `steps` steps; the curve is the caller's to free. Row -1 is the beam at rest: curve - WIDE was allocated. */
 static double *bend(bending *t, int steps, double criticality) {
     double *curve = (double *)calloc((size_t)(steps + 1) * WIDE, sizeof *curve);
-    peri_statics st;
-    peri_statics_report report;
-    peri_statics_init(&st);
+    peri_solve_desc st;
+    peri_solve_report report;
+    peri_solve_desc_init(&st);
     st.steps = steps;
     st.criticality = criticality;
     st.curve_load = t->load;
@@ -351,7 +352,7 @@ static double peak_of(const double *curve, int steps) {
 /* Load, deflection and broken bonds of each step are those of the network. Load: its error is residual . (displacements under a unit
    deflection), at most 1e-8 |load| sqrt(points) <= 7e-7 |load| here and for the network. */
 static double network_agrees(const beam *b, double deflection, int steps, double criticality) {
-    bending *t = bending_of(b, deflection, PERI_LINEAR);
+    bending *t = bending_of(b, deflection, PERI_GEOMETRY_LINEAR);
     network n = network_of(b);
     double *curve = bend(t, steps, criticality);
     double end = load_of(curve, steps);
@@ -389,7 +390,7 @@ static void bonds_break_at_their_limit(void) {
     double share;
     network_solve(&n);
     for (share = 1 - 1e-5; share < 1 + 2e-5; share += 2e-5) {
-        bending *t = bending_of(&b, share / network_worst(&n), PERI_LINEAR);
+        bending *t = bending_of(&b, share / network_worst(&n), PERI_GEOMETRY_LINEAR);
         free(bend(t, 1, 1));
         CHECK((t->broken > 0) == (share > 1));
         bending_free(t);
@@ -406,7 +407,7 @@ static void so_is_that_of_the_thesis(void) {
    beam turn by 62 um over 0.3 m: 2e-8/1.1e-4 = 2e-4, bonds over the crack with twice the turn 8e-4. */
 static void finite_turns_change_little(void) {
     beam b = beam_of(0.01, 3, 0.5);
-    bending *small = bending_of(&b, 62e-6, PERI_LINEAR), *finite = bending_of(&b, 62e-6, PERI_NONLINEAR);
+    bending *small = bending_of(&b, 62e-6, PERI_GEOMETRY_LINEAR), *finite = bending_of(&b, 62e-6, PERI_GEOMETRY_NONLINEAR);
     double *want = bend(small, 10, 0), *got = bend(finite, 10, 0), off = 0;
     int k;
     for (k = 1; k <= 10; ++k) {
@@ -432,7 +433,7 @@ static void peaks_converge(double h, double deflection) {
     printf("    h %4.1f mm: peak of the network %.1f N at %.2f um\n", 1e3 * h, peak, 1e6 * at);
     CHECK(at < deflection);
     for (steps = 10; steps <= (test_long ? 40 : 20); steps *= 2) {
-        bending *t = bending_of(&b, deflection, PERI_LINEAR);
+        bending *t = bending_of(&b, deflection, PERI_GEOMETRY_LINEAR);
         double *curve = bend(t, steps, 1), got = peak_of(curve, steps);
         printf("    %2d steps: %.1f N, below by %.1f %%, bound %.1f %%\n", steps, got, 100 - 100 * got / peak,
                100 * load_of(curve, 1) / peak);
@@ -475,13 +476,13 @@ typedef struct griffith {
 } griffith;
 
 static griffith energy_and_peak(const beam *b, double deflection, int steps, double criticality) {
-    bending *t = bending_of(b, deflection, PERI_LINEAR);
+    bending *t = bending_of(b, deflection, PERI_GEOMETRY_LINEAR);
     double *curve = bend(t, steps, criticality), step = deflection / steps, work = 0, alpha = b->notch / (double)b->rows, peak, nominal;
     lattice l = lattice_of(b->ratio);
     peri_energy e;
     griffith g;
     int k;
-    (void)MUST(t->body, peri_read_energy(t->body, &e));
+    (void)MUST(t->body, peri_get_energy(t->body, &e));
     for (k = 1; k <= steps; ++k)
         work += k == 1 ? 0.5 * step * load_of(curve, 1) : 0.5 * step * load_of(curve, k - 1) * (1 + k / (k - 1.0));
     CHECK_NEAR(e.external, work, 1e-5, 0);
@@ -540,7 +541,7 @@ static void strength_without_a_notch(void) {
         network n = network_of(&b);
         bending *t;
         network_solve(&n);
-        t = bending_of(&b, below / network_worst(&n), PERI_LINEAR);
+        t = bending_of(&b, below / network_worst(&n), PERI_GEOMETRY_LINEAR);
         curve = bend(t, 1, 0);
         want = stress * pow(DEPTH, 2) / (1.5 * span_of(&b) / DEPTH - 0.266);
         error = load_of(curve, 1) / below / want - 1;

@@ -119,7 +119,7 @@ typedef struct {
 static peri_body *new_body(int dim, double horizon, int32_t precision) {
     peri_body_desc d;
     peri_body_desc_init(&d);
-    d.space = dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS;
+    d.space = dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS;
     d.horizon = horizon;
     d.precision = precision;
     d.threads = 1;
@@ -153,7 +153,7 @@ static lattice *make_lattice_as(int dim, double dx, double origin, int32_t preci
                         dim == 3 ? 4 * (i / l->size[0] / l->size[1]) + 2 : 0);
     l->body = new_body(dim, (dim == 3 ? 2 : 3) * dx, precision);
     if (origin == 0.0) { /* the library's lattice, or the same points as the caller's */
-        CHECK(MUST(l->body, peri_add_box(l->body, 0, lo, hi, dx)) == l->count);
+        CHECK(MUST(l->body, peri_add_box(l->body, peri_id(l->body, PERI_KIND_MATERIAL, 1), lo, hi, dx)) == l->count);
     } else {
         static double x[3 * N_MAX], v[N_MAX];
         for (i = 0; i < l->count; ++i) {
@@ -165,11 +165,11 @@ static lattice *make_lattice_as(int dim, double dx, double origin, int32_t preci
     MUST(l->body, peri_build(l->body));
     l->width = peri_family_width(l->body);
     if (l->width > WIDTH) exit(3);
-    MUST(l->body, peri_read_families(l->body, 0, l->count, l->rows, N_MAX * WIDTH));
+    MUST(l->body, peri_get_families(l->body, 0, l->count, l->rows, N_MAX * WIDTH));
     return l;
 }
 
-static lattice *make_lattice(int dim, double dx, double origin) { return make_lattice_as(dim, dx, origin, PERI_F64); }
+static lattice *make_lattice(int dim, double dx, double origin) { return make_lattice_as(dim, dx, origin, PERI_PRECISION_DOUBLE); }
 
 /* Hands the crack to the library; vectors (edges, normals) have no origin. */
 static int64_t cut(const lattice *l, peri_body *body, const crack *k) {
@@ -181,11 +181,11 @@ static int64_t cut(const lattice *l, peri_body *body, const crack *k) {
             x[3 * n + c] = l->unit * (double)(c == 0 ? k->v[n].x : c == 1 ? k->v[n].y : k->v[n].z);
     }
     switch (k->kind) {
-    case 's': return peri_cut_segment(body, x, x + 2);
-    case 'p': return peri_cut_polyline(body, k->count, x);
-    case 't': return peri_cut_triangle(body, x, x + 3, x + 6);
-    case 'r': return peri_cut_rectangle(body, x, x + 3, x + 6);
-    default: return peri_cut_disc(body, x, x + 3, sqrt((double)k->r2) * l->unit);
+    case 's': return peri_cut_segment(body, PERI_CUT_INITIAL, x, x + 2);
+    case 'p': return peri_cut_polyline(body, PERI_CUT_INITIAL, k->count, x);
+    case 't': return peri_cut_triangle(body, PERI_CUT_INITIAL, x, x + 3, x + 6);
+    case 'r': return peri_cut_rectangle(body, PERI_CUT_INITIAL, x, x + 3, x + 6);
+    default: return peri_cut_disc(body, PERI_CUT_INITIAL, x, x + 3, sqrt((double)k->r2) * l->unit);
     }
 }
 
@@ -196,7 +196,7 @@ static int64_t check_cracks(lattice *l, const crack *a, const crack *b) {
     int64_t got_a, got_b, want_a = 0, want_b = 0, wrong = 0;
     int32_t i, j;
     int k;
-    if (MUST(l->body, peri_clone(l->body, &body, NULL)) < 0) return 0;
+    if (MUST(l->body, peri_body_clone(l->body, &body, NULL)) < 0) return 0;
     got_a = MUST(body, cut(l, body, a));
     got_b = MUST(body, cut(l, body, b));
     for (i = 0; i < l->count; ++i)
@@ -277,7 +277,7 @@ static void random_cracks(int dim, const char *kinds, int count) {
     int64_t cuts[5] = {0, 0, 0, 0, 0};
     int s, n;
     for (s = 0; s < 5; ++s) {
-        lattice *l = make_lattice_as(dim, scale[s], origin[s], s == 4 ? PERI_F32 : PERI_F64);
+        lattice *l = make_lattice_as(dim, scale[s], origin[s], s == 4 ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE);
         uint64_t seed = 2024;
         for (n = 0; n < count; ++n) {
             const crack a = random_crack(l, &seed, kinds[n % (int)strlen(kinds)]);
@@ -313,11 +313,11 @@ static void near_misses(void) {
             const double c[2] = {-dx, (4.5 + gap[k]) * dx}, d[2] = {20 * dx, (4.5 + gap[k]) * dx};
             lattice *l = make_lattice(2, dx, 0.0);
             int32_t r, t, upright = 0, level = 0;
-            MUST(l->body, peri_cut_segment(l->body, a, b));
+            MUST(l->body, peri_cut_segment(l->body, PERI_CUT_INITIAL, a, b));
             for (r = 1; r <= 3; ++r)
                 for (t = 4; t <= r + 3; ++t) upright += peri_bond_is_intact(l->body, 5 + 11 * r, 5 + 11 * t) == 0;
             CHECK(upright == (k == 0 ? 0 : 6));
-            MUST(l->body, peri_cut_segment(l->body, c, d));
+            MUST(l->body, peri_cut_segment(l->body, PERI_CUT_INITIAL, c, d));
             for (r = 0; r < 11; ++r)
                 for (t = r + 1; t < 11 && t <= r + 3; ++t) level += peri_bond_is_intact(l->body, r + 44, t + 44) == 0;
             CHECK(level == (k == 0 || k == 3 ? 0 : 10 + 9 + 8));
@@ -338,9 +338,9 @@ static void near_misses_3d(void) {
                 const double b[3] = {centre[0] + reach, centre[1] + reach, centre[2]}, c[3] = {b[0], centre[1] - reach, b[2]};
                 lattice *l = make_lattice(3, dx, 0.0);
                 const int32_t at = 4 + 6 * ((kind ? 2 : 3) + 5 * 1), inner = 3 + 6 * (2 + 5 * 1);
-                if (kind == 0) MUST(l->body, peri_cut_disc(l->body, centre, normal, (sqrt(5.0) - gap[k]) * dx));
-                if (kind == 1) MUST(l->body, peri_cut_rectangle(l->body, centre, edge1, edge2));
-                if (kind == 2) MUST(l->body, peri_cut_triangle(l->body, centre, b, c));
+                if (kind == 0) MUST(l->body, peri_cut_disc(l->body, PERI_CUT_INITIAL, centre, normal, (sqrt(5.0) - gap[k]) * dx));
+                if (kind == 1) MUST(l->body, peri_cut_rectangle(l->body, PERI_CUT_INITIAL, centre, edge1, edge2));
+                if (kind == 2) MUST(l->body, peri_cut_triangle(l->body, PERI_CUT_INITIAL, centre, b, c));
                 CHECK(peri_bond_is_intact(l->body, at, at + 30) == (k == 0));
                 CHECK(peri_bond_is_intact(l->body, inner, inner + 30) == 0);
                 peri_body_destroy(l->body);
@@ -355,7 +355,7 @@ static double area(const double *x, int a, int b, int c) {
    bonds by orientation, where that is clear by 1e-5 (an area, of edges up to 1). */
 static void cloud_points(void) {
     int precision, n, i, j;
-    for (precision = PERI_F64; precision <= PERI_F32; ++precision) {
+    for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
         static double x[2 * N_MAX], v[N_MAX];
         static int32_t rows[N_MAX * N_MAX];
         peri_body *body = new_body(2, 0.2, precision), *copy;
@@ -370,13 +370,13 @@ static void cloud_points(void) {
         MUST(body, peri_add_points(body, N_MAX, x, v, NULL));
         MUST(body, peri_build(body));
         width = peri_family_width(body);
-        MUST(body, peri_read_families(body, 0, N_MAX, rows, N_MAX * N_MAX));
+        MUST(body, peri_get_families(body, 0, N_MAX, rows, N_MAX * N_MAX));
         for (n = 0; n < 40; ++n) {
             const int a = (int)whole(&seed, 0, 127), b = (int)whole(&seed, 128, 255);
             int64_t missed = 0, wrong = 0, clear = 0;
             int k;
-            MUST(body, peri_clone(body, &copy, NULL));
-            CHECK(MUST(copy, peri_cut_segment(copy, x + 2 * a, x + 2 * b)) > 0);
+            MUST(body, peri_body_clone(body, &copy, NULL));
+            CHECK(MUST(copy, peri_cut_segment(copy, PERI_CUT_INITIAL, x + 2 * a, x + 2 * b)) > 0);
             for (i = 0; i < N_MAX; ++i)
                 for (k = 0; k < width && (j = rows[i * width + k]) != i; ++k) {
                     const int intact = peri_bond_is_intact(copy, i, j), touches = i == a || i == b || j == a || j == b;
@@ -399,9 +399,9 @@ static void cloud_points(void) {
 /* ---- cuts by hand -------------------------------------------------------------------------------------------------- */
 
 static double *field(peri_body *body, int32_t which) { /* valid until the next call for this field */
-    static double values[16][3 * N_MAX];
-    MUST(body, peri_read(body, which, values[which], 3 * N_MAX));
-    return values[which];
+    static double values[17][3 * N_MAX];
+    MUST(body, peri_get_field(body, which, values[which % 100], 3 * N_MAX));
+    return values[which % 100];
 }
 
 /* Truth: a bond is cut once, however it is named; where one pair is no bond, none is cut and the pair is named. */
@@ -409,14 +409,14 @@ static void pairs(void) {
     static const int32_t good[8] = {0, 1, 12, 0, 1, 0, 50, 52}, bad[6] = {20, 21, 0, 60, 30, 31}, self[2] = {7, 7}, far_id[2] = {3, 99};
     lattice *l = make_lattice(2, 1.0, 0.0);
     peri_error error;
-    CHECK(peri_cut_pairs(l->body, 3, bad) == PERI_ERROR_PAIR);
-    CHECK(peri_last_error(l->body, &error) == PERI_OK && error.code == PERI_ERROR_PAIR && error.index == 1);
+    CHECK(peri_cut_pairs(l->body, PERI_CUT_INITIAL, 3, bad) == PERI_ERROR_PAIR);
+    CHECK(peri_get_error(l->body, &error) == PERI_OK && error.code == PERI_ERROR_PAIR && error.index == 1);
     CHECK(peri_bond_is_intact(l->body, 20, 21) == 1 && peri_bond_is_intact(l->body, 30, 31) == 1);
-    CHECK(peri_cut_pairs(l->body, 1, self) < 0);
-    CHECK(peri_cut_pairs(l->body, 1, far_id) < 0);
+    CHECK(peri_cut_pairs(l->body, PERI_CUT_INITIAL, 1, self) < 0);
+    CHECK(peri_cut_pairs(l->body, PERI_CUT_INITIAL, 1, far_id) < 0);
     CHECK(peri_cut_count(l->body) == 0);
-    CHECK(peri_cut_pairs(l->body, 4, good) == 3);
-    CHECK(peri_cut_pairs(l->body, 4, good) == 0);
+    CHECK(peri_cut_pairs(l->body, PERI_CUT_INITIAL, 4, good) == 3);
+    CHECK(peri_cut_pairs(l->body, PERI_CUT_INITIAL, 4, good) == 0);
     CHECK(peri_cut_count(l->body) == 3);
     CHECK(peri_bond_is_intact(l->body, 1, 0) == 0 && peri_bond_is_intact(l->body, 0, 12) == 0);
     CHECK(peri_bond_is_intact(l->body, 52, 50) == 0 && peri_bond_is_intact(l->body, 0, 2) == 1);
@@ -443,8 +443,8 @@ static void pairs_if(void) {
     lattice *l = make_lattice(2, 1.0, 0.0);
     pair_state s = {NULL, 0, 0, 0};
     int32_t i, j, k, wrong = 0;
-    s.x = field(l->body, PERI_POSITION);
-    CHECK(peri_cut_if(l->body, some_pairs, &s) == s.taken);
+    s.x = field(l->body, PERI_FIELD_POSITION);
+    CHECK(peri_cut_if(l->body, PERI_CUT_INITIAL, some_pairs, &s) == s.taken);
     CHECK(s.calls == peri_bond_count(l->body) / 2 && s.wrong == 0 && s.taken > 100 && peri_cut_count(l->body) == s.taken);
     for (i = 0; i < l->count; ++i)
         for (k = 0; k < l->width && (j = l->rows[i * l->width + k]) != i; ++k)
@@ -458,25 +458,25 @@ static void refused(void) {
     static const double a[3] = {1, 2, 2}, b[3] = {3, 2, 2}, c[3] = {5, 2, 2}, same[6] = {1, 2, 1, 2, 1, 2}, no[3] = {0, 0, 0};
     static const double bad[3] = {1, HUGE_VAL, 2};
     lattice *l = make_lattice(2, 1.0, 0.0);
-    CHECK(peri_cut_segment(l->body, a, a) == PERI_ERROR_CRACK && peri_cut_polyline(l->body, 3, same) == PERI_ERROR_CRACK);
-    CHECK(peri_cut_disc(l->body, a, b, 1.0) == PERI_ERROR_CRACK && peri_cut_triangle(l->body, a, b, no) == PERI_ERROR_CRACK);
-    CHECK(peri_cut_rectangle(l->body, a, b, no) == PERI_ERROR_CRACK && peri_cut_segment(l->body, a, bad) == PERI_ERROR_RANGE);
+    CHECK(peri_cut_segment(l->body, PERI_CUT_INITIAL, a, a) == PERI_ERROR_CRACK && peri_cut_polyline(l->body, PERI_CUT_INITIAL, 3, same) == PERI_ERROR_CRACK);
+    CHECK(peri_cut_disc(l->body, PERI_CUT_INITIAL, a, b, 1.0) == PERI_ERROR_CRACK && peri_cut_triangle(l->body, PERI_CUT_INITIAL, a, b, no) == PERI_ERROR_CRACK);
+    CHECK(peri_cut_rectangle(l->body, PERI_CUT_INITIAL, a, b, no) == PERI_ERROR_CRACK && peri_cut_segment(l->body, PERI_CUT_INITIAL, a, bad) == PERI_ERROR_RANGE);
     CHECK(peri_cut_count(l->body) == 0);
     peri_body_destroy(l->body);
     l = make_lattice(3, 1.0, 0.0);
-    CHECK(peri_cut_segment(l->body, a, b) == PERI_ERROR_CRACK && peri_cut_polyline(l->body, 2, same) == PERI_ERROR_CRACK);
-    CHECK(peri_cut_disc(l->body, a, no, 1.0) == PERI_ERROR_CRACK && peri_cut_disc(l->body, a, b, 0.0) == PERI_ERROR_CRACK);
-    CHECK(peri_cut_triangle(l->body, a, b, c) == PERI_ERROR_CRACK && peri_cut_triangle(l->body, a, a, no) == PERI_ERROR_CRACK);
-    CHECK(peri_cut_rectangle(l->body, no, a, a) == PERI_ERROR_CRACK && peri_cut_rectangle(l->body, a, b, no) == PERI_ERROR_CRACK);
-    CHECK(peri_cut_disc(l->body, a, bad, 1.0) == PERI_ERROR_RANGE && peri_cut_count(l->body) == 0);
+    CHECK(peri_cut_segment(l->body, PERI_CUT_INITIAL, a, b) == PERI_ERROR_CRACK && peri_cut_polyline(l->body, PERI_CUT_INITIAL, 2, same) == PERI_ERROR_CRACK);
+    CHECK(peri_cut_disc(l->body, PERI_CUT_INITIAL, a, no, 1.0) == PERI_ERROR_CRACK && peri_cut_disc(l->body, PERI_CUT_INITIAL, a, b, 0.0) == PERI_ERROR_CRACK);
+    CHECK(peri_cut_triangle(l->body, PERI_CUT_INITIAL, a, b, c) == PERI_ERROR_CRACK && peri_cut_triangle(l->body, PERI_CUT_INITIAL, a, a, no) == PERI_ERROR_CRACK);
+    CHECK(peri_cut_rectangle(l->body, PERI_CUT_INITIAL, no, a, a) == PERI_ERROR_CRACK && peri_cut_rectangle(l->body, PERI_CUT_INITIAL, a, b, no) == PERI_ERROR_CRACK);
+    CHECK(peri_cut_disc(l->body, PERI_CUT_INITIAL, a, bad, 1.0) == PERI_ERROR_RANGE && peri_cut_count(l->body) == 0);
     peri_body_destroy(l->body);
 }
 
 /* ---- damage -------------------------------------------------------------------------------------------------------- */
 
 static int32_t advance(peri_body *body, int64_t steps, double time_step) {
-    peri_run r;
-    peri_run_init(&r);
+    peri_advance_desc r;
+    peri_advance_desc_init(&r);
     r.steps = steps;
     r.time_step = time_step;
     return (int32_t)MUST(body, peri_advance(body, &r));
@@ -487,21 +487,21 @@ static int32_t advance(peri_body *body, int64_t steps, double time_step) {
 static void notch_through_points(void) {
     static const double a[2] = {0, 4.5}, b[2] = {5.5, 4.5}, up[2] = {0, 1e-3}, v[2] = {0.01, -0.02};
     int precision;
-    for (precision = PERI_F64; precision <= PERI_F32; ++precision) {
+    for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
         static const double lo[2] = {0, 0}, hi[2] = {11, 9}, top[4] = {0, 8, 11, 9};
         static const int32_t ids[6] = {44, 45, 46, 47, 48, 49};
         peri_body *body = new_body(2, 3.0, precision);
         double *u, *f, *damage;
         int i;
-        MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
+        MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
         MUST(body, peri_build(body));
-        CHECK(MUST(body, peri_cut_segment(body, a, b)) > 0);
+        CHECK(MUST(body, peri_cut_segment(body, PERI_CUT_INITIAL, a, b)) > 0);
         MUST(body, peri_apply_body_force(body, peri_select_box(body, "top", top, top + 2), up, NULL, NULL));
         MUST(body, peri_add_velocity(body, peri_select_points(body, "free", 6, ids), v));
         advance(body, 50, 0.0);
-        u = field(body, PERI_DISPLACEMENT);
-        f = field(body, PERI_FORCE_DENSITY);
-        damage = field(body, PERI_DAMAGE);
+        u = field(body, PERI_FIELD_DISPLACEMENT);
+        f = field(body, PERI_FIELD_FORCE_DENSITY);
+        damage = field(body, PERI_FIELD_DAMAGE);
         for (i = 0; i < 99; ++i) {
             CHECK(isfinite(u[2 * i]) && isfinite(u[2 * i + 1]) && isfinite(f[2 * i]) && isfinite(f[2 * i + 1]));
             if (i < 44 || i > 49) {
@@ -509,8 +509,8 @@ static void notch_through_points(void) {
                 continue;
             }
             CHECK(damage[i] == 1.0 && f[2 * i] == 0.0 && f[2 * i + 1] == 0.0);
-            CHECK_NEAR(u[2 * i], v[0] * peri_time(body), precision == PERI_F64 ? 1e-13 : 50 * 6e-8, 0.0);
-            CHECK_NEAR(u[2 * i + 1], v[1] * peri_time(body), precision == PERI_F64 ? 1e-13 : 50 * 6e-8, 0.0);
+            CHECK_NEAR(u[2 * i], v[0] * peri_time(body), precision == PERI_PRECISION_DOUBLE ? 1e-13 : 50 * 6e-8, 0.0);
+            CHECK_NEAR(u[2 * i + 1], v[1] * peri_time(body), precision == PERI_PRECISION_DOUBLE ? 1e-13 : 50 * 6e-8, 0.0);
         }
         CHECK(u[2 * 93 + 1] > 0.0);
         peri_body_destroy(body);
@@ -518,7 +518,7 @@ static void notch_through_points(void) {
 }
 
 /* Truth: by hand. 3 x 3 points, horizon 1.5: corners 3 bonds, sides 5, centre (4) 8. Cut 4-0, 4-1, 0-1 and, after a step, 4-2,
-   4-3, 4-5. Damage counts all, PERI_DAMAGE_GROWN only the later ones among those not cut before. Reset makes the later ones
+   4-3, 4-5. Damage counts all, PERI_FIELD_DAMAGE_GROWN only the later ones among those not cut before. Reset makes the later ones
    whole. Then unequal volumes: 1 - intact volume / volume of the family. */
 static void damage_index(void) {
     static const double lo[2] = {0, 0}, hi[2] = {3, 3};
@@ -528,40 +528,40 @@ static void damage_index(void) {
     static const double before[9] = {2.0 / 3, 2.0 / 5, 0, 0, 2.0 / 8, 0, 0, 0, 0};
     static const double x[8] = {0, 0, 1, 0, 0, 1, 1, 1}, v[4] = {1.0, 0.5, 0.25, 0.75};
     static const int32_t one[2] = {3, 0}, two[2] = {0, 1};
-    peri_body *body = new_body(2, 1.5, PERI_F64);
+    peri_body *body = new_body(2, 1.5, PERI_PRECISION_DOUBLE);
     double *d;
     int i;
-    MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
+    MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
     MUST(body, peri_build(body));
-    CHECK(peri_cut_pairs(body, 3, first) == 3);
+    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 3, first) == 3);
     advance(body, 1, 0.0);
-    CHECK(peri_cut_pairs(body, 3, later) == 3);
+    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 3, later) == 3);
     CHECK(peri_cut_count(body) == 3 && peri_broken_count(body) == 3);
-    d = field(body, PERI_DAMAGE);
+    d = field(body, PERI_FIELD_DAMAGE);
     for (i = 0; i < 9; ++i) CHECK_NEAR(d[i], all[i], 0.0, 1e-14);
-    d = field(body, PERI_DAMAGE_GROWN);
+    d = field(body, PERI_FIELD_DAMAGE_GROWN);
     for (i = 0; i < 9; ++i) CHECK_NEAR(d[i], grown[i], 0.0, 1e-14);
     MUST(body, peri_reset(body));
     CHECK(peri_cut_count(body) == 3 && peri_broken_count(body) == 0);
     CHECK(peri_bond_is_intact(body, 4, 2) == 1 && peri_bond_is_intact(body, 4, 1) == 0);
-    d = field(body, PERI_DAMAGE);
+    d = field(body, PERI_FIELD_DAMAGE);
     for (i = 0; i < 9; ++i) CHECK_NEAR(d[i], before[i], 0.0, 1e-14);
-    CHECK(peri_cut_pairs(body, 1, rest) == 1); /* point 0 has no bond left that could grow damage */
-    CHECK(field(body, PERI_DAMAGE)[0] == 1.0 && field(body, PERI_DAMAGE_GROWN)[0] == 0.0);
+    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, rest) == 1); /* point 0 has no bond left that could grow damage */
+    CHECK(field(body, PERI_FIELD_DAMAGE)[0] == 1.0 && field(body, PERI_FIELD_DAMAGE_GROWN)[0] == 0.0);
     peri_body_destroy(body);
 
-    body = new_body(2, 1.5, PERI_F64);
+    body = new_body(2, 1.5, PERI_PRECISION_DOUBLE);
     MUST(body, peri_add_points(body, 4, x, v, NULL));
     MUST(body, peri_build(body));
-    CHECK(peri_cut_pairs(body, 1, one) == 1);
+    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, one) == 1);
     advance(body, 1, 0.0);
-    CHECK(peri_cut_pairs(body, 1, two) == 1);
-    d = field(body, PERI_DAMAGE);
+    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, two) == 1);
+    d = field(body, PERI_FIELD_DAMAGE);
     CHECK_NEAR(d[0], 1.0 - 0.25 / 1.5, 1e-14, 0.0);
     CHECK_NEAR(d[1], 1.0 - 1.0 / 2.0, 1e-14, 0.0);
     CHECK_NEAR(d[2], 0.0, 0.0, 1e-14);
     CHECK_NEAR(d[3], 1.0 - 0.75 / 1.75, 1e-14, 0.0);
-    d = field(body, PERI_DAMAGE_GROWN);
+    d = field(body, PERI_FIELD_DAMAGE_GROWN);
     CHECK_NEAR(d[0], 1.0 - 0.25 / 0.75, 1e-14, 0.0);
     CHECK_NEAR(d[3], 0.0, 0.0, 1e-14);
     peri_body_destroy(body);

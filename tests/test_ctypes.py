@@ -10,13 +10,13 @@ import sys
 
 ALLOC = C.CFUNCTYPE(C.c_void_p, C.c_void_p, C.c_uint64)
 RELEASE = C.CFUNCTYPE(None, C.c_void_p, C.c_void_p, C.c_uint64)
-LOAD = C.CFUNCTYPE(None, C.c_void_p, C.c_double, C.c_int64, C.POINTER(C.c_int32), C.POINTER(C.c_double))
+LOAD = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_double, C.c_int64, C.POINTER(C.c_int32), C.POINTER(C.c_double))
 FRAME = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_void_p)
 ITERATION = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_int64, C.c_double)
-BREAK = C.CFUNCTYPE(None, C.c_void_p, C.c_int32, C.c_int32, C.c_double, C.c_double)
-PLANE_STRESS, BOND_BASED = 1, 1
-DISPLACEMENT, VELOCITY, FAMILY_SIZE, DAMAGE = 2, 3, 7, 8
-ERROR_STEP = -20
+BREAK = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_int32, C.c_int32, C.c_double, C.c_double)
+PLANE_STRESS, BOND_BASED, CUT_INITIAL, AXIS_XY = 101, 1001, 2101, 0x1003
+DISPLACEMENT, VELOCITY, FAMILY_SIZE, DAMAGE = 2002, 2003, 2007, 2008
+KIND_LOAD = 2203
 
 
 class Error(C.Structure):
@@ -26,8 +26,8 @@ class Error(C.Structure):
 
 class BodyDesc(C.Structure):
     _fields_ = ([("cookie", C.c_uint64)]
-                + [(n, C.c_int32) for n in ("space", "precision", "geometry", "influence", "quadrature", "break_timing",
-                                            "threads", "kernel", "instructions", "ledger", "correction", "reserved")]
+                + [(n, C.c_int32) for n in ("space", "precision", "geometry", "influence", "quadrature", "correction",
+                                            "break_timing", "kernel", "instructions", "threads", "ledger", "number")]
                 + [("horizon", C.c_double), ("thickness", C.c_double)]
                 + [(n, C.c_void_p) for n in ("influence_fn", "influence_user")]
                 + [("allocate", ALLOC), ("release", RELEASE)]
@@ -35,14 +35,14 @@ class BodyDesc(C.Structure):
 
 
 class Material(C.Structure):
-    _fields_ = ([("cookie", C.c_uint64), ("model", C.c_int32), ("criterion", C.c_int32)]
+    _fields_ = ([("cookie", C.c_uint64), ("law", C.c_int32), ("criterion", C.c_int32)]
                 + [(n, C.c_double) for n in ("young", "bulk", "poisson", "density", "fracture_energy", "critical_stretch",
                                             "stabilization")])
 
 
 class Run(C.Structure):
     _fields_ = ([("cookie", C.c_uint64), ("integrator", C.c_int32), ("force_step", C.c_int32), ("steps", C.c_int64)]
-                + [(n, C.c_double) for n in ("duration", "time_step", "safety", "damping")]
+                + [(n, C.c_double) for n in ("duration", "time_step", "safety", "damping", "load_factor")]
                 + [("frame_steps", C.c_int64), ("on_frame", FRAME), ("user", C.c_void_p)])
 
 
@@ -93,17 +93,17 @@ def declare(lib):
     p, i32, i64, f64 = C.c_void_p, C.c_int32, C.c_int64, C.c_double
     signatures = {
         "peri_status_text": (C.c_char_p, [i32]), "peri_body_desc_init": (None, [p]), "peri_body_destroy": (None, [p]),
-        "peri_body_create": (i32, [p, p, p]), "peri_last_error": (i32, [p, p]), "peri_material_init": (None, [p, i32]),
+        "peri_body_create": (i32, [p, p, p]), "peri_get_error": (i32, [p, p]), "peri_material_desc_init": (None, [p, i32]),
         "peri_add_material": (i32, [p, p]), "peri_add_box": (i64, [p, i32, p, p, f64]), "peri_build": (i32, [p]),
-        "peri_bond_count": (i64, [p]), "peri_cut_segment": (i64, [p, p, p]),
+        "peri_bond_count": (i64, [p]), "peri_cut_segment": (i64, [p, i32, p, p]), "peri_id": (i32, [p, i32, i64]),
         "peri_select_box": (i32, [p, C.c_char_p, p, p]), "peri_find_set": (i32, [p, C.c_char_p]),
         "peri_prescribe_displacement": (i32, [p, i32, i32, p, p, p]),
-        "peri_apply_traction": (i32, [p, i32, f64, p, LOAD, p]), "peri_set_no_fail": (i32, [p, i32, i32]),
-        "peri_on_break": (i32, [p, BREAK, p]), "peri_stable_step": (f64, [p]), "peri_run_init": (None, [p]),
-        "peri_advance": (i32, [p, p]), "peri_time": (f64, [p]), "peri_field_size": (i64, [p, i32]),
-        "peri_read": (i32, [p, i32, p, i64]), "peri_read_energy": (i32, [p, p]), "peri_read_reaction": (i32, [p, i32, p]),
-        "peri_view_field": (i32, [p, i32, p]), "peri_statics_init": (None, [p]), "peri_solve": (i32, [p, p, p]),
-        "peri_reset": (i32, [p]), "peri_read_memory": (i32, [p, p]), "peri_plan_desc_init": (None, [p]), "peri_plan": (i32, [p, p, p])}
+        "peri_apply_layer_traction": (i32, [p, i32, f64, p, LOAD, p]), "peri_set_no_fail": (i32, [p, i32, i32]),
+        "peri_on_break": (i32, [p, BREAK, p]), "peri_stable_step": (f64, [p]), "peri_advance_desc_init": (None, [p]),
+        "peri_advance": (i32, [p, p]), "peri_time": (f64, [p]), "peri_size_of_field": (i64, [p, i32]),
+        "peri_get_field": (i32, [p, i32, p, i64]), "peri_get_energy": (i32, [p, p]), "peri_get_reaction": (i32, [p, i32, p]),
+        "peri_view_field": (i32, [p, i32, p]), "peri_solve_desc_init": (None, [p]), "peri_solve": (i32, [p, p, p]),
+        "peri_reset": (i32, [p]), "peri_get_memory": (i32, [p, p]), "peri_plan_desc_init": (None, [p]), "peri_plan": (i32, [p, p, p])}
     for name, (result, arguments) in signatures.items():
         function = getattr(lib, name)
         function.restype, function.argtypes = result, arguments
@@ -124,12 +124,13 @@ def scene(lib):
         counts["load"] += 1
         for i in range(count):
             value[2 * i] = value[2 * i] * (1.0 + 0.25 * time) + points[i] * 0.0001
+        return 0
 
     @FRAME
     def on_frame(_user, handle):
         counts["frame"] += 1
         u = (C.c_double * (2 * 96))()
-        must(lib.peri_read(handle, DISPLACEMENT, u, 2 * 96))
+        must(lib.peri_get_field(handle, DISPLACEMENT, u, 2 * 96))
         out.extend([lib.peri_time(handle), u[2 * 95]])
         return 0
 
@@ -137,6 +138,7 @@ def scene(lib):
     def on_break(_user, i, j, time, stretch):
         counts["break"] += 1
         out.extend([i, j, time, stretch])
+        return 0
 
     out += [C.sizeof(s) for s in (Error, BodyDesc, Material, Run, View, Energy)]
     out += [BodyDesc.horizon.offset, BodyDesc.log_user.offset, Run.on_frame.offset]
@@ -145,33 +147,33 @@ def scene(lib):
     out += [d.precision, d.thickness]
     d.space, d.horizon, d.thickness = PLANE_STRESS, 0.3, 0.5
     must(lib.peri_body_create(C.byref(d), C.byref(body), C.byref(error)))
-    lib.peri_material_init(C.byref(m), BOND_BASED)
+    lib.peri_material_desc_init(C.byref(m), BOND_BASED)
     m.young, m.density, m.critical_stretch = 3, 2, 0.02
-    must(lib.peri_add_material(body, C.byref(m)))
-    out.append(must(lib.peri_add_box(body, 0, doubles(0, 0), doubles(1.6, 0.6), 0.1)))
+    stuff = must(lib.peri_add_material(body, C.byref(m)))
+    out.append(must(lib.peri_add_box(body, stuff, doubles(0, 0), doubles(1.6, 0.6), 0.1)))
     must(lib.peri_build(body))
     out.append(lib.peri_bond_count(body))
-    out.append(must(lib.peri_cut_segment(body, doubles(0.8, 0), doubles(0.8, 0.2))))
-    must(lib.peri_select_box(body, b"left", doubles(0, 0), doubles(0.2, 0.6)))
-    must(lib.peri_select_box(body, b"right", doubles(1.4, 0), doubles(1.6, 0.6)))
-    must(lib.peri_prescribe_displacement(body, lib.peri_find_set(body, b"left"), 3, None, None, None))
-    must(lib.peri_apply_traction(body, lib.peri_find_set(body, b"right"), 0.6, doubles(0.09, 0), pull, None))
-    must(lib.peri_set_no_fail(body, 1, 1))
-    must(lib.peri_set_no_fail(body, 2, 1))
+    out.append(must(lib.peri_cut_segment(body, CUT_INITIAL, doubles(0.8, 0), doubles(0.8, 0.2))))
+    left = must(lib.peri_select_box(body, b"left", doubles(0, 0), doubles(0.2, 0.6)))
+    right = must(lib.peri_select_box(body, b"right", doubles(1.4, 0), doubles(1.6, 0.6)))
+    must(lib.peri_prescribe_displacement(body, lib.peri_find_set(body, b"left"), AXIS_XY, None, None, None))
+    must(lib.peri_apply_layer_traction(body, lib.peri_find_set(body, b"right"), 0.6, doubles(0.09, 0), pull, None))
+    must(lib.peri_set_no_fail(body, left, 1))
+    must(lib.peri_set_no_fail(body, right, 1))
     must(lib.peri_on_break(body, on_break, None))
     out.append(lib.peri_stable_step(body))
-    lib.peri_run_init(C.byref(run))
+    lib.peri_advance_desc_init(C.byref(run))
     out.append(run.safety)
     run.duration, run.frame_steps, run.on_frame = 8, 20, on_frame
     must(lib.peri_advance(body, C.byref(run)))
     for field in (DISPLACEMENT, VELOCITY, DAMAGE, FAMILY_SIZE):
-        n = lib.peri_field_size(body, field)
+        n = lib.peri_size_of_field(body, field)
         v = (C.c_double * n)()
-        must(lib.peri_read(body, field, v, n))
+        must(lib.peri_get_field(body, field, v, n))
         out += list(v)
-    must(lib.peri_read_energy(body, C.byref(e)))
+    must(lib.peri_get_energy(body, C.byref(e)))
     force = doubles(0, 0)
-    must(lib.peri_read_reaction(body, 0, force))
+    must(lib.peri_get_reaction(body, lib.peri_id(body, KIND_LOAD, 1), force))
     out += [e.kinetic, e.elastic, e.external, e.fracture, e.initial, e.error, force[0], force[1]]
     must(lib.peri_view_field(body, VELOCITY, C.byref(view)))
     data = C.cast(view.data, C.POINTER(C.c_double))
@@ -179,7 +181,7 @@ def scene(lib):
     out += [counts["load"], counts["frame"], counts["break"]]
     run.time_step = 1
     out.append(lib.peri_advance(body, C.byref(run)))
-    must(lib.peri_last_error(body, C.byref(error)))
+    must(lib.peri_get_error(body, C.byref(error)))
     out += [error.code, error.value]
     if b"step" not in error.text or b"time_step" not in error.field:
         failures.append("error record: %r, %r" % (error.text, error.field))
@@ -191,16 +193,16 @@ def scene(lib):
         told[0] += iteration * residual
         return 0
 
-    lib.peri_statics_init(C.byref(statics))
+    lib.peri_solve_desc_init(C.byref(statics))
     out.append(statics.iterations)
-    statics.fracture, statics.steps, statics.curve_load, statics.curve, statics.curve_rows = 0, 2, 0, curve, 2
+    statics.fracture, statics.steps, statics.curve_load, statics.curve, statics.curve_rows = 0, 2, lib.peri_id(body, KIND_LOAD, 1), curve, 2
     statics.on_iteration = on_iteration
     must(lib.peri_reset(body))
     must(lib.peri_solve(body, C.byref(statics), C.byref(report)))
     out += list(curve) + [report.iterations, report.passes, report.residual, told[0]]
     out += [C.sizeof(Memory), C.sizeof(PlanDesc), C.sizeof(PlanReport), PlanDesc.spacing.offset]
     memory, plan, planned = Memory(), PlanDesc(), PlanReport()
-    must(lib.peri_read_memory(body, C.byref(memory)))
+    must(lib.peri_get_memory(body, C.byref(memory)))
     out += [memory.points, memory.families, memory.damage, memory.state, memory.loads, memory.total, memory.shared]
     lib.peri_plan_desc_init(C.byref(plan))
     plan.body, plan.material, plan.spacing = C.pointer(d), C.pointer(m), 0.1

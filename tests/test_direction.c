@@ -14,18 +14,19 @@ typedef struct crack {
     double        sum[5], reach, horizon, end; /* sums of 1, x, y, xx, xy over the middles of broken bonds                */
 } crack;
 
-static void note(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t note(void *user, int32_t i, int32_t j, double time, double stretch) {
     crack *c = (crack *)user;
     double x = 0.5 * (c->x[2 * i] + c->x[2 * j]), y = 0.5 * (c->x[2 * i + 1] + c->x[2 * j + 1]);
     (void)time;
     (void)stretch;
     c->reach = fmax(c->reach, x);
-    if (x < 0.5 * c->horizon || x > c->end - 0.5 * c->horizon) return; /* off the tip and the front                       */
+    if (x < 0.5 * c->horizon || x > c->end - 0.5 * c->horizon) return 0; /* off the tip and the front                       */
     c->sum[0] += 1;
     c->sum[1] += x;
     c->sum[2] += y;
     c->sum[3] += x * x;
     c->sum[4] += x * y;
+    return 0;
 }
 
 /* Angle of the first 0.15 a of the crack below the notch, in degrees. cells: per side; m = horizon/spacing. */
@@ -34,9 +35,9 @@ static double angle(double nu, int cells, int m) {
     const double lo[2] = {-0.5, -0.5}, hi[2] = {0.5, 0.5}, edge[2] = {-0.5, 0}, tip[2] = {0, 0};
     const double top[2] = {-0.5, 0.5 - zone}, bottom[2] = {0.5, zone - 0.5}, top2[2] = {-0.5, 0.5 - 2 * zone};
     const double bottom2[2] = {0.5, 2 * zone - 0.5}, up[2] = {speed / 2, speed / 2}, down[2] = {-speed / 2, -speed / 2};
-    specimen s = specimen_of(PERI_PLANE_STRESS, PERI_LPS, nu, h, m, cells, cells, 1);
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS, nu, h, m, cells, cells, 1);
     peri_body *b;
-    peri_run run;
+    peri_advance_desc run;
     crack c;
     double *x, *v;
     int64_t n, i;
@@ -46,23 +47,23 @@ static double angle(double nu, int cells, int m) {
     }
     s.material.critical_stretch = 1e-3;
     b = specimen_make(&s);
-    MUST(b, peri_cut_segment(b, edge, tip));
-    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, top, hi)), PERI_X | PERI_Y, up, NULL, NULL));
-    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, bottom)), PERI_X | PERI_Y, down, NULL, NULL));
+    MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, edge, tip));
+    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, top, hi)), PERI_AXIS_X | PERI_AXIS_Y, up, NULL, NULL));
+    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, bottom)), PERI_AXIS_X | PERI_AXIS_Y, down, NULL, NULL));
     MUST(b, peri_set_no_fail(b, (int32_t)MUST(b, peri_select_box(b, NULL, top2, hi)), 1));
     MUST(b, peri_set_no_fail(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, bottom2)), 1));
     n = 2 * peri_point_count(b);
     x = (double *)malloc((size_t)n * sizeof *x);
     v = (double *)malloc((size_t)n * sizeof *v);
-    MUST(b, peri_read(b, PERI_POSITION, x, n));
+    MUST(b, peri_get_field(b, PERI_FIELD_POSITION, x, n));
     for (i = 0; i < n; ++i) v[i] = speed * x[i - i % 2 + 1];
-    MUST(b, peri_write(b, PERI_VELOCITY, v, n));
+    MUST(b, peri_set_field(b, PERI_FIELD_VELOCITY, v, n));
     memset(&c, 0, sizeof c);
     c.x = x;
     c.horizon = zone;
     c.end = 0.15;
     MUST(b, peri_on_break(b, note, &c));
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = 20;
     while (c.reach < c.end && peri_time(b) < 20) MUST(b, peri_advance(b, &run));
     CHECK(c.reach >= c.end);

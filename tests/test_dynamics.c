@@ -9,7 +9,7 @@
 
 /* Momenta and their scales, summed here from the fields: p[3], l[3] (2D: l[2]), sum |m v|, sum |m x v|. */
 static void sum_momenta(peri_body *b, int32_t space, double *p, double *l, double *sp, double *sl) {
-    double *x = get(b, PERI_CURRENT), *v = get(b, PERI_VELOCITY), *vol = get(b, PERI_VOLUME);
+    double *x = get(b, PERI_FIELD_CURRENT_POSITION), *v = get(b, PERI_FIELD_VELOCITY), *vol = get(b, PERI_FIELD_VOLUME);
     int dim = peri_dimension(b), k;
     int64_t i;
     for (k = 0; k < 3; ++k) p[k] = l[k] = 0;
@@ -38,13 +38,13 @@ static void sum_momenta(peri_body *b, int32_t space, double *p, double *l, doubl
    are independent, so they add up to u*sqrt(2*steps) times a small factor; 10 is allowed. */
 static void momentum(int32_t space, int32_t precision, int32_t integrator) {
     const int64_t steps = 1000;
-    double bound = precision == PERI_F64 ? 1e-12 : 10 * ULP32 * sqrt(2.0 * (double)steps);
-    peri_body *b = space == PERI_SOLID ? block(space, precision, PERI_NONLINEAR, 6, 6, 5)
-                                       : block(space, precision, PERI_NONLINEAR, 14, 12, 1);
-    double *v = random_field(peri_field_size(b, PERI_VELOCITY), 0.02, 7), p0[3], l0[3], p1[3], l1[3], sp, sl, t1, t2;
+    double bound = precision == PERI_PRECISION_DOUBLE ? 1e-12 : 10 * ULP32 * sqrt(2.0 * (double)steps);
+    peri_body *b = space == PERI_SPACE_SOLID ? block(space, precision, PERI_GEOMETRY_NONLINEAR, 6, 6, 5)
+                                       : block(space, precision, PERI_GEOMETRY_NONLINEAR, 14, 12, 1);
+    double *v = random_field(peri_size_of_field(b, PERI_FIELD_VELOCITY), 0.02, 7), p0[3], l0[3], p1[3], l1[3], sp, sl, t1, t2;
     double lin[3] = {0, 0, 0}, ang[3] = {0, 0, 0};
     int dim = peri_dimension(b), k;
-    put(b, PERI_VELOCITY, v);
+    put(b, PERI_FIELD_VELOCITY, v);
     sum_momenta(b, space, p0, l0, &sp, &sl);
     (void)go(b, integrator, steps, 0, 0);
     sum_momenta(b, space, p1, l1, &t1, &t2);
@@ -52,22 +52,22 @@ static void momentum(int32_t space, int32_t precision, int32_t integrator) {
         CHECK_NEAR(p1[k], p0[k], 0, bound * sp);
         CHECK_NEAR(l1[k], l0[k], 0, bound * sl);
     }
-    (void)MUST(b, peri_read_momentum(b, lin, ang));
+    (void)MUST(b, peri_get_momentum(b, lin, ang));
     for (k = 0; k < dim; ++k) CHECK_NEAR(lin[k], p1[k], 0, 1e-13 * sp);
     if (dim == 2) CHECK_NEAR(ang[0], l1[2], 0, 1e-13 * sl);
     else
         for (k = 0; k < 3; ++k) CHECK_NEAR(ang[k], l1[k], 0, 1e-13 * sl);
-    CHECK(peri_read_momentum(b, NULL, ang) == PERI_OK && peri_read_momentum(b, lin, NULL) == PERI_OK);
+    CHECK(peri_get_momentum(b, NULL, ang) == PERI_OK && peri_get_momentum(b, lin, NULL) == PERI_OK);
     CHECK(t1 > 0.1 * sp); /* it still moves */
     free(v);
     peri_body_destroy(b);
 }
 static void momentum_is_kept(void) {
-    momentum(PERI_PLANE_STRESS, PERI_F64, PERI_VELOCITY_VERLET);
-    momentum(PERI_PLANE_STRAIN, PERI_F64, PERI_CENTRAL_DIFFERENCE);
-    momentum(PERI_SOLID, PERI_F64, PERI_VELOCITY_VERLET);
-    momentum(PERI_PLANE_STRAIN, PERI_F32, PERI_VELOCITY_VERLET);
-    momentum(PERI_SOLID, PERI_F32, PERI_CENTRAL_DIFFERENCE);
+    momentum(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_INTEGRATOR_VELOCITY_VERLET);
+    momentum(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_DOUBLE, PERI_INTEGRATOR_CENTRAL_DIFFERENCE);
+    momentum(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_INTEGRATOR_VELOCITY_VERLET);
+    momentum(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_SINGLE, PERI_INTEGRATOR_VELOCITY_VERLET);
+    momentum(PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_INTEGRATOR_CENTRAL_DIFFERENCE);
 }
 
 /* ---- rigid motions ------------------------------------------------------------------------------------------------ */
@@ -94,26 +94,26 @@ static void rigid_displacement(int dim, const double *x, double angle, const dou
 static void rigid(int32_t space, int32_t precision, int32_t geometry) {
     const double angles[5] = {0.0, 0.1, 1.0, PI / 2, PI};
     const double shifts[3][3] = {{0, 0, 0}, {0.7, -0.4, 0.3}, {1e3, -2e3, 5e2}};
-    int flat = space != PERI_SOLID;
+    int flat = space != PERI_SPACE_SOLID;
     peri_body *b = block(space, precision, geometry, flat ? 12 : 7, flat ? 9 : 6, 5);
-    double *x = get(b, PERI_POSITION), *fam = get(b, PERI_FAMILY_SIZE), *vol = get(b, PERI_VOLUME), *f, unit, far, umax;
+    double *x = get(b, PERI_FIELD_POSITION), *fam = get(b, PERI_FIELD_FAMILY_SIZE), *vol = get(b, PERI_FIELD_VOLUME), *f, unit, far, umax;
     int dim = peri_dimension(b), a, s;
     int64_t n = peri_point_count(b), i;
-    double *u = (double *)calloc((size_t)(n * dim), sizeof *u), ulp = precision == PERI_F64 ? ULP64 : ULP32;
+    double *u = (double *)calloc((size_t)(n * dim), sizeof *u), ulp = precision == PERI_PRECISION_DOUBLE ? ULP64 : ULP32;
     unit = micromodulus(space, YOUNG, 3 * H) * vol[0] * largest(fam, n);
-    for (a = 0; a < (geometry == PERI_LINEAR ? 1 : 5); ++a)
+    for (a = 0; a < (geometry == PERI_GEOMETRY_LINEAR ? 1 : 5); ++a)
         for (s = 0; s < 3; ++s) {
             for (i = 0; i < n; ++i) rigid_displacement(dim, x + i * dim, angles[a], shifts[s], u + i * dim);
             umax = largest(u, n * dim);
             far = (largest(x, n * dim) + umax) / H;
-            put(b, PERI_DISPLACEMENT, u);
-            f = get(b, PERI_FORCE_DENSITY);
+            put(b, PERI_FIELD_DISPLACEMENT, u);
+            f = get(b, PERI_FIELD_FORCE_DENSITY);
             CHECK_NEAR(largest(f, n * dim), 0, 0, 8 * (ulp * (1 + umax / H) + ULP64 * far) * unit);
             free(f);
         }
     for (i = 0; i < n * dim; ++i) u[i] = 1e-2 * x[i]; /* and the probe is alive: a stretch of 1e-2 pulls at the surface, */
-    put(b, PERI_DISPLACEMENT, u);                     /* where about half of a family is missing                         */
-    f = get(b, PERI_FORCE_DENSITY);
+    put(b, PERI_FIELD_DISPLACEMENT, u);                     /* where about half of a family is missing                         */
+    f = get(b, PERI_FIELD_FORCE_DENSITY);
     CHECK(largest(f, n * dim) > 1e-3 * unit && largest(f, n * dim) < 1e-2 * unit);
     free(f);
     free(u);
@@ -123,16 +123,16 @@ static void rigid(int32_t space, int32_t precision, int32_t geometry) {
     peri_body_destroy(b);
 }
 static void rigid_motion_costs_no_force(void) {
-    rigid(PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR);
-    rigid(PERI_PLANE_STRAIN, PERI_F32, PERI_NONLINEAR);
-    rigid(PERI_SOLID, PERI_F64, PERI_NONLINEAR);
-    rigid(PERI_SOLID, PERI_F32, PERI_NONLINEAR);
+    rigid(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR);
+    rigid(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR);
+    rigid(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR);
+    rigid(PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR);
 }
 static void linear_translation_costs_no_force(void) {
-    rigid(PERI_PLANE_STRESS, PERI_F64, PERI_LINEAR);
-    rigid(PERI_PLANE_STRAIN, PERI_F32, PERI_LINEAR);
-    rigid(PERI_SOLID, PERI_F64, PERI_LINEAR);
-    rigid(PERI_SOLID, PERI_F32, PERI_LINEAR);
+    rigid(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR);
+    rigid(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_SINGLE, PERI_GEOMETRY_LINEAR);
+    rigid(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR);
+    rigid(PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_LINEAR);
 }
 
 /* ---- brute force -------------------------------------------------------------------------------------------------- */
@@ -150,8 +150,8 @@ static peri_body *two_halves(int32_t space, int32_t geometry, brute *g) {
     peri_body *b;
     int a;
     g->horizon = 2 * H;
-    if (space == PERI_SOLID) hi[0] = 3 * H, hi[1] = 3 * H;
-    b = empty(space, PERI_F64, geometry, g->horizon);
+    if (space == PERI_SPACE_SOLID) hi[0] = 3 * H, hi[1] = 3 * H;
+    b = empty(space, PERI_PRECISION_DOUBLE, geometry, g->horizon);
     for (a = 0; a < 2; ++a) {
         g->c[a][a] = micromodulus(space, young[a], g->horizon);
         g->density[a] = density[a];
@@ -165,9 +165,9 @@ static peri_body *two_halves(int32_t space, int32_t geometry, brute *g) {
     g->dim = peri_dimension(b);
     g->n = (int)peri_point_count(b);
     CHECK(g->n <= BRUTE_MAX);
-    g->x = get(b, PERI_POSITION);
-    g->vol = get(b, PERI_VOLUME);
-    g->mat = get(b, PERI_MATERIAL);
+    g->x = get(b, PERI_FIELD_POSITION);
+    g->vol = get(b, PERI_FIELD_VOLUME);
+    g->mat = get(b, PERI_FIELD_MATERIAL);
     return b;
 }
 static void brute_free(brute *g) {
@@ -216,15 +216,15 @@ static void recurrence(int32_t space, int32_t geometry, int32_t integrator) {
     brute g;
     peri_body *b = two_halves(space, geometry, &g);
     long double old[BRUTE_MAX * 3], now[BRUTE_MAX * 3], next[BRUTE_MAX * 3], acc[BRUTE_MAX * 3];
-    int n = g.n * g.dim, k, s, linear = geometry == PERI_LINEAR;
+    int n = g.n * g.dim, k, s, linear = geometry == PERI_GEOMETRY_LINEAR;
     double *u = random_field(n, 0.02 * H, 3), *v = random_field(n, 0.02, 4), *gu, *gv, umax = 0, vmax = 0;
     double dt = 0.8 * peri_stable_step(b);
     long double h = (long double)dt;
     memset(now, 0, sizeof now);
     memset(old, 0, sizeof old);
     memset(next, 0, sizeof next);
-    put(b, PERI_DISPLACEMENT, u);
-    put(b, PERI_VELOCITY, v);
+    put(b, PERI_FIELD_DISPLACEMENT, u);
+    put(b, PERI_FIELD_VELOCITY, v);
     for (k = 0; k < n; ++k) now[k] = (long double)u[k];
     brute_acceleration(&g, linear, now, acc);
     for (k = 0; k < n; ++k) old[k] = now[k] - h * (long double)v[k] + 0.5L * h * h * acc[k];
@@ -242,8 +242,8 @@ static void recurrence(int32_t space, int32_t geometry, int32_t integrator) {
             }
     }
     (void)go(b, integrator, STEPS, dt, 0);
-    gu = get(b, PERI_DISPLACEMENT);
-    gv = get(b, PERI_VELOCITY);
+    gu = get(b, PERI_FIELD_DISPLACEMENT);
+    gv = get(b, PERI_FIELD_VELOCITY);
     for (k = 0; k < n; ++k) {
         CHECK_NEAR(gu[k], (double)now[k], 0, 8 * STEPS * ULP64 * umax);
         CHECK_NEAR(gv[k], (double)((next[k] - old[k]) / (2 * h)), 0, 8 * STEPS * ULP64 * vmax);
@@ -256,15 +256,15 @@ static void recurrence(int32_t space, int32_t geometry, int32_t integrator) {
     peri_body_destroy(b);
 }
 static void central_difference_is_the_recurrence(void) {
-    recurrence(PERI_PLANE_STRAIN, PERI_NONLINEAR, PERI_CENTRAL_DIFFERENCE);
-    recurrence(PERI_SOLID, PERI_NONLINEAR, PERI_CENTRAL_DIFFERENCE);
-    recurrence(PERI_SOLID, PERI_LINEAR, PERI_CENTRAL_DIFFERENCE);
+    recurrence(PERI_SPACE_PLANE_STRAIN, PERI_GEOMETRY_NONLINEAR, PERI_INTEGRATOR_CENTRAL_DIFFERENCE);
+    recurrence(PERI_SPACE_SOLID, PERI_GEOMETRY_NONLINEAR, PERI_INTEGRATOR_CENTRAL_DIFFERENCE);
+    recurrence(PERI_SPACE_SOLID, PERI_GEOMETRY_LINEAR, PERI_INTEGRATOR_CENTRAL_DIFFERENCE);
 }
 /* The same truth: in exact arithmetic velocity-Verlet is that recurrence too. */
 static void velocity_verlet_is_the_recurrence(void) {
-    recurrence(PERI_PLANE_STRAIN, PERI_NONLINEAR, PERI_VELOCITY_VERLET);
-    recurrence(PERI_PLANE_STRAIN, PERI_LINEAR, PERI_VELOCITY_VERLET);
-    recurrence(PERI_SOLID, PERI_NONLINEAR, PERI_VELOCITY_VERLET);
+    recurrence(PERI_SPACE_PLANE_STRAIN, PERI_GEOMETRY_NONLINEAR, PERI_INTEGRATOR_VELOCITY_VERLET);
+    recurrence(PERI_SPACE_PLANE_STRAIN, PERI_GEOMETRY_LINEAR, PERI_INTEGRATOR_VELOCITY_VERLET);
+    recurrence(PERI_SPACE_SOLID, PERI_GEOMETRY_NONLINEAR, PERI_INTEGRATOR_VELOCITY_VERLET);
 }
 
 /* SOURCE OF TRUTH: two masses on one bond are an oscillator of k = c V1 V2/|xi| and reduced mass m1 m2/(m1+m2). Verlet from
@@ -275,10 +275,10 @@ static void two_points(int32_t geometry, int32_t integrator) {
     const double x[6] = {1, 2, 3, 1.06, 2.08, 3.0}, vol[2] = {1e-3, 1.5e-3}, young[2] = {3, 7}, density[2] = {2, 0.5};
     const int32_t mat[2] = {0, 1};
     const double horizon = 0.25, len = 0.1, amplitude = 1e-3, dir[3] = {0.6, 0.8, 0};
-    double c0 = micromodulus(PERI_SOLID, young[0], horizon), c1 = micromodulus(PERI_SOLID, young[1], horizon);
+    double c0 = micromodulus(PERI_SPACE_SOLID, young[0], horizon), c1 = micromodulus(PERI_SPACE_SOLID, young[1], horizon);
     double m0 = density[0] * vol[0], m1 = density[1] * vol[1], k = 2 * c0 * c1 / (c0 + c1) * vol[0] * vol[1] / len;
     double w = sqrt(k * (m0 + m1) / (m0 * m1)), u[6], dt, wd, *g, e;
-    peri_body *b = empty(PERI_SOLID, PERI_F64, geometry, horizon);
+    peri_body *b = empty(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, geometry, horizon);
     int a, n, i;
     for (a = 0; a < 2; ++a) (void)unbreakable(b, young[a], density[a]);
     (void)MUST(b, peri_add_points(b, 2, x, vol, mat));
@@ -287,12 +287,12 @@ static void two_points(int32_t geometry, int32_t integrator) {
         u[i] = -amplitude * dir[i] * m1 / (m0 + m1);
         u[3 + i] = amplitude * dir[i] * m0 / (m0 + m1);
     }
-    put(b, PERI_DISPLACEMENT, u);
+    put(b, PERI_FIELD_DISPLACEMENT, u);
     dt = 0.9 * peri_stable_step(b);
     wd = 2 / dt * asin(w * dt / 2);
     for (n = 1000; n <= 20000; n += 1000) {
         (void)go(b, integrator, 1000, dt, 0);
-        g = get(b, PERI_DISPLACEMENT);
+        g = get(b, PERI_FIELD_DISPLACEMENT);
         for (e = 0, i = 0; i < 3; ++i) e += (g[3 + i] - g[i]) * dir[i];
         CHECK_NEAR(e, amplitude * cos(n * wd * dt), 0, 1e-10 * amplitude);
         for (i = 0; i < 3; ++i)
@@ -302,9 +302,9 @@ static void two_points(int32_t geometry, int32_t integrator) {
     peri_body_destroy(b);
 }
 static void two_point_frequency(void) {
-    two_points(PERI_LINEAR, PERI_VELOCITY_VERLET);
-    two_points(PERI_LINEAR, PERI_CENTRAL_DIFFERENCE);
-    two_points(PERI_NONLINEAR, PERI_VELOCITY_VERLET);
+    two_points(PERI_GEOMETRY_LINEAR, PERI_INTEGRATOR_VELOCITY_VERLET);
+    two_points(PERI_GEOMETRY_LINEAR, PERI_INTEGRATOR_CENTRAL_DIFFERENCE);
+    two_points(PERI_GEOMETRY_NONLINEAR, PERI_INTEGRATOR_VELOCITY_VERLET);
 }
 
 /* ---- the stable step ---------------------------------------------------------------------------------------------- */
@@ -314,7 +314,7 @@ static void stable_step_by_brute_force(void) {
     int kind, i, j;
     for (kind = 0; kind < 4; ++kind) {
         brute g;
-        peri_body *b = two_halves(kind & 1 ? PERI_SOLID : PERI_PLANE_STRAIN, kind & 2 ? PERI_LINEAR : PERI_NONLINEAR, &g);
+        peri_body *b = two_halves(kind & 1 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, kind & 2 ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR, &g);
         double least = HUGE_VAL;
         for (i = 0; i < g.n; ++i) {
             double sum = 0;
@@ -332,35 +332,35 @@ static void stable_step_by_brute_force(void) {
 /* SOURCE OF TRUTH: the contract of peri_advance. A step of 5 times the stable one is beyond any factor (1.5 at most) that the
    estimate is safe by, so the highest mode grows by |g| > 5 a step and leaves the range of a double within 500 steps. */
 static void too_large_steps(void) {
-    const int32_t precision[2] = {PERI_F64, PERI_F32};
+    const int32_t precision[2] = {PERI_PRECISION_DOUBLE, PERI_PRECISION_SINGLE};
     int k;
     for (k = 0; k < 2; ++k) {
-        peri_body *b = block(PERI_PLANE_STRESS, precision[k], PERI_NONLINEAR, 8, 8, 1);
+        peri_body *b = block(PERI_SPACE_PLANE_STRESS, precision[k], PERI_GEOMETRY_NONLINEAR, 8, 8, 1);
         double limit = peri_stable_step(b), *v = random_field(128, 1e-3, 11), *u0, *u1, *v0, *v1;
         peri_error e;
-        peri_run r;
-        put(b, PERI_VELOCITY, v);
-        CHECK(go(b, PERI_VELOCITY_VERLET, 200, 0.999 * limit, 0) == PERI_OK);
-        u0 = get(b, PERI_DISPLACEMENT);
-        v0 = get(b, PERI_VELOCITY);
+        peri_advance_desc r;
+        put(b, PERI_FIELD_VELOCITY, v);
+        CHECK(go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 200, 0.999 * limit, 0) == PERI_OK);
+        u0 = get(b, PERI_FIELD_DISPLACEMENT);
+        v0 = get(b, PERI_FIELD_VELOCITY);
         CHECK(largest(u0, 128) > 0 && largest(u0, 128) < 1);
-        peri_run_init(&r);
+        peri_advance_desc_init(&r);
         r.steps = 10;
         r.time_step = 1.001 * limit;
         CHECK(peri_advance(b, &r) == PERI_ERROR_STEP);
-        CHECK(peri_last_error(b, &e) == PERI_OK && e.code == PERI_ERROR_STEP);
+        CHECK(peri_get_error(b, &e) == PERI_OK && e.code == PERI_ERROR_STEP);
         CHECK_NEAR(e.value, limit, 1e-12, 0);
         CHECK(peri_step_count(b) == 200);
-        u1 = get(b, PERI_DISPLACEMENT);
-        v1 = get(b, PERI_VELOCITY);
+        u1 = get(b, PERI_FIELD_DISPLACEMENT);
+        v1 = get(b, PERI_FIELD_VELOCITY);
         CHECK(memcmp(u0, u1, 128 * sizeof *u0) == 0 && memcmp(v0, v1, 128 * sizeof *v0) == 0);
         r.time_step = 5 * limit;
         r.force_step = 1;
         r.steps = 500;
         CHECK(peri_advance(b, &r) == PERI_ERROR_UNSTABLE);
-        CHECK(peri_last_error(b, &e) == PERI_OK && e.code == PERI_ERROR_UNSTABLE && e.index >= 0 && e.index < 64);
+        CHECK(peri_get_error(b, &e) == PERI_OK && e.code == PERI_ERROR_UNSTABLE && e.index >= 0 && e.index < 64);
         CHECK(peri_step_count(b) > 200 && peri_step_count(b) < 700);
-        CHECK(peri_reset(b) == PERI_OK && go(b, PERI_VELOCITY_VERLET, 3, 0, 0) == PERI_OK); /* and it recovers */
+        CHECK(peri_reset(b) == PERI_OK && go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 3, 0, 0) == PERI_OK); /* and it recovers */
         free(u0);
         free(u1);
         free(v0);
@@ -372,11 +372,11 @@ static void too_large_steps(void) {
 
 /* SOURCE OF TRUTH: arithmetic. */
 static void durations_and_steps(void) {
-    peri_body *b = block(PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 4, 4, 1);
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 4, 4, 1);
     double dt = 0.7 * peri_stable_step(b);
-    peri_run r;
+    peri_advance_desc r;
     int k;
-    peri_run_init(&r);
+    peri_advance_desc_init(&r);
     r.time_step = dt;
     for (k = 1; k <= 50; ++k) { /* whatever the remainder; to 2 u, one for each change of unit on the way in and out */
         r.duration = (0.37 * k + 0.1) * dt;
@@ -416,13 +416,13 @@ static void durations_and_steps(void) {
 static void damping_decays(void) {
     int k;
     for (k = 0; k < 2; ++k) {
-        peri_body *b = block(PERI_SOLID, PERI_F64, PERI_NONLINEAR, 4, 3, 3);
+        peri_body *b = block(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 4, 3, 3);
         double v0[3] = {0.3, -0.2, 0.1}, dt = 0.5 * peri_stable_step(b), a = 0.7 / dt, want, *v;
         int64_t i;
         (void)MUST(b, peri_add_velocity(b, PERI_ALL, v0));
-        (void)go(b, k ? PERI_CENTRAL_DIFFERENCE : PERI_VELOCITY_VERLET, 20, dt, a);
+        (void)go(b, k ? PERI_INTEGRATOR_CENTRAL_DIFFERENCE : PERI_INTEGRATOR_VELOCITY_VERLET, 20, dt, a);
         want = pow((1 - 0.35) / (1 + 0.35), 20.0);
-        v = get(b, PERI_VELOCITY);
+        v = get(b, PERI_FIELD_VELOCITY);
         for (i = 0; i < 3 * peri_point_count(b); ++i) CHECK_NEAR(v[i], v0[i % 3] * want, 1e-13, 0);
         free(v);
         peri_body_destroy(b);
@@ -436,23 +436,23 @@ static void damping_decays(void) {
 static void runs_in_parts(void) {
     const double b2[2] = {0.1, -0.05};
     int k, i;
-    for (k = PERI_VELOCITY_VERLET; k < PERI_INTEGRATOR_COUNT_; ++k) {
+    for (k = PERI_INTEGRATOR_VELOCITY_VERLET; k < peri__end_integrator; ++k) {
         double *u[2], *v = random_field(70, 0.02, 21);
         int part;
         for (part = 0; part < 2; ++part) {
-            peri_body *b = block(PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 7, 5, 1);
+            peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 7, 5, 1);
             (void)MUST(b, peri_apply_body_force(b, PERI_ALL, b2, NULL, NULL));
-            put(b, PERI_VELOCITY, v);
+            put(b, PERI_FIELD_VELOCITY, v);
             if (part) {
                 (void)go(b, k, 1, 0, 0.3);
                 (void)go(b, k, 9, 0, 0.3);
             }
             (void)go(b, k, part ? 30 : 40, 0, 0.3);
             CHECK(peri_step_count(b) == 40);
-            u[part] = get(b, PERI_DISPLACEMENT);
+            u[part] = get(b, PERI_FIELD_DISPLACEMENT);
             peri_body_destroy(b);
         }
-        if (k == PERI_VELOCITY_VERLET) CHECK(memcmp(u[0], u[1], 70 * sizeof(double)) == 0);
+        if (k == PERI_INTEGRATOR_VELOCITY_VERLET) CHECK(memcmp(u[0], u[1], 70 * sizeof(double)) == 0);
         for (i = 0; i < 70; ++i) CHECK_NEAR(u[1][i], u[0][i], 0, 8 * 40 * ULP64 * largest(u[0], 70));
         free(u[0]);
         free(u[1]);
@@ -470,13 +470,13 @@ static void far_from_the_origin(void) {
         int place;
         for (place = 0; place < 2; ++place) {
             const double at = place ? 1e6 * H : 0, lo[2] = {at, -at}, hi[2] = {at + 7 * H, -at + 5 * H};
-            peri_body *b = empty(PERI_PLANE_STRESS, k ? PERI_F32 : PERI_F64, PERI_NONLINEAR, 3 * H);
+            peri_body *b = empty(PERI_SPACE_PLANE_STRESS, k ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 3 * H);
             (void)MUST(b, peri_add_box(b, unbreakable(b, YOUNG, DENSITY), lo, hi, H));
             (void)MUST(b, peri_build(b));
             CHECK(peri_point_count(b) == 35);
-            put(b, PERI_VELOCITY, v);
-            (void)go(b, PERI_VELOCITY_VERLET, 100, 0.03, 0);
-            u[place] = get(b, PERI_DISPLACEMENT);
+            put(b, PERI_FIELD_VELOCITY, v);
+            (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 100, 0.03, 0);
+            u[place] = get(b, PERI_FIELD_DISPLACEMENT);
             peri_body_destroy(b);
         }
         for (i = 0; i < 70; ++i) CHECK_NEAR(u[1][i], u[0][i], 0, bound * largest(u[0], 70));
@@ -496,24 +496,25 @@ typedef struct meddler {
 static int32_t meddle(void *user, peri_body *b) {
     meddler *m = (meddler *)user;
     double u[2] = {0, 0};
-    peri_run r;
-    peri_run_init(&r);
+    peri_advance_desc r;
+    peri_advance_desc_init(&r);
     r.steps = 1;
     m->frames++;
     m->refused += peri_advance(b, &r) < 0;
     m->refused += peri_reset(b) < 0;
-    return peri_read_momentum(b, u, NULL) != PERI_OK; /* reading is allowed */
+    return peri_get_momentum(b, u, NULL) != PERI_OK; /* reading is allowed */
 }
-static void meddle_in_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t meddle_in_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     meddler *m = (meddler *)user;
     const double a[2] = {0, 0.25}, z[2] = {1, 0.25};
-    peri_run r;
+    peri_advance_desc r;
     (void)time, (void)stretch;
-    peri_run_init(&r);
+    peri_advance_desc_init(&r);
     r.steps = 1;
     m->breaks++;
-    m->refused_in_break += peri_bond_is_intact(m->body, i, j) == 0 && peri_cut_segment(m->body, a, z) < 0 &&
+    m->refused_in_break += peri_bond_is_intact(m->body, i, j) == 0 && peri_cut_segment(m->body, PERI_CUT_INITIAL, a, z) < 0 &&
                            peri_reset(m->body) < 0 && peri_advance(m->body, &r) < 0;
+    return 0;
 }
 
 /* SOURCE OF TRUTH: peri_frame_fn: "not advance, reset or destroy it"; peri_on_break: "may read the body but not change it". Such
@@ -523,21 +524,21 @@ static void callbacks_may_not_meddle(void) {
     int k;
     for (k = 0; k < 2; ++k) {
         const double lo[2] = {0, 0}, hi[2] = {0.8, 0.5}, half[2] = {0.4, 0.5}, v[2] = {-0.2, 0};
-        peri_body *b = empty(PERI_PLANE_STRESS, PERI_F64, PERI_NONLINEAR, 3 * H);
-        peri_material m;
+        peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 3 * H);
+        peri_material_desc m;
         meddler w;
-        peri_run r;
+        peri_advance_desc r;
         memset(&w, 0, sizeof w);
         w.body = b;
-        peri_material_init(&m, PERI_BOND_BASED);
+        peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
         m.young = YOUNG;
         m.density = DENSITY;
         m.critical_stretch = 0.02;
         (void)MUST(b, peri_add_material(b, &m));
-        (void)MUST(b, peri_add_box(b, 0, lo, hi, H));
+        (void)MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, H));
         (void)MUST(b, peri_build(b));
         (void)MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, half)), v));
-        peri_run_init(&r);
+        peri_advance_desc_init(&r);
         r.steps = 40;
         if (k) {
             (void)MUST(b, peri_on_break(b, meddle_in_break, &w));
@@ -547,7 +548,7 @@ static void callbacks_may_not_meddle(void) {
         }
         CHECK(peri_advance(b, &r) == PERI_OK && peri_step_count(b) == 40 && peri_broken_count(b) > 0);
         if (k) CHECK(w.frames == 4 && w.refused == 8 && w.breaks > 0 && w.refused_in_break == w.breaks);
-        u[k] = get(b, PERI_DISPLACEMENT);
+        u[k] = get(b, PERI_FIELD_DISPLACEMENT);
         peri_body_destroy(b);
     }
     CHECK(memcmp(u[0], u[1], 80 * sizeof(double)) == 0);

@@ -35,16 +35,16 @@ static peri_body *new_body(int32_t space, int32_t precision, double horizon) {
 }
 
 static double *read_field(peri_body *body, int32_t field) {
-    const int64_t count = peri_field_size(body, field);
+    const int64_t count = peri_size_of_field(body, field);
     double *values = (double *)keep(sizeof(double) * (size_t)(count > 0 ? count : 0));
-    MUST(body, peri_read(body, field, values, count));
+    MUST(body, peri_get_field(body, field, values, count));
     return values;
 }
 
 static int32_t *read_rows(peri_body *body) {
     const int64_t n = peri_point_count(body), width = peri_family_width(body);
     int32_t *rows = (int32_t *)keep(sizeof(int32_t) * (size_t)(n * width));
-    MUST(body, peri_read_families(body, 0, n, rows, n * width));
+    MUST(body, peri_get_families(body, 0, n, rows, n * width));
     return rows;
 }
 
@@ -55,7 +55,7 @@ static int32_t *read_rows(peri_body *body) {
 static void check_lattice_rows(peri_body *body, int dim, const int *n, int two_m) {
     const int reach = two_m / 2, rz = dim == 3 ? reach : 0;
     int32_t *rows = read_rows(body);
-    double  *sizes = read_field(body, PERI_FAMILY_SIZE);
+    double  *sizes = read_field(body, PERI_FIELD_FAMILY_SIZE);
     const int64_t width = peri_family_width(body);
     int64_t total = 0, largest = 0, wrong = 0;
     int x, y, z, dx, dy, dz;
@@ -87,7 +87,7 @@ static void check_lattice_rows(peri_body *body, int dim, const int *n, int two_m
 static void one_lattice(int dim, int two_m, double dx, const double *origin, int by_points, int32_t precision) {
     static double position[3 * N_MAX], volume[N_MAX];
     const int m = (two_m + 1) / 2, n[3] = {2 * m + 1, 2 * m + 2, dim == 3 ? 2 * m + 1 : 1}, count = n[0] * n[1] * n[2];
-    peri_body *body = new_body(dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS, precision, two_m % 2 ? 0.5 * two_m * dx : m * dx);
+    peri_body *body = new_body(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, precision, two_m % 2 ? 0.5 * two_m * dx : m * dx);
     double lo[3], hi[3];
     int i, k;
     for (k = 0; k < 3; ++k) {
@@ -103,7 +103,7 @@ static void one_lattice(int dim, int two_m, double dx, const double *origin, int
         }
         CHECK(MUST(body, peri_add_points(body, count, position, volume, NULL)) == count);
     } else {
-        CHECK(MUST(body, peri_add_box(body, 0, lo, hi, dx)) == count);
+        CHECK(MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, dx)) == count);
     }
     if (MUST(body, peri_build(body)) >= 0) {
         check_lattice_rows(body, dim, n, two_m);
@@ -123,8 +123,8 @@ static void all_lattices(int dim, int two_m_lo, int two_m_hi) {
         for (s = 0; s < 9; ++s)
             for (o = 0; o < 3; ++o)
                 for (by_points = 0; by_points < 2; ++by_points) {
-                    one_lattice(dim, two_m, spacing[s], origin[o], by_points, PERI_F64);
-                    one_lattice(dim, two_m, spacing[s], origin[o], by_points, PERI_F32);
+                    one_lattice(dim, two_m, spacing[s], origin[o], by_points, PERI_PRECISION_DOUBLE);
+                    one_lattice(dim, two_m, spacing[s], origin[o], by_points, PERI_PRECISION_SINGLE);
                 }
 }
 
@@ -132,9 +132,9 @@ static void lattice_counts_2d(void) { all_lattices(2, 3, 11); }
 static void lattice_counts_3d(void) { all_lattices(3, 3, 6); }
 static void lattice_counts_3d_wide(void) {
     static const double origin[3] = {1e6, -7e5, 3e5};
-    one_lattice(3, 8, 0.1, origin, 0, PERI_F64);
-    one_lattice(3, 8, 1e-9, origin, 1, PERI_F32);
-    one_lattice(3, 9, 3.0, origin, 1, PERI_F64);
+    one_lattice(3, 8, 0.1, origin, 0, PERI_PRECISION_DOUBLE);
+    one_lattice(3, 8, 1e-9, origin, 1, PERI_PRECISION_SINGLE);
+    one_lattice(3, 9, 3.0, origin, 1, PERI_PRECISION_DOUBLE);
 }
 static void lattice_counts_3d_all(void) { all_lattices(3, 7, 9); }
 
@@ -145,8 +145,8 @@ static void horizon_tolerance(void) {
     static const double lo[2] = {0, 0}, hi[2] = {9, 9};
     int k;
     for (k = 0; k < 4; ++k) {
-        peri_body *body = new_body(PERI_PLANE_STRAIN, PERI_F64, 3.0 * factor[k]);
-        MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
+        peri_body *body = new_body(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_DOUBLE, 3.0 * factor[k]);
+        MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
         MUST(body, peri_build(body));
         CHECK(peri_family_width(body) == want[k]);
         release();
@@ -171,7 +171,7 @@ static double distance(int dim, const double *a, const double *b) {
 /* Truth: all pairs. No pair of these clouds lies within 1e-7 of the horizon, so no tolerance matters. */
 static void one_cloud(int dim, int64_t n, uint64_t seed, double horizon, double scale, int32_t precision) {
     static double position[3 * N_MAX], volume[N_MAX];
-    peri_body *body = new_body(dim == 3 ? PERI_SOLID : PERI_PLANE_STRAIN, precision, horizon * scale);
+    peri_body *body = new_body(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, precision, horizon * scale);
     int32_t *rows, *some, wrong = 0;
     double *sizes;
     int64_t i, j, k, width, total = 0, largest = 0;
@@ -179,7 +179,7 @@ static void one_cloud(int dim, int64_t n, uint64_t seed, double horizon, double 
     CHECK(MUST(body, peri_add_points(body, n, position, volume, NULL)) == n);
     MUST(body, peri_build(body));
     rows = read_rows(body);
-    sizes = read_field(body, PERI_FAMILY_SIZE);
+    sizes = read_field(body, PERI_FIELD_FAMILY_SIZE);
     width = peri_family_width(body);
     for (i = 0; i < n; ++i) {
         for (j = 0, k = 0; j < n; ++j) {
@@ -196,18 +196,18 @@ static void one_cloud(int dim, int64_t n, uint64_t seed, double horizon, double 
     }
     CHECK(wrong == 0 && width == largest && peri_bond_count(body) == total);
     some = (int32_t *)keep(sizeof(int32_t) * (size_t)(5 * width)); /* a part of the rows, from the middle */
-    MUST(body, peri_read_families(body, 17, 5, some, 5 * width));
+    MUST(body, peri_get_families(body, 17, 5, some, 5 * width));
     CHECK(memcmp(some, rows + 17 * width, sizeof(int32_t) * (size_t)(5 * width)) == 0);
-    CHECK(peri_read_families(body, n - 2, 3, some, 5 * width) < 0 && peri_read_families(body, 17, 5, some, 5 * width - 1) < 0);
+    CHECK(peri_get_families(body, n - 2, 3, some, 5 * width) < 0 && peri_get_families(body, 17, 5, some, 5 * width - 1) < 0);
     release();
 }
 
 static void clouds(void) {
-    one_cloud(2, 1000, 11, 0.11, 1.0, PERI_F64);
-    one_cloud(2, 3000, 12, 0.07, 1e-6, PERI_F32);
-    one_cloud(2, 1500, 13, 0.09, 1e7, PERI_F64);
-    one_cloud(3, 1000, 14, 0.25, 1.0, PERI_F32);
-    one_cloud(3, 2500, 15, 0.17, 1e-8, PERI_F64);
+    one_cloud(2, 1000, 11, 0.11, 1.0, PERI_PRECISION_DOUBLE);
+    one_cloud(2, 3000, 12, 0.07, 1e-6, PERI_PRECISION_SINGLE);
+    one_cloud(2, 1500, 13, 0.09, 1e7, PERI_PRECISION_DOUBLE);
+    one_cloud(3, 1000, 14, 0.25, 1.0, PERI_PRECISION_SINGLE);
+    one_cloud(3, 2500, 15, 0.17, 1e-8, PERI_PRECISION_DOUBLE);
 }
 
 /* ---- families from the caller -------------------------------------------------------------------------------------- */
@@ -219,14 +219,14 @@ static void shake(peri_body *body, int dim, double size) {
     uint64_t seed = 99;
     int64_t k;
     for (k = 0; k < count; ++k) u[k] = size * (test_random(&seed) - 0.5);
-    MUST(body, peri_write(body, PERI_DISPLACEMENT, u, count));
+    MUST(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, u, count));
 }
 
 static void compare_field(peri_body *a, peri_body *b, int32_t field) {
     double *x = read_field(a, field), *y = read_field(b, field), largest = 0.0;
-    const int64_t count = peri_field_size(a, field);
+    const int64_t count = peri_size_of_field(a, field);
     int64_t k;
-    CHECK(count == peri_field_size(b, field));
+    CHECK(count == peri_size_of_field(b, field));
     for (k = 0; k < count; ++k) largest = fmax(largest, fabs(x[k]));
     CHECK(largest > 0.0);
     for (k = 0; k < count; ++k) CHECK_NEAR(y[k], x[k], 0.0, 1e-13 * largest); /* the sum of ~30 terms, in any order */
@@ -240,13 +240,13 @@ static void families_given(void) {
     for (kind = 0; kind < 3; ++kind) { /* 0: cloud 2D, 1: cloud 3D, 2: lattice 3D */
         const int dim = kind ? 3 : 2;
         const double horizon = kind == 0 ? 0.15 : 0.3;
-        const int32_t space = kind ? PERI_SOLID : PERI_PLANE_STRESS;
-        peri_body *found = new_body(space, PERI_F64, horizon), *given = new_body(space, PERI_F64, horizon);
+        const int32_t space = kind ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS;
+        peri_body *found = new_body(space, PERI_PRECISION_DOUBLE, horizon), *given = new_body(space, PERI_PRECISION_DOUBLE, horizon);
         int32_t *rows;
         int k;
         random_cloud(dim, 600, 5, 1.0, position, volume);
         for (k = 0; k < 2; ++k)
-            if (kind == 2) MUST(found, peri_add_box(k ? given : found, 0, lo, hi, 0.1));
+            if (kind == 2) MUST(found, peri_add_box(k ? given : found, peri_id(k ? given : found, PERI_KIND_MATERIAL, 1), lo, hi, 0.1));
             else MUST(found, peri_add_points(k ? given : found, 600, position, volume, NULL));
         MUST(found, peri_build(found));
         rows = read_rows(found);
@@ -255,8 +255,8 @@ static void families_given(void) {
             CHECK(peri_bond_count(given) == peri_bond_count(found) && peri_family_width(given) == peri_family_width(found));
             shake(found, dim, 0.01 * horizon);
             shake(given, dim, 0.01 * horizon);
-            compare_field(found, given, PERI_ENERGY_DENSITY);
-            compare_field(found, given, PERI_FORCE_DENSITY);
+            compare_field(found, given, PERI_FIELD_ENERGY_DENSITY);
+            compare_field(found, given, PERI_FIELD_FORCE_DENSITY);
         }
         release();
     }
@@ -269,7 +269,7 @@ static void families_chosen(void) {
     static double position[2 * N], volume[N];
     static int32_t rows[N * WIDTH];
     const double horizon = 0.15;
-    peri_body *body = new_body(PERI_PLANE_STRESS, PERI_F64, horizon);
+    peri_body *body = new_body(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, horizon);
     double *u, *w, *f, c = 0.0, largest = 0.0;
     int32_t i, j;
     random_cloud(2, N, 21, 1.0, position, volume);
@@ -284,11 +284,11 @@ static void families_chosen(void) {
     MUST(body, peri_add_points(body, N, position, volume, NULL));
     MUST(body, peri_set_families(body, WIDTH, rows));
     MUST(body, peri_build(body));
-    MUST(body, peri_read_bond_constants(body, 0, 0, &c, NULL));
+    MUST(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &c, NULL));
     shake(body, 2, 0.01 * horizon);
-    u = read_field(body, PERI_DISPLACEMENT);
-    w = read_field(body, PERI_ENERGY_DENSITY);
-    f = read_field(body, PERI_FORCE_DENSITY);
+    u = read_field(body, PERI_FIELD_DISPLACEMENT);
+    w = read_field(body, PERI_FIELD_ENERGY_DENSITY);
+    f = read_field(body, PERI_FIELD_FORCE_DENSITY);
     for (i = 0; i < 2 * N; ++i) largest = fmax(largest, fabs(f[i]));
     for (i = 0; i < N; ++i) {
         double energy = 0.0, force[2] = {0.0, 0.0};
@@ -321,10 +321,10 @@ static void families_refused(void) {
         good[i * WIDTH + k] = i;
     }
     for (kind = 0; kind < 4; ++kind) {
-        peri_body *body = new_body(PERI_PLANE_STRESS, PERI_F64, 4.5);
+        peri_body *body = new_body(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 4.5);
         peri_error error;
         int32_t result;
-        MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
+        MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
         memcpy(bad, good, sizeof bad);
         if (kind == 0) bad[4 * WIDTH + 7] = N;
         if (kind == 1) bad[5 * WIDTH + 0] = -2;
@@ -335,7 +335,7 @@ static void families_refused(void) {
         }
         result = peri_set_families(body, WIDTH, bad);
         if (result >= 0) result = peri_build(body);
-        CHECK(result == PERI_ERROR_IBOND && peri_last_error(body, &error) == PERI_OK && error.code == PERI_ERROR_IBOND);
+        CHECK(result == PERI_ERROR_IBOND && peri_get_error(body, &error) == PERI_OK && error.code == PERI_ERROR_IBOND);
         CHECK(error.index == entry[kind] || (kind == 2 && error.index == 6 * WIDTH + 3));
         MUST(body, peri_set_families(body, WIDTH, good));
         MUST(body, peri_build(body));
@@ -350,9 +350,9 @@ static void families_refused(void) {
 static double box_lo[3] = {-1.0, 2.0, 0.5}, box_hi[3] = {2.0, 4.2, 1.5};
 
 static peri_body *perturbed(int dim, double spacing, double amount, uint64_t seed, int plain) {
-    peri_body *body = new_body(dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS, PERI_F64, 3.0 * spacing);
-    if (plain) MUST(body, peri_add_box(body, 0, box_lo, box_hi, spacing));
-    else MUST(body, peri_add_perturbed_box(body, 0, box_lo, box_hi, spacing, amount, seed));
+    peri_body *body = new_body(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 3.0 * spacing);
+    if (plain) MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), box_lo, box_hi, spacing));
+    else MUST(body, peri_add_perturbed_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), box_lo, box_hi, spacing, amount, seed));
     MUST(body, peri_build(body));
     return body;
 }
@@ -365,9 +365,9 @@ static peri_body *perturbed(int dim, double spacing, double amount, uint64_t see
 static void one_perturbed(int dim, double spacing, double amount) {
     peri_body *body = perturbed(dim, spacing, amount, 7, 0), *twin = perturbed(dim, spacing, amount, 7, 0);
     peri_body *other = perturbed(dim, spacing, amount, 8, 0), *plain = perturbed(dim, spacing, amount, 7, 1);
-    double *x = read_field(body, PERI_POSITION), *v = read_field(body, PERI_VOLUME);
-    double *x2 = read_field(twin, PERI_POSITION), *v2 = read_field(twin, PERI_VOLUME), *x3 = read_field(other, PERI_POSITION);
-    double *x0 = read_field(plain, PERI_POSITION), *v0 = read_field(plain, PERI_VOLUME);
+    double *x = read_field(body, PERI_FIELD_POSITION), *v = read_field(body, PERI_FIELD_VOLUME);
+    double *x2 = read_field(twin, PERI_FIELD_POSITION), *v2 = read_field(twin, PERI_FIELD_VOLUME), *x3 = read_field(other, PERI_FIELD_POSITION);
+    double *x0 = read_field(plain, PERI_FIELD_POSITION), *v0 = read_field(plain, PERI_FIELD_VOLUME);
     const int64_t n = peri_point_count(body);
     const double bound = amount / 4.0 * (dim == 2 ? 4.0 : 5.0) / 3.0;
     double sum = 0.0, size = 1.0, moment[3] = {0, 0, 0}, cell[3], square = 0.0;
@@ -417,16 +417,16 @@ static void perturbed_boxes(void) {
    (2i + 1 - k) have a sum of squares of at most (2r/h)^2 = k^2, for k cells of h = 2r/k. No sum of squares equals k^2 here:
    mod 4 (2D) and mod 8 (3D) they differ. So the count is exact at any scale. */
 static void one_ball(int dim, double spacing, double radius, const double *centre) {
-    peri_body *body = new_body(dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS, PERI_F64, 3.0 * spacing);
+    peri_body *body = new_body(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 3.0 * spacing);
     const int k = (int)floor(2.0 * radius / spacing + 0.5), kz = dim == 3 ? k : 1;
     const double h = 2.0 * radius / k;
     int64_t count = 0, wrong = 0;
-    const int64_t got = MUST(body, peri_add_ball(body, 0, centre, radius, spacing));
+    const int64_t got = MUST(body, peri_add_ball(body, peri_id(body, PERI_KIND_MATERIAL, 1), centre, radius, spacing));
     double *p, *v, at[3];
     int i;
     MUST(body, peri_build(body));
-    p = read_field(body, PERI_POSITION);
-    v = read_field(body, PERI_VOLUME);
+    p = read_field(body, PERI_FIELD_POSITION);
+    v = read_field(body, PERI_FIELD_VOLUME);
     for (i = 0; i < k * k * kz; ++i) {
         const int a = 2 * (i % k) + 1 - k, b = 2 * (i / k % k) + 1 - k, c = dim == 3 ? 2 * (i / k / k) + 1 - k : 0;
         if (a * a + b * b + c * c > k * k) continue;
@@ -474,14 +474,14 @@ static int32_t ring(void *user, int64_t index, const double *x) {
 static void shapes(void) {
     static const double lo[2] = {0, 0}, hi[2] = {2, 1};
     shape_state state = {0, 0, 0};
-    peri_body *body = new_body(PERI_PLANE_STRESS, PERI_F64, 0.3);
+    peri_body *body = new_body(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 0.3);
     int64_t k, count = 0;
     double *p;
-    CHECK(MUST(body, peri_add_shape(body, 0, lo, hi, 0.1, ring, &state)) == state.taken);
+    CHECK(MUST(body, peri_add_shape(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 0.1, ring, &state)) == state.taken);
     MUST(body, peri_build(body));
     CHECK(state.wrong == 0);
     CHECK(state.calls == 200);
-    p = read_field(body, PERI_POSITION);
+    p = read_field(body, PERI_FIELD_POSITION);
     for (k = 0; k < 200; ++k) {
         const double x = ((double)(k % 20) + 0.5) * 0.1, y = ((double)(k / 20) + 0.5) * 0.1;
         if (!in_ring(x, y)) continue;
@@ -497,13 +497,13 @@ static void shapes(void) {
 static void nothing_added(void) {
     static const double lo[2] = {5, 5}, hi[2] = {6, 6};
     shape_state state = {0, 0, 0};
-    peri_body *body = new_body(PERI_PLANE_STRESS, PERI_F64, 0.3);
-    CHECK(peri_add_shape(body, 0, lo, hi, 0.1, ring, &state) == PERI_ERROR_NO_POINTS);
-    CHECK(peri_add_perturbed_box(body, 0, box_lo, box_hi, 0.1, 1.01, 1) == PERI_ERROR_RANGE);
-    CHECK(peri_add_perturbed_box(body, 0, box_lo, box_hi, 0.1, -0.1, 1) == PERI_ERROR_RANGE);
-    CHECK(peri_add_perturbed_box(body, 0, box_lo, box_hi, 0.1, nan(""), 1) == PERI_ERROR_RANGE);
+    peri_body *body = new_body(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 0.3);
+    CHECK(peri_add_shape(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 0.1, ring, &state) == PERI_ERROR_EMPTY);
+    CHECK(peri_add_perturbed_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), box_lo, box_hi, 0.1, 1.01, 1) == PERI_ERROR_RANGE);
+    CHECK(peri_add_perturbed_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), box_lo, box_hi, 0.1, -0.1, 1) == PERI_ERROR_RANGE);
+    CHECK(peri_add_perturbed_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), box_lo, box_hi, 0.1, nan(""), 1) == PERI_ERROR_RANGE);
     CHECK(peri_point_count(body) == 0);
-    CHECK(peri_build(body) == PERI_ERROR_NO_POINTS);
+    CHECK(peri_build(body) == PERI_ERROR_EMPTY);
     release();
 }
 
@@ -516,10 +516,10 @@ static int32_t odd_points(void *user, int64_t index, const double *x) {
 /* The set must be exactly the points with want[i], ascending. */
 static void check_set(peri_body *body, int32_t set, const int *want) {
     int32_t points[N_MAX];
-    const int64_t n = peri_point_count(body), size = MUST(body, peri_set_size(body, set));
+    const int64_t n = peri_point_count(body), size = MUST(body, peri_size_of_set(body, set));
     int64_t i, k = 0;
     int wrong = 0;
-    MUST(body, peri_read_set(body, set, points, N_MAX));
+    MUST(body, peri_get_set(body, set, points, N_MAX));
     for (i = 0; i < n; ++i)
         if (want[i]) {
             if (k >= size || points[k] != (int32_t)i) wrong++;
@@ -527,7 +527,7 @@ static void check_set(peri_body *body, int32_t set, const int *want) {
         }
     CHECK(k == size);
     CHECK(wrong == 0);
-    CHECK(size == 0 || peri_read_set(body, set, points, size - 1) == PERI_ERROR_CAPACITY);
+    CHECK(size == 0 || peri_get_set(body, set, points, size - 1) == PERI_ERROR_CAPACITY);
 }
 
 /* Truth: integer comparisons on the lattice x = 2i + 1 (in half spacings). The faces of the box and of the ball run through
@@ -541,10 +541,10 @@ static void sets(void) {
         const double box[4] = {2.5 * dx, 1.5 * dx, 6.5 * dx, 3.4 * dx}, centre[2] = {5.5 * dx, 4.5 * dx};
         const double far_off[2] = {-50 * dx, 0};
         double limit = 2.0 * dx;
-        peri_body *body = new_body(PERI_PLANE_STRAIN, PERI_F64, 3.0 * dx);
+        peri_body *body = new_body(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_DOUBLE, 3.0 * dx);
         int want[120], i;
         int32_t a, b, c, d;
-        MUST(body, peri_add_box(body, 0, lo, hi, dx));
+        MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, dx));
         CHECK(peri_select_box(body, "early", box, box + 2) == PERI_ERROR_ORDER);
         MUST(body, peri_build(body));
         a = peri_select_box(body, "box", box, box + 2);
@@ -560,13 +560,13 @@ static void sets(void) {
         check_set(body, c, want);
         for (i = 0; i < 120; ++i) want[i] = i == 77 || i == 3 || i == 100 || i == 42;
         check_set(body, d, want);
-        CHECK(peri_set_size(body, PERI_ALL) == 120);
+        CHECK(peri_size_of_set(body, PERI_ALL) == 120);
         CHECK(peri_find_set(body, "box") == a && peri_find_set(body, "ball") == b && peri_find_set(body, "some") == d);
-        CHECK(peri_find_set(body, "bo") == PERI_ERROR_SET);
-        CHECK(peri_select_box(body, "ball", box, box + 2) == PERI_ERROR_SET); /* the name is taken */
-        CHECK(peri_select_ball(body, "none", far_off, dx) == PERI_ERROR_SET);
-        CHECK(peri_find_set(body, "none") == PERI_ERROR_SET);
-        CHECK(peri_set_size(body, 99) == PERI_ERROR_SET && peri_set_size(body, -1) == PERI_ERROR_SET);
+        CHECK(peri_find_set(body, "bo") == PERI_ERROR_NAME);
+        CHECK(peri_select_box(body, "ball", box, box + 2) == PERI_ERROR_NAME); /* the name is taken */
+        CHECK(peri_select_ball(body, "none", far_off, dx) == PERI_ERROR_EMPTY);
+        CHECK(peri_find_set(body, "none") == PERI_ERROR_NAME);
+        CHECK(peri_size_of_set(body, 99) == PERI_ERROR_ID_NONE && peri_size_of_set(body, -1) == PERI_ERROR_ID_NONE);
         release();
     }
 }

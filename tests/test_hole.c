@@ -20,7 +20,7 @@
 #define STRESS 100e6 /* [Pa]                                                                                              */
 
 typedef struct plate {
-    int32_t model, correction;
+    int32_t law, correction;
     int     cells;      /* per radius                                                                                    */
     int     framed;     /* Kirsch's displacements on a frame outside, or a strip with tractions on its ends              */
     int     wide, high; /* half sides in radii                                                                           */
@@ -30,9 +30,9 @@ static double spacing_of(const plate *p) { return RADIUS / p->cells; }
 static double horizon_of(const plate *p) { return 3 * spacing_of(p); }
 
 /* The strip is 10 a wide, so that d/W = 0.2, and long enough that its ends do not matter (16 a: 1 % of K; 24 a and 32 a: the same). */
-static plate plate_of(int32_t model, int32_t correction, int cells, int framed) {
+static plate plate_of(int32_t law, int32_t correction, int cells, int framed) {
     plate p;
-    p.model = model;
+    p.law = law;
     p.correction = correction;
     p.cells = cells;
     p.framed = framed;
@@ -66,7 +66,7 @@ static int32_t in_frame(void *user, int64_t index, const double *x) {
     return fabs(x[0]) > p->wide * RADIUS || fabs(x[1]) > p->high * RADIUS;
 }
 
-static void kirsch_support(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t kirsch_support(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const double *x = (const double *)user;
     int64_t k;
     double sigma[3];
@@ -75,6 +75,7 @@ static void kirsch_support(void *user, double time, int64_t count, const int32_t
         value[2 * k] *= time;
         value[2 * k + 1] *= time;
     }
+    return 0;
 }
 
 typedef struct solved {
@@ -84,9 +85,9 @@ typedef struct solved {
 } solved;
 
 static double *read_field(peri_body *b, int32_t field) {
-    int64_t n = MUST(b, peri_field_size(b, field));
+    int64_t n = MUST(b, peri_size_of_field(b, field));
     double *out = (double *)calloc((size_t)n, sizeof *out);
-    (void)MUST(b, peri_read(b, field, out, n));
+    (void)MUST(b, peri_get_field(b, field, out, n));
     return out;
 }
 
@@ -100,9 +101,9 @@ static solved solve_plate(const plate *p) {
     const double margin = p->framed ? 2 * horizon_of(p) : 0, up[2] = {0, STRESS}, down[2] = {0, -STRESS};
     double hi[2], lo[2], deep[2];
     peri_body_desc d;
-    peri_material m;
-    peri_statics st;
-    peri_statics_report report;
+    peri_material_desc m;
+    peri_solve_desc st;
+    peri_solve_report report;
     peri_body *b = NULL;
     solved s;
     hi[0] = p->wide * RADIUS + margin;
@@ -110,26 +111,26 @@ static solved solve_plate(const plate *p) {
     lo[0] = -hi[0];
     lo[1] = -hi[1];
     peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRESS;
-    d.geometry = PERI_LINEAR;
+    d.space = PERI_SPACE_PLANE_STRESS;
+    d.geometry = PERI_GEOMETRY_LINEAR;
     d.correction = p->correction;
     d.horizon = horizon_of(p);
     d.threads = 1;
     CHECK(peri_body_create(&d, &b, NULL) == PERI_OK);
-    peri_material_init(&m, p->model);
+    peri_material_desc_init(&m, p->law);
     m.young = YOUNG;
     m.poisson = NU;
     m.density = 7850;
     (void)MUST(b, peri_add_material(b, &m));
-    (void)MUST(b, peri_add_shape(b, 0, lo, hi, spacing_of(p), outside_hole, NULL));
+    (void)MUST(b, peri_add_shape(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, spacing_of(p), outside_hole, NULL));
     (void)MUST(b, peri_build(b));
     s.body = b;
     s.n = peri_point_count(b);
-    s.x = read_field(b, PERI_POSITION);
-    peri_statics_init(&st);
+    s.x = read_field(b, PERI_FIELD_POSITION);
+    peri_solve_desc_init(&st);
     if (p->framed) {
         int32_t frame = (int32_t)MUST(b, peri_select_if(b, "frame", in_frame, (void *)p));
-        (void)MUST(b, peri_prescribe_displacement(b, frame, PERI_X | PERI_Y, NULL, kirsch_support, s.x));
+        (void)MUST(b, peri_prescribe_displacement(b, frame, PERI_AXIS_X | PERI_AXIS_Y, NULL, kirsch_support, s.x));
     } else {
         int32_t top, bottom;
         deep[0] = lo[0];
@@ -138,13 +139,13 @@ static solved solve_plate(const plate *p) {
         deep[0] = hi[0];
         deep[1] = lo[1] + 2 * d.horizon;
         bottom = peri_select_box(b, "bottom", lo, deep);
-        (void)MUST(b, peri_apply_surface_traction(b, top, 2 * hi[0], up, up, NULL, NULL));
-        (void)MUST(b, peri_apply_surface_traction(b, bottom, 2 * hi[0], down, down, NULL, NULL));
+        (void)MUST(b, peri_apply_traction(b, top, 2 * hi[0], up, up, NULL, NULL));
+        (void)MUST(b, peri_apply_traction(b, bottom, 2 * hi[0], down, down, NULL, NULL));
         st.loose = PERI_LOOSE_PINNED;
     }
     (void)MUST(b, peri_solve(b, &st, &report));
     s.iterations = report.iterations;
-    s.sigma = read_field(b, PERI_STRESS);
+    s.sigma = read_field(b, PERI_FIELD_STRESS);
     return s;
 }
 
@@ -204,8 +205,8 @@ static hole measure(const plate *p) {
         for (k = 0; k < 3; ++k, ++count) e.field += pow((sigma[k] - want[k]) / STRESS, 2);
     }
     e.field = sqrt(e.field / (double)count);
-    printf("    %s, %-14s %-6s a = %2d h: ", p->framed ? "plate" : "strip", p->model == PERI_LPS ? "LPS" : "correspondence",
-           p->correction == PERI_MOMENT_CORRECTION ? "moment" : "none", p->cells);
+    printf("    %s, %-14s %-6s a = %2d h: ", p->framed ? "plate" : "strip", p->law == PERI_LAW_LPS ? "LPS" : "correspondence",
+           p->correction == PERI_CORRECTION_MOMENT ? "moment" : "none", p->cells);
     if (p->framed) printf("errors of ligament %.4f, field %.4f; ", e.line, e.field);
     printf("K %.3f, next to the rim %.3f; %ld points, %ld iterations\n", at_rim(&e.way, beyond(p), 3), e.way.stress[0], (long)s.n,
            (long)s.iterations);
@@ -217,7 +218,7 @@ static hole measure(const plate *p) {
    of the lattice sum and is soft or stiff near the rim, so that its field does not converge at a fixed ratio: shown, not asked for. */
 static void hole_in_an_infinite_plate(void) {
     static const int32_t law[3][2] = {
-        {PERI_LPS, PERI_MOMENT_CORRECTION}, {PERI_CORRESPONDENCE, PERI_NO_CORRECTION}, {PERI_LPS, PERI_NO_CORRECTION}};
+        {PERI_LAW_LPS, PERI_CORRECTION_MOMENT}, {PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE}, {PERI_LAW_LPS, PERI_CORRECTION_NONE}};
     int k, cells;
     for (k = 0; k < (test_long ? 3 : 2); ++k) {
         double last = 0;
@@ -242,8 +243,8 @@ static void hole_in_a_strip(void) {
     for (k = 0; k < 2; ++k) {
         double last = 1;
         for (cells = 10; cells <= (test_long ? 40 : 10); cells *= 2) {
-            int32_t model = k ? PERI_CORRESPONDENCE : PERI_LPS, correction = k ? PERI_NO_CORRECTION : PERI_MOMENT_CORRECTION;
-            plate strip = plate_of(model, correction, cells, 0), whole = plate_of(model, correction, cells, 1);
+            int32_t law = k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_LPS, correction = k ? PERI_CORRECTION_NONE : PERI_CORRECTION_MOMENT;
+            plate strip = plate_of(law, correction, cells, 0), whole = plate_of(law, correction, cells, 1);
             hole e = measure(&strip), f = measure(&whole);
             double factor;
             for (i = 0; i < e.way.count && i < f.way.count; ++i) e.way.stress[i] -= f.way.stress[i];

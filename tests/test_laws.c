@@ -10,13 +10,13 @@
 #define MIXED  (3 * NUS) /* points of the block in the middle of a mixed body: three state-based laws times the ratios */
 
 static const double nus[NUS] = {-0.5, 0, 0.1, 0.2, 0.25, 1.0 / 3.0, 0.4, 0.45, 0.49};
-static double table[4][5][5][8]; /* [space][model][correction][reach]: largest |sigma - C:eps|/|C| where the function has moments */
+static double table[4][5][5][8]; /* [space][law][correction][reach]: largest |sigma - C:eps|/|C| where the function has moments */
 
 /* What a point of the bulk must show. */
 typedef struct expected {
-    int32_t model;
+    int32_t law;
     double  nu, tolerance, scale; /* of W and stress, relative to scale = largest entry of C */
-    tensor4 law, solid;
+    tensor4 moduli, solid;
     int     usable; /* 0: only isotropic strain is held against it, see below */
 } expected;
 
@@ -24,21 +24,21 @@ typedef struct expected {
    a fit is part of it. The moment correction leaves families with negative weights as they are, and is a compromise where steep
    poles would take large factors (peri.h): POLE_QUARTER, where only the energy of isotropic strain is exact. So it is where Oterkus's
    spring meets the bound of its energy (stiffness_of_law), which is taken of the sums before the fit, hence the 0.8. */
-static expected expect(const scene *s, const sums *o, int32_t model, double nu) {
+static expected expect(const scene *s, const sums *o, int32_t law, double nu) {
     expected x;
     scene plain = *s;
-    int fitted = s->correction == PERI_MOMENT_CORRECTION && model != PERI_CORRESPONDENCE;
+    int fitted = s->correction == PERI_CORRECTION_MOMENT && law != PERI_LAW_CORRESPONDENCE;
     memset(&x, 0, sizeof x);
-    if (fitted && s->influence == PERI_INFLUENCE_POLE_HALF) plain.correction = PERI_NO_CORRECTION;
-    x.model = model;
-    x.nu = model == PERI_BOND_BASED ? bond_nu(s->space) : nu;
-    stiffness_of_law(&plain, o, model, nu, &x.law);
+    if (fitted && s->influence == PERI_INFLUENCE_POLE_HALF) plain.correction = PERI_CORRECTION_NONE;
+    x.law = law;
+    x.nu = law == PERI_LAW_BOND_BASED ? bond_nu(s->space) : nu;
+    stiffness_of_law(&plain, o, law, nu, &x.moduli);
     stiffness_of_solid(dim_of(s->space), moduli_of(s->space, x.nu), &x.solid);
-    x.scale = fmax(largest_entry(&x.law), largest_entry(&x.solid));
+    x.scale = fmax(largest_entry(&x.moduli), largest_entry(&x.solid));
     x.tolerance = 1e-12 * fmax(o->size / o->m, o->span / fabs(o->length));
     if (fitted) x.tolerance = fmax(x.tolerance, 1e-10);
     x.usable = !fitted || s->influence != PERI_INFLUENCE_POLE_QUARTER;
-    if (fitted && model == PERI_OTERKUS) {
+    if (fitted && law == PERI_LAW_OTERKUS) {
         const moduli e = moduli_of(s->space, nu);
         const int dim = dim_of(s->space);
         const double over = o->m * o->plain / (o->length * o->length) - 1;
@@ -69,22 +69,22 @@ static void strain_of(int dim, int which, double amount, double grad[3][3], doub
    nonlinear geometry may differ by. Large bodies show strain, stress and dilatation only for the last two strains. */
 static void check_bulk(peri_body *b, const scene *s, int points, const int *point, const expected *x, const sums *o) {
     const int dim = dim_of(s->space), parts = dim * (dim + 1) / 2;
-    const double amount = s->geometry == PERI_LINEAR ? 1 : 1e-7, slack = s->geometry == PERI_LINEAR ? 0 : 20 * amount;
+    const double amount = s->geometry == PERI_GEOMETRY_LINEAR ? 1 : 1e-7, slack = s->geometry == PERI_GEOMETRY_LINEAR ? 0 : 20 * amount;
     int which, k, a, c;
     for (which = 0; which < parts + 2; ++which) {
         double grad[3][3], eps[3][3], sigma[3][3], exact[3][3], *f[5] = {NULL}, trace = 0, cond = o->size / o->m;
         const int all = which >= parts || peri_bond_count(b) < 500000;
         strain_of(dim, which, amount, grad, eps);
         stretch_body(b, grad);
-        f[0] = get(b, PERI_ENERGY_DENSITY);
-        f[1] = get(b, PERI_FORCE_STRESS);
-        if (all) f[2] = get(b, PERI_STRESS);
-        if (all) f[3] = get(b, PERI_STRAIN);
-        if (all) f[4] = get(b, PERI_DILATATION);
+        f[0] = get(b, PERI_FIELD_ENERGY_DENSITY);
+        f[1] = get(b, PERI_FIELD_FORCE_STRESS);
+        if (all) f[2] = get(b, PERI_FIELD_STRESS);
+        if (all) f[3] = get(b, PERI_FIELD_STRAIN);
+        if (all) f[4] = get(b, PERI_FIELD_DILATATION);
         for (a = 0; a < dim; ++a) trace += eps[a][a];
         for (k = 0; k < points; ++k, ++x) {
-            double w = 0, tol = x->tolerance + slack, *worst = &table[s->space][x->model][s->correction][(int)(s->reach + 0.5)];
-            contract(dim, &x->law, eps, sigma);
+            double w = 0, tol = x->tolerance + slack, *worst = &table[s->space % 100][x->law % 100][s->correction % 100][(int)(s->reach + 0.5)];
+            contract(dim, &x->moduli, eps, sigma);
             contract(dim, &x->solid, eps, exact);
             for (a = 0; a < dim; ++a)
                 for (c = 0; c < dim; ++c) {
@@ -94,7 +94,7 @@ static void check_bulk(peri_body *b, const scene *s, int points, const int *poin
                     CHECK(f[1][at] - f[1][at] == 0);
                     if (all) CHECK_NEAR(f[2][at], exact[a][c], 0, (1e-12 * cond + slack) * x->scale * amount);
                     if (all) CHECK_NEAR(f[3][at], eps[a][c], 0, (1e-12 * cond + slack) * amount);
-                    if (has_moments(s->influence) && s->geometry == PERI_LINEAR)
+                    if (has_moments(s->influence) && s->geometry == PERI_GEOMETRY_LINEAR)
                         *worst = fmax(*worst, fabs(f[1][at] - exact[a][c]) / (largest_entry(&x->solid)));
                 }
             if (x->usable || which == parts) CHECK_NEAR(f[0][point[k]], w, 0, tol * x->scale * amount * amount);
@@ -144,14 +144,14 @@ static int build_or_refuse(peri_body *b, const scene *s, int bonds) {
     if ((bonds && !has_moments(s->influence)) || infinite) CHECK(status == PERI_ERROR_INFLUENCE);
     else if (s->influence == PERI_INFLUENCE_POLE_HALF) CHECK(status == PERI_OK || status == PERI_ERROR_INFLUENCE);
     else (void)MUST(b, status);
-    CHECK(peri_last_error(b, &error) == PERI_OK);
+    CHECK(peri_get_error(b, &error) == PERI_OK);
     if (status == PERI_ERROR_INFLUENCE) CHECK(strcmp(error.field, "influence") == 0 && error.code == status);
     return status == PERI_OK;
 }
 
 /* A body of one material. Bulk: the families of a point and of all its neighbours are whole. In 3D a horizon of 6 spacings needs a
    ball of 24 across. */
-static void bulk_of(const scene *s, int32_t model, double nu) {
+static void bulk_of(const scene *s, int32_t law, double nu) {
     const int dim = dim_of(s->space), reach = (int)(s->reach + 0.5);
     int n[3] = {1, 1, 1}, point[8], k, points = 0;
     const double lo[3] = {0, 0, 0};
@@ -164,18 +164,18 @@ static void bulk_of(const scene *s, int32_t model, double nu) {
         hi[k] = H * n[k];
         centre[k] = H * (2 * reach + 0.5);
     }
-    (void)add_law(b, model, nu, -1);
+    (void)add_law(b, law, nu, -1);
     if (dim == 3 && reach > 3) (void)MUST(b, peri_add_ball(b, 0, centre, centre[0], H));
     else (void)MUST(b, peri_add_box(b, 0, lo, hi, H));
     lattice_sums(s, &o);
-    if (build_or_refuse(b, s, model == PERI_BOND_BASED)) {
-        double *at = get(b, PERI_POSITION);
+    if (build_or_refuse(b, s, law == PERI_LAW_BOND_BASED)) {
+        double *at = get(b, PERI_FIELD_POSITION);
         for (k = 0; k < peri_point_count(b); ++k) { /* those that are not nearer to a face than the centre of the box */
             if (fabs(at[k * dim + 1] - centre[1]) > 1e-9 || (dim == 3 && fabs(at[k * dim + 2] - centre[2]) > 1e-9)) continue;
             if (fabs(at[k * dim] - centre[0]) < 1e-9 || (points > 0 && reach < 4 && at[k * dim] < centre[0] + 1.5 * H)) point[points++] = k;
         }
         CHECK(points > 0);
-        for (k = 0; k < points; ++k) x[k] = expect(s, &o, model, nu);
+        for (k = 0; k < points; ++k) x[k] = expect(s, &o, law, nu);
         check_bulk(b, s, points, point, x, &o);
         free(at);
     }
@@ -200,10 +200,10 @@ static void bulk_of_mixture(const scene *s) {
     lattice_sums(s, &o);
     points = inner_points(dim, n, margin, point);
     CHECK(points == MIXED);
-    (void)add_law(b, PERI_LPS, 0.2, -1);
+    (void)add_law(b, PERI_LAW_LPS, 0.2, -1);
     for (k = 0; k < MIXED; ++k) {
         x[k] = expect(s, &o, models[1 + k / NUS], nus[k % NUS]);
-        material[point[k]] = add_law(b, x[k].model, x[k].nu, -1);
+        material[point[k]] = add_law(b, x[k].law, x[k].nu, -1);
     }
     add_sites(b, dim, n, material);
     if (build_or_refuse(b, s, 0)) check_bulk(b, s, points, point, x, &o);
@@ -215,11 +215,11 @@ static void bulk_of_mixture(const scene *s) {
 static void bulk_sweep(int32_t space, int influences, const int32_t *functions, double reach) {
     int k;
     for (k = 0; k < influences; ++k) {
-        scene s = scene_of(space, PERI_LINEAR, functions[k], PERI_NO_CORRECTION, reach);
-        for (; s.correction < PERI_CORRECTION_COUNT_; ++s.correction) {
-            int same = s.correction == PERI_VOLUME_CORRECTION || s.correction == PERI_ENERGY_CORRECTION, large = space == PERI_SOLID;
+        scene s = scene_of(space, PERI_GEOMETRY_LINEAR, functions[k], PERI_CORRECTION_NONE, reach);
+        for (; s.correction < peri__end_correction; ++s.correction) {
+            int same = s.correction == PERI_CORRECTION_VOLUME || s.correction == PERI_CORRECTION_ENERGY, large = space == PERI_SPACE_SOLID;
             if (!(same && large && k > 0)) bulk_of_mixture(&s);
-            if (!(large && k > 0 && (same || reach > 3))) bulk_of(&s, PERI_BOND_BASED, 0);
+            if (!(large && k > 0 && (same || reach > 3))) bulk_of(&s, PERI_LAW_BOND_BASED, 0);
         }
     }
 }
@@ -230,26 +230,26 @@ static const int32_t some[5] = {PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_LINEAR, 
 
 static void print_table(int32_t space, double reach) {
     static const char *const names[] = {"", "none", "volume", "energy", "moment"};
-    int model, correction;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model) {
-        printf("    %-13s m = %.0f  %-15s", space_name[space], reach, law_name[model]);
-        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
-            printf("  %s %.1e", names[correction], table[space][model][correction][(int)(reach + 0.5)]);
+    int law, correction;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law) {
+        printf("    %-13s m = %.0f  %-15s", space_name[space % 100], reach, law_name[law % 100]);
+        for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction)
+            printf("  %s %.1e", names[correction % 100], table[space % 100][law % 100][correction % 100][(int)(reach + 0.5)]);
         printf("\n");
     }
 }
 
-static void bulk_plane_stress(void) { bulk_sweep(PERI_PLANE_STRESS, 15, every, 3); }
-static void bulk_plane_strain(void) { bulk_sweep(PERI_PLANE_STRAIN, 5, some, 3); }
-static void bulk_solid(void) { bulk_sweep(PERI_SOLID, 1, some, 3); }
+static void bulk_plane_stress(void) { bulk_sweep(PERI_SPACE_PLANE_STRESS, 15, every, 3); }
+static void bulk_plane_strain(void) { bulk_sweep(PERI_SPACE_PLANE_STRAIN, 5, some, 3); }
+static void bulk_solid(void) { bulk_sweep(PERI_SPACE_SOLID, 1, some, 3); }
 
 static void bulk_long(void) {
     int32_t space;
     double reach;
     memset(table, 0, sizeof table);
     for (reach = 3; reach < 7; reach += 3)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
-            int few = space == PERI_SOLID && reach > 3;
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space) {
+            int few = space == PERI_SPACE_SOLID && reach > 3;
             bulk_sweep(space, few ? 2 : 15, few ? some : every, reach);
             print_table(space, reach);
         }
@@ -257,21 +257,21 @@ static void bulk_long(void) {
 
 /* Bodies of one material, and tiny strains in the nonlinear geometry. */
 static void pure(int32_t space, int32_t correction) {
-    scene s = scene_of(space, PERI_LINEAR, PERI_INFLUENCE_CUBIC, correction, 3);
+    scene s = scene_of(space, PERI_GEOMETRY_LINEAR, PERI_INFLUENCE_CUBIC, correction, 3);
     int k;
-    for (s.geometry = PERI_NONLINEAR; s.geometry < PERI_GEOMETRY_COUNT_; ++s.geometry)
+    for (s.geometry = PERI_GEOMETRY_NONLINEAR; s.geometry < peri__end_geometry; ++s.geometry)
         for (k = 0; k < LAWS; ++k) bulk_of(&s, models[k], k % 2 ? 0.4 : 0.1);
 }
 static void bulk_pure_plane(void) {
     int32_t correction;
-    for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction) {
-        pure(PERI_PLANE_STRESS, correction);
-        pure(PERI_PLANE_STRAIN, correction);
+    for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction) {
+        pure(PERI_SPACE_PLANE_STRESS, correction);
+        pure(PERI_SPACE_PLANE_STRAIN, correction);
     }
 }
 static void bulk_pure_solid(void) {
-    pure(PERI_SOLID, PERI_NO_CORRECTION);
-    pure(PERI_SOLID, PERI_MOMENT_CORRECTION);
+    pure(PERI_SPACE_SOLID, PERI_CORRECTION_NONE);
+    pure(PERI_SPACE_SOLID, PERI_CORRECTION_MOMENT);
 }
 
 /* SOURCE OF TRUTH: N = sum w F xi xi V = F K, so F is exact for any family that spans the space, surfaces and irregular cells included,
@@ -279,10 +279,10 @@ static void bulk_pure_solid(void) {
 static void correspondence_everywhere(void) {
     int32_t space;
     int k, which;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
         for (k = 0; k < NUS; ++k) {
-            scene s = small_scene(space, PERI_LINEAR, PERI_NO_CORRECTION);
-            peri_body *b = small_body(&s, PERI_CORRESPONDENCE, nus[k], -1, 0);
+            scene s = small_scene(space, PERI_GEOMETRY_LINEAR, PERI_CORRECTION_NONE);
+            peri_body *b = small_body(&s, PERI_LAW_CORRESPONDENCE, nus[k], -1, 0);
             int dim = dim_of(space), parts = dim * (dim + 1) / 2, a, c;
             tensor4 solid;
             int64_t i;
@@ -292,10 +292,10 @@ static void correspondence_everywhere(void) {
                 strain_of(dim, which, 1, grad, eps);
                 stretch_body(b, grad);
                 contract(dim, &solid, eps, sigma);
-                f[0] = get(b, PERI_FORCE_STRESS);
-                f[1] = get(b, PERI_STRAIN);
-                f[2] = get(b, PERI_ENERGY_DENSITY);
-                f[3] = get(b, PERI_DILATATION);
+                f[0] = get(b, PERI_FIELD_FORCE_STRESS);
+                f[1] = get(b, PERI_FIELD_STRAIN);
+                f[2] = get(b, PERI_FIELD_ENERGY_DENSITY);
+                f[3] = get(b, PERI_FIELD_DILATATION);
                 for (a = 0; a < dim; ++a) trace += eps[a][a];
                 for (a = 0; a < dim; ++a)
                     for (c = 0; c < dim; ++c) w += 0.5 * sigma[a][c] * eps[a][c];
@@ -329,22 +329,22 @@ static void same_law(int32_t space, int32_t geometry, int32_t bonds, int32_t sta
     double *f[2], *u, *theta[2], far = 0;
     peri_energy e[2];
     int64_t n = 0, i;
-    int k, equal = bonds != PERI_NO_CORRECTION;
+    int k, equal = bonds != PERI_CORRECTION_NONE;
     for (k = 0; k < 2; ++k) {
         const double lo[3] = {0, 0, 0}, hi[3] = {9 * H, 7 * H, 6 * H};
-        scene s = scene_of(space, geometry, PERI_INFLUENCE_CONSTANT, bonds, space == PERI_SOLID ? 2.1 : 3);
+        scene s = scene_of(space, geometry, PERI_INFLUENCE_CONSTANT, bonds, space == PERI_SPACE_SOLID ? 2.1 : 3);
         if (k) s.influence = PERI_INFLUENCE_INVERSE;
         if (k) s.correction = states;
         b[k] = scene_body(&s);
-        (void)add_law(b[k], k ? PERI_LPS : PERI_BOND_BASED, bond_nu(space), -1);
+        (void)add_law(b[k], k ? PERI_LAW_LPS : PERI_LAW_BOND_BASED, bond_nu(space), -1);
         (void)MUST(b[k], peri_add_perturbed_box(b[k], 0, lo, hi, H, 0.5, 3));
         (void)MUST(b[k], peri_build(b[k]));
-        n = peri_field_size(b[k], PERI_DISPLACEMENT);
+        n = peri_size_of_field(b[k], PERI_FIELD_DISPLACEMENT);
         u = random_field(n, 0.05 * H, 11);
-        put(b[k], PERI_DISPLACEMENT, u);
-        f[k] = get(b[k], PERI_FORCE_DENSITY);
-        theta[k] = get(b[k], PERI_DILATATION);
-        (void)MUST(b[k], peri_read_energy(b[k], &e[k]));
+        put(b[k], PERI_FIELD_DISPLACEMENT, u);
+        f[k] = get(b[k], PERI_FIELD_FORCE_DENSITY);
+        theta[k] = get(b[k], PERI_FIELD_DILATATION);
+        (void)MUST(b[k], peri_get_energy(b[k], &e[k]));
         free(u);
     }
     CHECK(largest(f[0], n) > 0.1 * YOUNG * 0.05 / H);
@@ -365,11 +365,11 @@ static void same_law(int32_t space, int32_t geometry, int32_t bonds, int32_t sta
 
 static void lps_is_bond_based(void) {
     int32_t space, geometry;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry) {
-            same_law(space, geometry, PERI_NO_CORRECTION, PERI_NO_CORRECTION, 1e-14);
-            same_law(space, geometry, PERI_ENERGY_CORRECTION, PERI_NO_CORRECTION, 1e-12);
-            same_law(space, geometry, PERI_MOMENT_CORRECTION, PERI_MOMENT_CORRECTION, 1e-11);
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (geometry = PERI_GEOMETRY_NONLINEAR; geometry < peri__end_geometry; ++geometry) {
+            same_law(space, geometry, PERI_CORRECTION_NONE, PERI_CORRECTION_NONE, 1e-14);
+            same_law(space, geometry, PERI_CORRECTION_ENERGY, PERI_CORRECTION_NONE, 1e-12);
+            same_law(space, geometry, PERI_CORRECTION_MOMENT, PERI_CORRECTION_MOMENT, 1e-11);
         }
 }
 
@@ -383,33 +383,33 @@ static void checkerboard(void) {
     const double a = 0.01 * H;
     int32_t space;
     int k;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
         for (k = 0; k < 5; ++k) {
             static const double stable[5] = {0, 0.25, 0.5, 1, -1};
-            scene s = scene_of(space, PERI_LINEAR, PERI_INFLUENCE_LINEAR, PERI_NO_CORRECTION, space == PERI_SOLID ? 2 : 3);
+            scene s = scene_of(space, PERI_GEOMETRY_LINEAR, PERI_INFLUENCE_LINEAR, PERI_CORRECTION_NONE, space == PERI_SPACE_SOLID ? 2 : 3);
             int dim = dim_of(space), reach = (int)s.reach, n[3] = {1, 1, 1}, point[40], points, i;
-            int32_t model = stable[k] < 0 ? PERI_LPS : PERI_CORRESPONDENCE;
+            int32_t law = stable[k] < 0 ? PERI_LAW_LPS : PERI_LAW_CORRESPONDENCE;
             double big = dim * (dim + 2) * moduli_of(space, 0.2).mu, w, force, *x, *f;
             peri_body *b = scene_body(&s);
             sums o;
             lattice_sums(&s, &o);
             for (i = 0; i < dim; ++i) n[i] = 4 * reach + 2;
-            (void)add_law(b, model, 0.2, stable[k]);
+            (void)add_law(b, law, 0.2, stable[k]);
             add_sites(b, dim, n, NULL);
             (void)MUST(b, peri_build(b));
             points = inner_points(dim, n, 2 * reach, point);
             CHECK(points == (dim == 3 ? 8 : 4));
-            x = get(b, PERI_DISPLACEMENT);
+            x = get(b, PERI_FIELD_DISPLACEMENT);
             for (i = 0; i < peri_point_count(b); ++i) x[i * dim] = (i % n[0] + i / n[0] % n[1] + i / n[0] / n[1]) % 2 ? -a : a;
-            put(b, PERI_DISPLACEMENT, x);
-            f = get(b, PERI_FORCE_DENSITY);
-            w = 0.5 * big / o.m * 4 * a * a * (model == PERI_LPS ? o.odd_x : stable[k] * o.odd);
-            force = 2 * big / o.m * 2 * a * (model == PERI_LPS ? o.odd_x : stable[k] * o.odd);
+            put(b, PERI_FIELD_DISPLACEMENT, x);
+            f = get(b, PERI_FIELD_FORCE_DENSITY);
+            w = 0.5 * big / o.m * 4 * a * a * (law == PERI_LAW_LPS ? o.odd_x : stable[k] * o.odd);
+            force = 2 * big / o.m * 2 * a * (law == PERI_LAW_LPS ? o.odd_x : stable[k] * o.odd);
             CHECK(k == 0 || w > 1e-6 * YOUNG);
             for (i = 0; i < points; ++i)
                 CHECK_NEAR(f[point[i] * dim], x[point[i] * dim] > 0 ? -force : force, 1e-12, 1e-13 * YOUNG * a / (H * H));
             free(x);
-            x = get(b, PERI_ENERGY_DENSITY);
+            x = get(b, PERI_FIELD_ENERGY_DENSITY);
             for (i = 0; i < points; ++i) CHECK_NEAR(x[point[i]], w, 1e-12, 1e-28 * YOUNG);
             free(x);
             free(f);

@@ -75,28 +75,30 @@ static int32_t long_pairs(void *user, int32_t i, int32_t j, const double *xi, co
     (void)user;
     return i % 7 == 0 && j % 5 == 0 && fabs(xi[0] - xj[0]) > 0.15;
 }
-static void lift(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t lift(void *user, double time, int64_t count, const int32_t *points, double *value) {
     int64_t i;
     (void)points;
     for (i = 0; i < count; ++i) value[i * *(const int *)user] *= 1 + time;
+    return 0;
 }
-static void count_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t count_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     (void)i, (void)j, (void)time, (void)stretch;
     ++*(int32_t *)user;
+    return 0;
 }
 static int32_t look(void *user, peri_body *b) { /* a frame that takes memory itself */
     life *l = (life *)user;
     peri_view v;
-    int32_t r = peri_view_field(b, PERI_DAMAGE_GROWN, &v);
+    int32_t r = peri_view_field(b, PERI_FIELD_DAMAGE_GROWN, &v);
     if (r == PERI_ERROR_MEMORY) { /* the run itself goes on */
         l->met = 1;
-        r = peri_view_field(b, PERI_DAMAGE_GROWN, &v);
+        r = peri_view_field(b, PERI_FIELD_DAMAGE_GROWN, &v);
     }
     return r == PERI_OK ? 0 : 1;
 }
 static int32_t advance(life *l, peri_body *b, int64_t steps, int frames) {
-    peri_run r;
-    peri_run_init(&r);
+    peri_advance_desc r;
+    peri_advance_desc_init(&r);
     r.steps = steps;
     r.damping = 0.1;
     r.frame_steps = 7;
@@ -105,8 +107,8 @@ static int32_t advance(life *l, peri_body *b, int64_t steps, int frames) {
     return peri_advance(b, &r);
 }
 static int64_t add_material(life *l, double young, double stretch) {
-    peri_material m;
-    peri_material_init(&m, PERI_BOND_BASED);
+    peri_material_desc m;
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = young;
     m.density = 2;
     m.critical_stretch = stretch;
@@ -115,9 +117,9 @@ static int64_t add_material(life *l, double young, double stretch) {
 static int64_t create(life *l) {
     peri_body_desc d;
     peri_body_desc_init(&d);
-    d.space = l->dim == 2 ? PERI_PLANE_STRAIN : PERI_SOLID;
+    d.space = l->dim == 2 ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_SOLID;
     d.precision = l->precision;
-    d.quadrature = l->precision == PERI_F64 ? PERI_PARTIAL_VOLUME : PERI_FULL_VOLUME;
+    d.quadrature = l->precision == PERI_PRECISION_DOUBLE ? PERI_QUADRATURE_PARTIAL : PERI_QUADRATURE_FULL;
     d.horizon = 0.25;
     d.threads = 1; /* a small body, some hundred lives */
     d.allocate = pool_allocate;
@@ -127,7 +129,7 @@ static int64_t create(life *l) {
 }
 static int64_t all_views(life *l) {
     int32_t f, r;
-    for (f = PERI_POSITION; f < PERI_FIELD_COUNT_; ++f) {
+    for (f = PERI_FIELD_POSITION; f < peri__end_field; ++f) {
         peri_view v;
         r = peri_view_field(l->body, f, &v);
         if (r != PERI_OK) return r;
@@ -139,13 +141,13 @@ static int64_t readings(life *l) {
     peri_energy e;
     int32_t r, field;
     double sum = 0;
-    if ((r = peri_read_energy(l->body, &e)) < 0) return r;
-    if ((r = peri_read_momentum(l->body, p, q)) < 0) return r;
-    if ((r = peri_read_reaction(l->body, l->support, f)) < 0) return r;
-    for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
-        int64_t n = peri_field_size(l->body, field), i;
+    if ((r = peri_get_energy(l->body, &e)) < 0) return r;
+    if ((r = peri_get_momentum(l->body, p, q)) < 0) return r;
+    if ((r = peri_get_reaction(l->body, l->support, f)) < 0) return r;
+    for (field = PERI_FIELD_POSITION; field < peri__end_field; ++field) {
+        int64_t n = peri_size_of_field(l->body, field), i;
         x = (double *)calloc((size_t)n, sizeof *x);
-        r = peri_read(l->body, field, x, n);
+        r = peri_get_field(l->body, field, x, n);
         for (i = 0; r >= 0 && i < n; ++i) sum += x[i] * (double)(i % 17);
         free(x);
         if (r < 0) return r;
@@ -156,7 +158,7 @@ static int64_t readings(life *l) {
 static int64_t families(life *l) {
     int64_t n = peri_point_count(l->body), k;
     int32_t w = peri_family_width(l->body), *rows = (int32_t *)calloc((size_t)(n * w), sizeof *rows);
-    int32_t r = peri_read_families(l->body, 0, n, rows, n * w);
+    int32_t r = peri_get_families(l->body, 0, n, rows, n * w);
     for (k = 0; r >= 0 && k < n * w; ++k) l->sum += rows[k] * 1e-3;
     free(rows);
     return r;
@@ -168,13 +170,13 @@ static int64_t live(life *l, int step) {
     const double a[3] = {0.4, 0, 0}, z[3] = {0.4, 0.27, 0}, n[3] = {1, 0, 0}, v[3] = {0.3, 0.02, 0.01}, up[3] = {0, 1, 0};
     const double extra[6] = {0.85, 0.05, 0.05, 0.95, 0.05, 0.05}, flat[4] = {0.85, 0.05, 0.95, 0.05}, vol[2] = {1e-3, 1e-3};
     const int32_t picked[3] = {3, 9, 5}, pair[2] = {0, 1}, mats[2] = {1, 0};
-    peri_material m;
+    peri_material_desc m;
     switch (step) {
     case 0: return create(l);
     case 1: return l->a = (int32_t)add_material(l, 3, 0.02);
     case 2: return l->b = (int32_t)add_material(l, 5, 0.03);
     case 3:
-        peri_material_init(&m, PERI_BOND_BASED);
+        peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
         m.young = 4;
         m.density = 1;
         m.critical_stretch = 0.025;
@@ -188,25 +190,25 @@ static int64_t live(life *l, int step) {
     case 8: return peri_select_ball(l->body, "middle", a, 0.21);
     case 9: return peri_select_if(l->body, NULL, inner, NULL);
     case 10: return peri_select_points(l->body, "some", 3, picked);
-    case 11: return peri_cut_pairs(l->body, 1, pair);
-    case 12: return l->dim == 2 ? peri_cut_segment(l->body, a, z) : peri_cut_disc(l->body, a, n, 0.22);
-    case 13: return peri_cut_if(l->body, long_pairs, NULL);
+    case 11: return peri_cut_pairs(l->body, PERI_CUT_INITIAL, 1, pair);
+    case 12: return l->dim == 2 ? peri_cut_segment(l->body, PERI_CUT_INITIAL, a, z) : peri_cut_disc(l->body, PERI_CUT_INITIAL, a, n, 0.22);
+    case 13: return peri_cut_if(l->body, PERI_CUT_INITIAL, long_pairs, NULL);
     case 14: return peri_set_no_fail(l->body, l->set, 1);
     case 15: return peri_on_break(l->body, count_break, &l->seen_breaks);
     case 16: return peri_add_velocity(l->body, 3, v);
-    case 17: return l->support = peri_prescribe_displacement(l->body, l->set, PERI_X | PERI_Y, NULL, NULL, NULL);
-    case 18: return l->load = peri_apply_traction(l->body, peri_find_set(l->body, "middle"), 0.2, v, lift, &l->dim);
+    case 17: return l->support = peri_prescribe_displacement(l->body, l->set, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL);
+    case 18: return l->load = peri_apply_layer_traction(l->body, peri_find_set(l->body, "middle"), 0.2, v, lift, &l->dim);
     case 19: return peri_apply_body_force(l->body, PERI_ALL, v, NULL, NULL);
     case 20: return peri_add_plane_obstacle(l->body, lo, up, 0, NULL, NULL);
     case 21: return peri_add_ball_obstacle(l->body, far, l->dim == 2 ? 1.07 : 1.5, 0, NULL, NULL);
     case 22: return advance(l, l->body, 40, 0);
     case 23: return readings(l);
     case 24: return all_views(l);
-    case 25: return peri_write_vtu(l->body, keep, l);
-    case 26: return peri_write_history(l->body, 1, keep, l);
+    case 25: return peri_export_vtu_to(l->body, keep, l);
+    case 26: return peri_export_history_to(l->body, 1, keep, l);
     case 27: return families(l);
-    case 28: return peri_clone(l->body, &l->copy, NULL);
-    case 29: return l->dim == 2 ? peri_cut_segment(l->body, z, top) : peri_cut_triangle(l->body, z, top, far);
+    case 28: return peri_body_clone(l->body, &l->copy, NULL);
+    case 29: return l->dim == 2 ? peri_cut_segment(l->body, PERI_CUT_INITIAL, z, top) : peri_cut_triangle(l->body, PERI_CUT_INITIAL, z, top, far);
     case 30: return advance(l, l->copy, 30, 1);
     case 31: return advance(l, l->body, 20, 0);
     case 32: return peri_reset(l->body);
@@ -233,7 +235,7 @@ static int64_t whole_life(life *l, pool *p) {
             peri_error e;
             if (step == 0) CHECK(l->body == NULL);
             if (step == 28) CHECK(l->copy == NULL);
-            if (step != 28) CHECK(step == 0 || (peri_last_error(l->body, &e) == PERI_OK && e.code == PERI_ERROR_MEMORY));
+            if (step != 28) CHECK(step == 0 || (peri_get_error(l->body, &e) == PERI_OK && e.code == PERI_ERROR_MEMORY));
             l->length = keep_length;
             l->sum = sum;
             r = live(l, step); /* again, now with memory */
@@ -249,12 +251,12 @@ static int64_t whole_life(life *l, pool *p) {
 }
 
 static int equal(peri_body *a, peri_body *b) {
-    const int32_t fields[4] = {PERI_DISPLACEMENT, PERI_VELOCITY, PERI_DAMAGE, PERI_FORCE_DENSITY};
+    const int32_t fields[4] = {PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_FORCE_DENSITY};
     int k, same = a && b && peri_broken_count(a) == peri_broken_count(b) && peri_cut_count(a) == peri_cut_count(b);
     for (k = 0; k < 4 && same; ++k) {
-        int64_t n = peri_field_size(a, fields[k]);
+        int64_t n = peri_size_of_field(a, fields[k]);
         double *x = (double *)calloc((size_t)n, sizeof *x), *y = (double *)calloc((size_t)n, sizeof *y);
-        same = peri_read(a, fields[k], x, n) == PERI_OK && peri_read(b, fields[k], y, n) == PERI_OK &&
+        same = peri_get_field(a, fields[k], x, n) == PERI_OK && peri_get_field(b, fields[k], y, n) == PERI_OK &&
                memcmp(x, y, (size_t)n * sizeof *x) == 0;
         free(x);
         free(y);
@@ -299,9 +301,9 @@ static void fail_each(int dim, int precision) {
     CHECK(calm.blocks == 0 && calm.bytes == 0 && calm.wrong == 0);
     free(first.text);
 }
-static void every_allocation_fails_once_2d(void) { fail_each(2, PERI_F64); }
-static void every_allocation_fails_once_3d(void) { fail_each(3, PERI_F32); }
-static void every_allocation_fails_once_mixed(void) { fail_each(3, PERI_MIXED); }
+static void every_allocation_fails_once_2d(void) { fail_each(2, PERI_PRECISION_DOUBLE); }
+static void every_allocation_fails_once_3d(void) { fail_each(3, PERI_PRECISION_SINGLE); }
+static void every_allocation_fails_once_mixed(void) { fail_each(3, PERI_PRECISION_MIXED); }
 
 static void unaligned_dirty_memory(void) {
     int dim;
@@ -311,7 +313,7 @@ static void unaligned_dirty_memory(void) {
         life a;
         memset(&a, 0, sizeof a);
         a.dim = dim;
-        a.precision = dim == 2 ? PERI_F64 : PERI_F32;
+        a.precision = dim == 2 ? PERI_PRECISION_DOUBLE : PERI_PRECISION_SINGLE;
         (void)whole_life(&a, &calm);
         for (offset = 1; offset <= 9; offset += 4) {
             pool p = {0, 0, 0, -1, 0, 0};
@@ -346,48 +348,48 @@ static void null_body_everywhere(void) {
     peri_error e;
     peri_view v;
     peri_energy en;
-    peri_run r;
-    peri_material m;
+    peri_advance_desc r;
+    peri_material_desc m;
     peri_body *c = NULL;
-    peri_run_init(&r);
-    peri_material_init(&m, PERI_BOND_BASED);
-    peri_run_init(NULL);
-    peri_material_init(NULL, PERI_BOND_BASED);
+    peri_advance_desc_init(&r);
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
+    peri_advance_desc_init(NULL);
+    peri_material_desc_init(NULL, PERI_LAW_BOND_BASED);
     peri_body_desc_init(NULL);
     peri_body_destroy(NULL);
-    NO(peri_last_error(NULL, &e));
+    NO(peri_get_error(NULL, &e));
     NO(peri_add_material(NULL, &m));
-    NO(peri_set_interface(NULL, 0, 1, &m));
-    NO(peri_read_bond_constants(NULL, 0, 0, d, d));
-    NO(peri_add_box(NULL, 0, d, d, 1));
-    NO(peri_add_ball(NULL, 0, d, 1, 1));
-    NO(peri_add_shape(NULL, 0, d, d, 1, inner, NULL));
-    NO(peri_add_perturbed_box(NULL, 0, d, d, 1, 1, 1));
+    NO(peri_set_interface(NULL, peri_id(NULL, PERI_KIND_MATERIAL, 1), peri_id(NULL, PERI_KIND_MATERIAL, 2), &m));
+    NO(peri_get_bond_constants(NULL, peri_id(NULL, PERI_KIND_MATERIAL, 1), peri_id(NULL, PERI_KIND_MATERIAL, 1), d, d));
+    NO(peri_add_box(NULL, peri_id(NULL, PERI_KIND_MATERIAL, 1), d, d, 1));
+    NO(peri_add_ball(NULL, peri_id(NULL, PERI_KIND_MATERIAL, 1), d, 1, 1));
+    NO(peri_add_shape(NULL, peri_id(NULL, PERI_KIND_MATERIAL, 1), d, d, 1, inner, NULL));
+    NO(peri_add_perturbed_box(NULL, peri_id(NULL, PERI_KIND_MATERIAL, 1), d, d, 1, 1, 1));
     NO(peri_add_points(NULL, 1, d, d, NULL));
     NO(peri_set_families(NULL, 1, i));
     NO(peri_build(NULL));
     CHECK(peri_dimension(NULL) <= 0 && peri_point_count(NULL) <= 0 && peri_family_width(NULL) <= 0);
     CHECK(peri_bond_count(NULL) <= 0 && peri_cut_count(NULL) <= 0 && peri_broken_count(NULL) <= 0);
     CHECK(peri_step_count(NULL) <= 0 && peri_time(NULL) == 0 && peri_stable_step(NULL) == 0);
-    NO(peri_read_families(NULL, 0, 1, i, 4));
+    NO(peri_get_families(NULL, 0, 1, i, 4));
     NO(peri_bond_is_intact(NULL, 0, 1));
     NO(peri_reset(NULL));
-    NO(peri_clone(NULL, &c, &e));
+    NO(peri_body_clone(NULL, &c, &e));
     CHECK(c == NULL && e.code == PERI_ERROR_ARGUMENT);
     NO(peri_select_box(NULL, NULL, d, d));
     NO(peri_select_ball(NULL, NULL, d, 1));
     NO(peri_select_if(NULL, NULL, inner, NULL));
     NO(peri_select_points(NULL, NULL, 1, i));
     NO(peri_find_set(NULL, "x"));
-    NO(peri_set_size(NULL, 0));
-    NO(peri_read_set(NULL, 0, i, 4));
-    NO(peri_cut_segment(NULL, d, d));
-    NO(peri_cut_polyline(NULL, 2, d));
-    NO(peri_cut_disc(NULL, d, d, 1));
-    NO(peri_cut_triangle(NULL, d, d, d));
-    NO(peri_cut_rectangle(NULL, d, d, d));
-    NO(peri_cut_pairs(NULL, 1, i));
-    NO(peri_cut_if(NULL, long_pairs, NULL));
+    NO(peri_size_of_set(NULL, 0));
+    NO(peri_get_set(NULL, 0, i, 4));
+    NO(peri_cut_segment(NULL, PERI_CUT_INITIAL, d, d));
+    NO(peri_cut_polyline(NULL, PERI_CUT_INITIAL, 2, d));
+    NO(peri_cut_disc(NULL, PERI_CUT_INITIAL, d, d, 1));
+    NO(peri_cut_triangle(NULL, PERI_CUT_INITIAL, d, d, d));
+    NO(peri_cut_rectangle(NULL, PERI_CUT_INITIAL, d, d, d));
+    NO(peri_cut_pairs(NULL, PERI_CUT_INITIAL, 1, i));
+    NO(peri_cut_if(NULL, PERI_CUT_INITIAL, long_pairs, NULL));
     NO(peri_set_no_fail(NULL, 0, 1));
     NO(peri_on_break(NULL, count_break, NULL));
     NO(peri_add_displacement(NULL, 0, d));
@@ -395,23 +397,23 @@ static void null_body_everywhere(void) {
     NO(peri_prescribe_displacement(NULL, 0, 1, d, NULL, NULL));
     NO(peri_prescribe_velocity(NULL, 0, 1, d, NULL, NULL));
     NO(peri_apply_body_force(NULL, 0, d, NULL, NULL));
-    NO(peri_apply_traction(NULL, 0, 1, d, NULL, NULL));
-    NO(peri_remove_load(NULL, 0));
-    NO(peri_read_reaction(NULL, 0, d));
+    NO(peri_apply_layer_traction(NULL, 0, 1, d, NULL, NULL));
+    NO(peri_remove_load(NULL, peri_id(NULL, PERI_KIND_LOAD, 1)));
+    NO(peri_get_reaction(NULL, peri_id(NULL, PERI_KIND_LOAD, 1), d));
     NO(peri_add_plane_obstacle(NULL, d, d, 0, NULL, NULL));
     NO(peri_add_ball_obstacle(NULL, d, 1, 0, NULL, NULL));
-    NO(peri_read_obstacle_force(NULL, 0, d));
+    NO(peri_get_obstacle_force(NULL, peri_id(NULL, PERI_KIND_OBSTACLE, 1), d));
     NO(peri_advance(NULL, &r));
-    NO(peri_field_size(NULL, PERI_VELOCITY));
-    NO(peri_read(NULL, PERI_VELOCITY, d, 8));
-    NO(peri_write(NULL, PERI_VELOCITY, d, 8));
-    NO(peri_view_field(NULL, PERI_VELOCITY, &v));
-    NO(peri_read_energy(NULL, &en));
-    NO(peri_read_momentum(NULL, d, d));
-    NO(peri_write_vtu(NULL, keep, NULL));
-    NO(peri_write_history(NULL, 1, keep, NULL));
-    NO(peri_save_vtu(NULL, "x"));
-    NO(peri_save_history(NULL, "x", 0));
+    NO(peri_size_of_field(NULL, PERI_FIELD_VELOCITY));
+    NO(peri_get_field(NULL, PERI_FIELD_VELOCITY, d, 8));
+    NO(peri_set_field(NULL, PERI_FIELD_VELOCITY, d, 8));
+    NO(peri_view_field(NULL, PERI_FIELD_VELOCITY, &v));
+    NO(peri_get_energy(NULL, &en));
+    NO(peri_get_momentum(NULL, d, d));
+    NO(peri_export_vtu_to(NULL, keep, NULL));
+    NO(peri_export_history_to(NULL, 1, keep, NULL));
+    NO(peri_export_vtu(NULL, "x"));
+    NO(peri_export_history(NULL, "x", 0));
 }
 
 /* The same with a body and NULL for the rest; what may be NULL says so in peri.h and is accepted. */
@@ -423,26 +425,26 @@ static void null_arguments(void) {
     int step;
     memset(&l, 0, sizeof l);
     l.dim = 2;
-    l.precision = PERI_F64;
+    l.precision = PERI_PRECISION_DOUBLE;
     l.memory = &p;
     for (step = 0; step <= 6; ++step) CHECK(live(&l, step) >= 0);
     b = l.body;
-    NO(peri_last_error(b, NULL));
-    NO(peri_read_families(b, 0, 1, NULL, 99));
+    NO(peri_get_error(b, NULL));
+    NO(peri_get_families(b, 0, 1, NULL, 99));
     NO(peri_select_box(b, NULL, none, v));
     NO(peri_select_ball(b, NULL, none, 1));
-    NO(peri_cut_segment(b, none, none));
-    NO(peri_cut_polyline(b, 2, none));
-    NO(peri_cut_pairs(b, 1, NULL));
+    NO(peri_cut_segment(b, PERI_CUT_INITIAL, none, none));
+    NO(peri_cut_polyline(b, PERI_CUT_INITIAL, 2, none));
+    NO(peri_cut_pairs(b, PERI_CUT_INITIAL, 1, NULL));
     NO(peri_add_displacement(b, 0, none));
-    NO(peri_read_reaction(b, 0, none));
-    NO(peri_write(b, PERI_VELOCITY, none, 10));
-    NO(peri_read_energy(b, NULL));
-    NO(peri_save_history(b, NULL, 1));
-    CHECK(peri_read_momentum(b, NULL, NULL) == PERI_OK);
-    CHECK(peri_read_bond_constants(b, 0, 1, NULL, NULL) == PERI_OK);
+    NO(peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, 1), none));
+    NO(peri_set_field(b, PERI_FIELD_VELOCITY, none, 10));
+    NO(peri_get_energy(b, NULL));
+    NO(peri_export_history(b, NULL, 1));
+    CHECK(peri_get_momentum(b, NULL, NULL) == PERI_OK);
+    CHECK(peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 2), NULL, NULL) == PERI_OK);
     CHECK(peri_on_break(b, NULL, NULL) == PERI_OK);
-    CHECK(peri_prescribe_velocity(b, PERI_ALL, PERI_X, NULL, NULL, NULL) == 0);
+    CHECK(peri_prescribe_velocity(b, PERI_ALL, PERI_AXIS_X, NULL, NULL, NULL) == 0);
     peri_body_destroy(b);
     CHECK(p.blocks == 0 && p.wrong == 0);
 }
@@ -454,21 +456,21 @@ static void null_arguments(void) {
 static int columns_life(pool *p, double *sum) {
     const double lo[2] = {0, 0}, hi[2] = {9, 7}, from[2] = {0, 3.5}, to[2] = {4, 3.5}, v[2] = {0.02, 0};
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL, *copy = NULL;
-    peri_run run;
+    peri_advance_desc run;
     double *u;
     int64_t n, i;
     int failed = 0, step;
     peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRESS;
+    d.space = PERI_SPACE_PLANE_STRESS;
     d.horizon = 2.5;
     d.allocate = pool_allocate;
     d.release = pool_release;
     d.memory_user = p;
-    peri_material_init(&m, PERI_BOND_BASED);
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = m.density = 1;
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = 20;
     *sum = 0;
     for (step = 0; step < 7; ++step) {
@@ -478,13 +480,13 @@ static int columns_life(pool *p, double *sum) {
             switch (step) {
             case 0: result = peri_body_create(&d, &b, NULL); break;
             case 1: result = peri_add_material(b, &m); break;
-            case 2: result = peri_add_box(b, 0, lo, hi, 1.0); break;
+            case 2: result = peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.0); break;
             case 3: result = peri_build(b); break;
-            case 4: result = peri_cut_segment(b, from, to); break;
-            case 5: result = peri_clone(b, &copy, NULL); break;
+            case 4: result = peri_cut_segment(b, PERI_CUT_INITIAL, from, to); break;
+            case 5: result = peri_body_clone(b, &copy, NULL); break;
             default: result = peri_add_velocity(copy, (int32_t)peri_select_box(copy, NULL, lo, to), v); break;
             }
-            if (result != PERI_ERROR_MEMORY && !(step == 6 && result == PERI_ERROR_SET)) break;
+            if (result != PERI_ERROR_MEMORY && !(step == 6 && result == PERI_ERROR_EMPTY)) break;
             failed++;
         }
         CHECK(result >= 0);
@@ -492,9 +494,9 @@ static int columns_life(pool *p, double *sum) {
     }
     if (copy) {
         MUST(copy, peri_advance(copy, &run));
-        n = peri_field_size(copy, PERI_DISPLACEMENT);
+        n = peri_size_of_field(copy, PERI_FIELD_DISPLACEMENT);
         u = (double *)malloc((size_t)n * sizeof(double));
-        MUST(copy, peri_read(copy, PERI_DISPLACEMENT, u, n));
+        MUST(copy, peri_get_field(copy, PERI_FIELD_DISPLACEMENT, u, n));
         for (i = 0; i < n; ++i) *sum += u[i] * (double)(i + 1);
         free(u);
     }

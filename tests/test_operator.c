@@ -8,15 +8,15 @@ static double thickness_of(const peri_body *b) { return peri_dimension(b) == 3 ?
 
 /* Forces on the points: density times volume. */
 static void read_forces(peri_body *b, const double *volume, double *f) {
-    int64_t n = peri_field_size(b, PERI_FORCE_DENSITY), i;
-    (void)MUST(b, peri_read(b, PERI_FORCE_DENSITY, f, n));
+    int64_t n = peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY), i;
+    (void)MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, n));
     for (i = 0; i < n; ++i) f[i] *= volume[i / peri_dimension(b)] * thickness_of(b);
 }
 
 static double elastic(peri_body *b, const double *u) {
     peri_energy e;
-    put(b, PERI_DISPLACEMENT, u);
-    (void)MUST(b, peri_read_energy(b, &e));
+    put(b, PERI_FIELD_DISPLACEMENT, u);
+    (void)MUST(b, peri_get_energy(b, &e));
     return e.elastic;
 }
 
@@ -24,14 +24,14 @@ static double elastic(peri_body *b, const double *u) {
 
 /* SOURCE OF TRUTH: differences of the elastic energy (whose value test_laws.c and test_ledger.c hold against sums): five points, step
    1e-3 H: error (step/H)^4 and 1e-16 E/step, both below 1e-10 of the largest force. And sum f = 0, sum (x + u) x f = 0 (nonlinear). */
-static void derivative(const scene *s, int32_t model, double nu, int broken, int regular) {
+static void derivative(const scene *s, int32_t law, double nu, int broken, int regular) {
     const double step = 1e-3 * H;
-    peri_body *b = regular ? lattice_body(s, model, nu, broken) : small_body(s, model, nu, -1, broken);
+    peri_body *b = regular ? lattice_body(s, law, nu, broken) : small_body(s, law, nu, -1, broken);
     int dim = peri_dimension(b), d;
-    int64_t n = peri_field_size(b, PERI_DISPLACEMENT), i;
-    double *u = random_field(n, 0.06 * H, 17), *f = random_field(n, 0, 1), *v = get(b, PERI_VOLUME), *x = get(b, PERI_POSITION), most;
+    int64_t n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT), i;
+    double *u = random_field(n, 0.06 * H, 17), *f = random_field(n, 0, 1), *v = get(b, PERI_FIELD_VOLUME), *x = get(b, PERI_FIELD_POSITION), most;
     double total[3] = {0, 0, 0}, torque[3] = {0, 0, 0};
-    put(b, PERI_DISPLACEMENT, u);
+    put(b, PERI_FIELD_DISPLACEMENT, u);
     read_forces(b, v, f);
     most = largest(f, n);
     CHECK(most > 1e-3 * YOUNG * pow(H, dim - 1) * thickness_of(b));
@@ -53,7 +53,7 @@ static void derivative(const scene *s, int32_t model, double nu, int broken, int
         for (d = 0; d < 3; ++d) torque[d] += at[(d + 1) % 3] * pull[(d + 2) % 3] - at[(d + 2) % 3] * pull[(d + 1) % 3];
     }
     CHECK_NEAR(largest(total, 3), 0, 0, 1e-14 * most * (double)n);
-    if (s->geometry == PERI_NONLINEAR) CHECK_NEAR(largest(torque, 3), 0, 0, 1e-14 * most * 6 * H * (double)n);
+    if (s->geometry == PERI_GEOMETRY_NONLINEAR) CHECK_NEAR(largest(torque, 3), 0, 0, 1e-14 * most * 6 * H * (double)n);
     free(u);
     free(f);
     free(v);
@@ -64,34 +64,34 @@ static void derivative(const scene *s, int32_t model, double nu, int broken, int
 static void derivatives(int32_t space) {
     int32_t geometry, correction;
     int k, broken;
-    for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
-        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; ++correction)
+    for (geometry = PERI_GEOMETRY_NONLINEAR; geometry < peri__end_geometry; ++geometry)
+        for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction)
             for (k = 0; k <= LAWS; ++k)
                 for (broken = 0; broken < 2; ++broken) {
                     scene s = small_scene(space, geometry, correction);
                     derivative(&s, k ? models[k - 1] : 0, 0.15 + 0.2 * broken, broken, 0);
-                    if (k && correction == PERI_NO_CORRECTION) derivative(&s, models[k - 1], 0.15 + 0.2 * broken, broken, 1);
+                    if (k && correction == PERI_CORRECTION_NONE) derivative(&s, models[k - 1], 0.15 + 0.2 * broken, broken, 1);
                 }
 }
-static void force_plane_stress(void) { derivatives(PERI_PLANE_STRESS); }
-static void force_plane_strain(void) { derivatives(PERI_PLANE_STRAIN); }
-static void force_solid(void) { derivatives(PERI_SOLID); }
+static void force_plane_stress(void) { derivatives(PERI_SPACE_PLANE_STRESS); }
+static void force_plane_strain(void) { derivatives(PERI_SPACE_PLANE_STRAIN); }
+static void force_solid(void) { derivatives(PERI_SPACE_SOLID); }
 
 /* ---- the linear operator ------------------------------------------------------------------------------------------ */
 
 /* -df/du at u = 0, column by column, row-major. Unit displacements where the geometry is linear, else central differences: their error is
    (step/H)^2 times third derivatives and 1e-16 H/step, with 1e-5 H about 1e-10. */
 static double *assemble(peri_body *b, int32_t geometry) {
-    int64_t n = peri_field_size(b, PERI_DISPLACEMENT), i, j;
-    double *k = (double *)calloc((size_t)(n * n), sizeof *k), *u = (double *)calloc((size_t)n, sizeof *u), *v = get(b, PERI_VOLUME);
-    double *f = (double *)calloc((size_t)n, sizeof *f), step = geometry == PERI_LINEAR ? 1 : 1e-5 * H;
+    int64_t n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT), i, j;
+    double *k = (double *)calloc((size_t)(n * n), sizeof *k), *u = (double *)calloc((size_t)n, sizeof *u), *v = get(b, PERI_FIELD_VOLUME);
+    double *f = (double *)calloc((size_t)n, sizeof *f), step = geometry == PERI_GEOMETRY_LINEAR ? 1 : 1e-5 * H;
     int sign;
     for (j = 0; j < n; ++j) {
-        for (sign = geometry == PERI_LINEAR ? 1 : -1; sign < 2; sign += 2) {
+        for (sign = geometry == PERI_GEOMETRY_LINEAR ? 1 : -1; sign < 2; sign += 2) {
             u[j] = sign * step;
-            put(b, PERI_DISPLACEMENT, u);
+            put(b, PERI_FIELD_DISPLACEMENT, u);
             read_forces(b, v, f);
-            for (i = 0; i < n; ++i) k[i * n + j] -= f[i] / (geometry == PERI_LINEAR ? 1 : 2 * sign * step);
+            for (i = 0; i < n; ++i) k[i * n + j] -= f[i] / (geometry == PERI_GEOMETRY_LINEAR ? 1 : 2 * sign * step);
         }
         u[j] = 0;
     }
@@ -161,7 +161,7 @@ static int zero_modes(int64_t n, const double *k, double *least, double *next) {
    sum w e^2 V where a < 0. Constants [C] 12, 16, 17 of every family. 1: that is positive for all of them, and the body is stable. */
 static int oterkus_is_stable(peri_body *b, const scene *s, double nu) {
     int dim = peri_dimension(b), c, d, stable = 1;
-    double *x = get(b, PERI_POSITION), *v = get(b, PERI_VOLUME);
+    double *x = get(b, PERI_FIELD_POSITION), *v = get(b, PERI_FIELD_VOLUME);
     moduli e = moduli_of(s->space, nu);
     int64_t n = peri_point_count(b), i, j;
     for (i = 0; i < n; ++i) {
@@ -191,18 +191,18 @@ static int oterkus_is_stable(peri_body *b, const scene *s, double nu) {
 /* SOURCE OF TRUTH: the derivative of a force that is -dE/du is symmetric, and at u = 0 that of the nonlinear body is the linear one's.
    LPS: W = 1/2 bulk theta^2 + 1/2 B/m sum w (e - theta|xi|/D)^2 V, so for -1 < nu < 1/2 only rigid motion is free; so with stabilized
    correspondence, and for springs; Oterkus where oterkus_is_stable. definite = 0: nothing is known about the modes. */
-static void operator_of(const scene *linear, int32_t model, double nu, int broken, int definite) {
+static void operator_of(const scene *linear, int32_t law, double nu, int broken, int definite) {
     scene s = *linear;
-    int32_t rigid = s.space == PERI_SOLID ? 6 : 3;
+    int32_t rigid = s.space == PERI_SPACE_SOLID ? 6 : 3;
     double *k[2], most, least, next, far = 0, skew = 0;
     int64_t n = 0, i, j;
     int g, zeros;
     for (g = 0; g < 2; ++g) {
         peri_body *b;
-        s.geometry = g ? PERI_NONLINEAR : PERI_LINEAR;
-        b = small_body(&s, model, nu, -1, broken);
-        n = peri_field_size(b, PERI_DISPLACEMENT);
-        if (model == PERI_OTERKUS && definite) CHECK(oterkus_is_stable(b, &s, nu));
+        s.geometry = g ? PERI_GEOMETRY_NONLINEAR : PERI_GEOMETRY_LINEAR;
+        b = small_body(&s, law, nu, -1, broken);
+        n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
+        if (law == PERI_LAW_OTERKUS && definite) CHECK(oterkus_is_stable(b, &s, nu));
         k[g] = assemble(b, s.geometry);
         peri_body_destroy(b);
     }
@@ -219,36 +219,36 @@ static void operator_of(const scene *linear, int32_t model, double nu, int broke
         CHECK(zeros == rigid);
         CHECK(least > -1e-12);
         CHECK(next > 1e-6);
-        if (test_long) printf("    %-12s %-14s nu %5.2f  skew %.0e  far %.0e  zeros %d  least %8.1e  next %.1e\n", space_name[s.space],
-                              model ? law_name[model] : "mixture", nu, skew, far, zeros, least, next);
+        if (test_long) printf("    %-12s %-14s nu %5.2f  skew %.0e  far %.0e  zeros %d  least %8.1e  next %.1e\n", space_name[s.space % 100],
+                              law ? law_name[law % 100] : "mixture", nu, skew, far, zeros, least, next);
     }
     free(k[0]);
     free(k[1]);
 }
 
 static void operators(int32_t space, int32_t correction) {
-    scene s = small_scene(space, PERI_LINEAR, correction);
-    operator_of(&s, PERI_LPS, 0.1, 0, 1);
-    operator_of(&s, PERI_LPS, 0.4, 0, 1);
-    operator_of(&s, PERI_LPS, -0.3, 0, 1);
-    operator_of(&s, PERI_OTERKUS, 0.4, 0, 1);
-    operator_of(&s, PERI_OTERKUS, -0.3, 0, 1);
-    operator_of(&s, PERI_CORRESPONDENCE, 0.1, 0, 1);
-    operator_of(&s, PERI_CORRESPONDENCE, 0.4, 0, 1);
-    operator_of(&s, PERI_BOND_BASED, 0, 0, 1);
-    operator_of(&s, PERI_LPS, 0.4, 1, 0);
-    operator_of(&s, PERI_CORRESPONDENCE, 0.1, 1, 0);
-    operator_of(&s, PERI_OTERKUS, 0.1, 1, 0);
+    scene s = small_scene(space, PERI_GEOMETRY_LINEAR, correction);
+    operator_of(&s, PERI_LAW_LPS, 0.1, 0, 1);
+    operator_of(&s, PERI_LAW_LPS, 0.4, 0, 1);
+    operator_of(&s, PERI_LAW_LPS, -0.3, 0, 1);
+    operator_of(&s, PERI_LAW_OTERKUS, 0.4, 0, 1);
+    operator_of(&s, PERI_LAW_OTERKUS, -0.3, 0, 1);
+    operator_of(&s, PERI_LAW_CORRESPONDENCE, 0.1, 0, 1);
+    operator_of(&s, PERI_LAW_CORRESPONDENCE, 0.4, 0, 1);
+    operator_of(&s, PERI_LAW_BOND_BASED, 0, 0, 1);
+    operator_of(&s, PERI_LAW_LPS, 0.4, 1, 0);
+    operator_of(&s, PERI_LAW_CORRESPONDENCE, 0.1, 1, 0);
+    operator_of(&s, PERI_LAW_OTERKUS, 0.1, 1, 0);
     operator_of(&s, 0, 0, 0, 0);
     operator_of(&s, 0, 0, 1, 0);
 }
-static void operator_plane_stress(void) { operators(PERI_PLANE_STRESS, PERI_NO_CORRECTION); }
-static void operator_plane_strain(void) { operators(PERI_PLANE_STRAIN, PERI_MOMENT_CORRECTION); }
-static void operator_solid(void) { operators(PERI_SOLID, PERI_NO_CORRECTION); }
+static void operator_plane_stress(void) { operators(PERI_SPACE_PLANE_STRESS, PERI_CORRECTION_NONE); }
+static void operator_plane_strain(void) { operators(PERI_SPACE_PLANE_STRAIN, PERI_CORRECTION_MOMENT); }
+static void operator_solid(void) { operators(PERI_SPACE_SOLID, PERI_CORRECTION_NONE); }
 static void operator_long(void) {
-    operators(PERI_PLANE_STRESS, PERI_ENERGY_CORRECTION);
-    operators(PERI_PLANE_STRAIN, PERI_NO_CORRECTION);
-    operators(PERI_SOLID, PERI_MOMENT_CORRECTION);
+    operators(PERI_SPACE_PLANE_STRESS, PERI_CORRECTION_ENERGY);
+    operators(PERI_SPACE_PLANE_STRAIN, PERI_CORRECTION_NONE);
+    operators(PERI_SPACE_SOLID, PERI_CORRECTION_MOMENT);
 }
 
 /* ---- objectivity -------------------------------------------------------------------------------------------------- */
@@ -273,30 +273,30 @@ static void rotation(const double *axis, double angle, double grad[3][3]) {
 /* SOURCE OF TRUTH: a rigid rotation strains nothing. What is left is the rounding of u, about 1e-16 of |u| < 1 = 10 H: set against
    the force and energy of a random displacement of 1e-3 H = 1e-4, it is smaller by 1e-12, and 100 times that is allowed for sums;
    the energy goes with the square. Strain and stress: 100 roundings of u over H. */
-static void rotate(const scene *s, int32_t model, int broken, const double *axis, double angle) {
-    static const int32_t fields[4] = {PERI_STRAIN, PERI_STRESS, PERI_FORCE_STRESS, PERI_DILATATION};
-    peri_body *b = small_body(s, model, 0.1, -1, broken);
-    int64_t n = peri_field_size(b, PERI_DISPLACEMENT);
+static void rotate(const scene *s, int32_t law, int broken, const double *axis, double angle) {
+    static const int32_t fields[4] = {PERI_FIELD_STRAIN, PERI_FIELD_STRESS, PERI_FIELD_FORCE_STRESS, PERI_FIELD_DILATATION};
+    peri_body *b = small_body(s, law, 0.1, -1, broken);
+    int64_t n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
     double *u = random_field(n, 1e-3 * H, 3), *f, grad[3][3], force, young = YOUNG;
     peri_energy noise, now;
     int k;
-    put(b, PERI_DISPLACEMENT, u);
-    f = get(b, PERI_FORCE_DENSITY);
+    put(b, PERI_FIELD_DISPLACEMENT, u);
+    f = get(b, PERI_FIELD_FORCE_DENSITY);
     force = largest(f, n);
     free(f);
     free(u);
-    (void)MUST(b, peri_read_energy(b, &noise));
+    (void)MUST(b, peri_get_energy(b, &noise));
     CHECK(force > 0 && noise.elastic > 0);
     rotation(axis, angle, grad);
     stretch_body(b, grad);
-    f = get(b, PERI_FORCE_DENSITY);
+    f = get(b, PERI_FIELD_FORCE_DENSITY);
     CHECK_NEAR(largest(f, n), 0, 0, 1e-10 * force);
     free(f);
-    (void)MUST(b, peri_read_energy(b, &now));
+    (void)MUST(b, peri_get_energy(b, &now));
     CHECK_NEAR(now.elastic, 0, 0, 1e-20 * noise.elastic);
     for (k = 0; k < 4; ++k) {
         f = get(b, fields[k]);
-        CHECK_NEAR(largest(f, peri_field_size(b, fields[k])), 0, 0, 1e-13 * (k == 1 || k == 2 ? 10 * young : 1));
+        CHECK_NEAR(largest(f, peri_size_of_field(b, fields[k])), 0, 0, 1e-13 * (k == 1 || k == 2 ? 10 * young : 1));
         free(f);
     }
     peri_body_destroy(b);
@@ -306,14 +306,14 @@ static void rigid_rotation(void) {
     static const double up[3] = {0, 0, 1}, skew[3] = {1, -2, 0.5};
     int k, broken;
     int32_t space, correction;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3)
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; correction += 3)
             for (k = 0; k <= LAWS; ++k)
                 for (broken = 0; broken < 2; ++broken) {
-                    scene s = small_scene(space, PERI_NONLINEAR, correction);
+                    scene s = small_scene(space, PERI_GEOMETRY_NONLINEAR, correction);
                     rotate(&s, k ? models[k - 1] : 0, broken, up, PI / 2);
                     rotate(&s, k ? models[k - 1] : 0, broken, up, 1);
-                    if (space == PERI_SOLID) rotate(&s, k ? models[k - 1] : 0, broken, skew, 1);
+                    if (space == PERI_SPACE_SOLID) rotate(&s, k ? models[k - 1] : 0, broken, skew, 1);
                 }
 }
 
@@ -325,16 +325,16 @@ static double determinant(int dim, double f[3][3]) {
          + f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
 }
 
-/* A uniform F far from 1, on irregular families of every law. SOURCE OF TRUTH: PERI_STRAIN is Green-Lagrange E = 1/2 (F^T F - 1); a
+/* A uniform F far from 1, on irregular families of every law. SOURCE OF TRUTH: PERI_FIELD_STRAIN is Green-Lagrange E = 1/2 (F^T F - 1); a
    family's collapsed stress sum T xi V is P = dW/dF, here by five-point differences of W with a step of 1e-3, and its Cauchy stress
    the symmetric part of P F^T/det F; for correspondence W = 1/2 lambda (tr E)^2 + mu E:E and P = F S, S = lambda tr(E) + 2 mu E, which is
-   PERI_STRESS of every law. (In plane stress det F is of the plane.) */
-static void finite_of(int32_t space, int32_t model, int32_t correction) {
+   PERI_FIELD_STRESS of every law. (In plane stress det F is of the plane.) */
+static void finite_of(int32_t space, int32_t law, int32_t correction) {
     const double nu = 0.15, step = 1e-3, f0[3][3] = {{0.2, 0.15, -0.1}, {-0.3, -0.1, 0.2}, {0.05, -0.12, 0.3}};
-    scene s = small_scene(space, PERI_NONLINEAR, correction);
-    peri_body *b = small_body(&s, model, nu, -1, 0);
+    scene s = small_scene(space, PERI_GEOMETRY_NONLINEAR, correction);
+    peri_body *b = small_body(&s, law, nu, -1, 0);
     int dim = dim_of(space), parts = dim * (dim + 1) / 2, a, c, d, k;
-    moduli m = moduli_of(space, model == PERI_BOND_BASED ? bond_nu(space) : nu);
+    moduli m = moduli_of(space, law == PERI_LAW_BOND_BASED ? bond_nu(space) : nu);
     int64_t n = peri_point_count(b), i;
     double grad[3][3], f[3][3], e[3][3], second[3][3], trace = 0, w0 = 0, volume, *w, *p, *strain, *stress, *force;
     p = (double *)calloc((size_t)n * 9, sizeof *p); /* [point][3][3] */
@@ -344,7 +344,7 @@ static void finite_of(int32_t space, int32_t model, int32_t correction) {
             for (k = -2; k < 3; ++k) {
                 grad[a][c] = f0[a][c] + k * step;
                 stretch_body(b, grad);
-                w = get(b, PERI_ENERGY_DENSITY);
+                w = get(b, PERI_FIELD_ENERGY_DENSITY);
                 for (i = 0; i < n; ++i) p[i * 9 + a * 3 + c] += w[i] * (k % 2 ? 8 : -1) * (k > 0 ? 1 : k < 0 ? -1 : 0) / (12 * step);
                 free(w);
                 grad[a][c] = f0[a][c];
@@ -362,12 +362,12 @@ static void finite_of(int32_t space, int32_t model, int32_t correction) {
             w0 += 0.5 * second[a][c] * e[a][c];
         }
     volume = determinant(dim, f);
-    strain = get(b, PERI_STRAIN);
-    stress = get(b, PERI_STRESS);
-    force = get(b, PERI_FORCE_STRESS);
-    w = get(b, PERI_ENERGY_DENSITY);
+    strain = get(b, PERI_FIELD_STRAIN);
+    stress = get(b, PERI_FIELD_STRESS);
+    force = get(b, PERI_FIELD_FORCE_STRESS);
+    w = get(b, PERI_FIELD_ENERGY_DENSITY);
     for (i = 0; i < n; ++i) {
-        if (model == PERI_CORRESPONDENCE) CHECK_NEAR(w[i], w0, 1e-12, 0);
+        if (law == PERI_LAW_CORRESPONDENCE) CHECK_NEAR(w[i], w0, 1e-12, 0);
         for (a = 0; a < dim; ++a)
             for (c = a; c < dim; ++c) {
                 double cauchy = 0, pulled = 0;
@@ -378,7 +378,7 @@ static void finite_of(int32_t space, int32_t model, int32_t correction) {
                 CHECK_NEAR(strain[i * parts + packed(dim, a, c)], e[a][c], 0, 1e-12);
                 CHECK_NEAR(stress[i * parts + packed(dim, a, c)], cauchy, 0, 1e-11 * YOUNG);
                 CHECK_NEAR(force[i * parts + packed(dim, a, c)], pulled, 0, 1e-8 * YOUNG);
-                if (model == PERI_CORRESPONDENCE) CHECK_NEAR(force[i * parts + packed(dim, a, c)], cauchy, 0, 1e-11 * YOUNG);
+                if (law == PERI_LAW_CORRESPONDENCE) CHECK_NEAR(force[i * parts + packed(dim, a, c)], cauchy, 0, 1e-11 * YOUNG);
             }
     }
     free(p);
@@ -392,8 +392,8 @@ static void finite_of(int32_t space, int32_t model, int32_t correction) {
 static void finite_strain(void) {
     int32_t space, correction;
     int k;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3)
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; correction += 3)
             for (k = 0; k < LAWS; ++k) finite_of(space, models[k], correction);
 }
 
@@ -406,13 +406,13 @@ static void chain(void) {
     const int32_t pair[2] = {1, 3};
     int32_t space;
     int i, j, d;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
-        scene s = scene_of(space, PERI_LINEAR, PERI_INFLUENCE_LINEAR, PERI_NO_CORRECTION, 2.5);
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space) {
+        scene s = scene_of(space, PERI_GEOMETRY_LINEAR, PERI_INFLUENCE_LINEAR, PERI_CORRECTION_NONE, 2.5);
         int dim = dim_of(space);
         const double *line = n[dim - 2];
         double x[15], v[5], m[5] = {0, 0, 0, 0, 0}, cell = pow(H, dim), big = dim * (dim + 2) * moduli_of(space, 0.3).mu, *u, *f, *w;
         peri_body *b = scene_body(&s);
-        (void)add_law(b, PERI_CORRESPONDENCE, 0.3, -1);
+        (void)add_law(b, PERI_LAW_CORRESPONDENCE, 0.3, -1);
         for (i = 0; i < 5; ++i) {
             v[i] = cell;
             for (d = 0; d < dim; ++d) x[i * dim + d] = i * H * line[d];
@@ -421,11 +421,11 @@ static void chain(void) {
         }
         (void)MUST(b, peri_add_points(b, 5, x, v, NULL));
         (void)MUST(b, peri_build(b));
-        CHECK(MUST(b, peri_cut_pairs(b, 1, pair)) == 1);
+        CHECK(MUST(b, peri_cut_pairs(b, PERI_CUT_INITIAL, 1, pair)) == 1);
         u = random_field(5 * dim, 0.1 * H, 29);
-        put(b, PERI_DISPLACEMENT, u);
-        f = get(b, PERI_FORCE_DENSITY);
-        w = get(b, PERI_ENERGY_DENSITY);
+        put(b, PERI_FIELD_DISPLACEMENT, u);
+        f = get(b, PERI_FIELD_FORCE_DENSITY);
+        w = get(b, PERI_FIELD_ENERGY_DENSITY);
         for (i = 0; i < 5; ++i) {
             double along = 0, energy = 0;
             for (j = 0; j < 5; ++j) {
@@ -452,9 +452,9 @@ static void chain(void) {
 static void single_precision(void) {
     int32_t space, geometry, correction;
     int k;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
-            for (correction = PERI_NO_CORRECTION; correction < PERI_CORRECTION_COUNT_; correction += 3)
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (geometry = PERI_GEOMETRY_NONLINEAR; geometry < peri__end_geometry; ++geometry)
+            for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; correction += 3)
                 for (k = 0; k <= LAWS; ++k) {
                     double *f[2];
                     int64_t n = 0, i;
@@ -463,13 +463,13 @@ static void single_precision(void) {
                         scene s = small_scene(space, geometry, correction);
                         peri_body *b;
                         double *u;
-                        s.precision = p ? PERI_F32 : PERI_F64;
+                        s.precision = p ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE;
                         b = small_body(&s, k ? models[k - 1] : 0, 0.4, -1, 0);
-                        n = peri_field_size(b, PERI_DISPLACEMENT);
+                        n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
                         u = random_field(n, 0.1 * H, 13);
                         for (i = 0; i < n; ++i) u[i] = floor(u[i] * 1048576) / 1048576;
-                        put(b, PERI_DISPLACEMENT, u);
-                        f[p] = get(b, PERI_FORCE_DENSITY);
+                        put(b, PERI_FIELD_DISPLACEMENT, u);
+                        f[p] = get(b, PERI_FIELD_FORCE_DENSITY);
                         free(u);
                         peri_body_destroy(b);
                     }
@@ -488,15 +488,15 @@ static void single_precision(void) {
    energy means that every family of the bulk moves affinely and without strain; they overlap, and at a horizon of 1.5 spacings every
    point is in one: the three rigid modes are left. (In a whole body the rim, whose families are one-sided, holds the modes.) */
 static void bulk_modes(double stable, int *zeros, double *least) {
-    scene s = scene_of(PERI_PLANE_STRAIN, PERI_LINEAR, PERI_INFLUENCE_CONSTANT, PERI_NO_CORRECTION, 1.5);
+    scene s = scene_of(PERI_SPACE_PLANE_STRAIN, PERI_GEOMETRY_LINEAR, PERI_INFLUENCE_CONSTANT, PERI_CORRECTION_NONE, 1.5);
     const double lo[2] = {0, 0}, hi[2] = {7 * H, 7 * H};
     peri_body *b = scene_body(&s);
     double *hessian, *u, *w, next;
     int64_t n, i, j, p;
-    (void)add_law(b, PERI_CORRESPONDENCE, 0.2, stable);
-    (void)MUST(b, peri_add_box(b, 0, lo, hi, H));
+    (void)add_law(b, PERI_LAW_CORRESPONDENCE, 0.2, stable);
+    (void)MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, H));
     (void)MUST(b, peri_build(b));
-    n = peri_field_size(b, PERI_DISPLACEMENT);
+    n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
     hessian = (double *)calloc((size_t)(n * n), sizeof *hessian);
     u = (double *)calloc((size_t)n, sizeof *u);
     for (i = 0; i < n; ++i)
@@ -504,8 +504,8 @@ static void bulk_modes(double stable, int *zeros, double *least) {
             double sum = 0;
             u[i] += H;
             u[j] += H;
-            put(b, PERI_DISPLACEMENT, u);
-            w = get(b, PERI_ENERGY_DENSITY);
+            put(b, PERI_FIELD_DISPLACEMENT, u);
+            w = get(b, PERI_FIELD_ENERGY_DENSITY);
             for (p = 0; p < 49; ++p)
                 if (p % 7 > 0 && p % 7 < 6 && p / 7 > 0 && p / 7 < 6) sum += w[p];
             hessian[i * n + j] = i == j ? sum / 2 : sum; /* W(2u) = 2 K_ii; else W(u_i) + W(u_j) + K_ij */

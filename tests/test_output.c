@@ -29,23 +29,23 @@ static peri_body *subject(int32_t space, int32_t precision) {
     const double lo[3] = {-3.1, 0.2, 1.3}, mid[3] = {-2.6, 0.8, 1.7}, lo2[3] = {-2.6, 0.2, 1.3}, hi2[3] = {-2.1, 0.8, 1.7};
     const double a[2] = {-2.6, 0.2}, z[2] = {-2.6, 0.4}, pull[3] = {0.4, 0.3, -0.2}, fast[3] = {0.6, 0.1, 0.2};
     const double corner[3] = {-2.6, 0.2, 1.3}, n[3] = {1, 0, 0};
-    peri_body *b = empty(space, precision, PERI_NONLINEAR, 2.5 * H);
-    peri_material m;
+    peri_body *b = empty(space, precision, PERI_GEOMETRY_NONLINEAR, 2.5 * H);
+    peri_material_desc m;
     int k;
     for (k = 0; k < 2; ++k) {
-        peri_material_init(&m, PERI_BOND_BASED);
+        peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
         m.young = YOUNG + k;
         m.density = DENSITY - k;
         m.critical_stretch = 0.05;
         (void)MUST(b, peri_add_material(b, &m));
     }
-    (void)MUST(b, peri_add_box(b, 0, lo, mid, H));
-    (void)MUST(b, peri_add_perturbed_box(b, 1, lo2, hi2, H, space == PERI_SOLID ? 0 : 0.8, 4));
+    (void)MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, mid, H));
+    (void)MUST(b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 2), lo2, hi2, H, space == PERI_SPACE_SOLID ? 0 : 0.8, 4));
     (void)MUST(b, peri_build(b));
-    (void)MUST(b, space == PERI_SOLID ? peri_cut_disc(b, corner, n, 0.25) : peri_cut_segment(b, a, z));
+    (void)MUST(b, space == PERI_SPACE_SOLID ? peri_cut_disc(b, PERI_CUT_INITIAL, corner, n, 0.25) : peri_cut_segment(b, PERI_CUT_INITIAL, a, z));
     (void)MUST(b, peri_apply_body_force(b, PERI_ALL, pull, NULL, NULL));
     (void)MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo2, hi2)), fast));
-    (void)go(b, PERI_VELOCITY_VERLET, 30, 0, 0.05);
+    (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 30, 0, 0.05);
     CHECK(peri_broken_count(b) > 0 && peri_cut_count(b) > 0);
     return b;
 }
@@ -54,8 +54,8 @@ static peri_body *subject(int32_t space, int32_t precision) {
 
 static double from_view(const peri_view *v, int64_t i, int k) {
     int64_t at = i * v->point_stride + k * v->component_stride;
-    double x = v->type == PERI_F64 ? ((const double *)v->data)[at]
-             : v->type == PERI_F32 ? (double)((const float *)v->data)[at]
+    double x = v->type == PERI_TYPE_F64 ? ((const double *)v->data)[at]
+             : v->type == PERI_TYPE_F32 ? (double)((const float *)v->data)[at]
                                    : (double)((const int32_t *)v->data)[at];
     return v->offset[k] + v->scale * x;
 }
@@ -66,48 +66,48 @@ static void views_agree(int32_t space, int32_t precision) {
     int32_t f;
     int64_t n = peri_point_count(b), i;
     int dim = peri_dimension(b), k;
-    for (f = PERI_POSITION; f <= PERI_CURRENT; ++f) {
-        int vector = f <= PERI_FORCE_DENSITY || f == PERI_CURRENT, different = 0;
+    for (f = PERI_FIELD_POSITION; f <= PERI_FIELD_CURRENT_POSITION; ++f) {
+        int vector = f <= PERI_FIELD_FORCE_DENSITY || f == PERI_FIELD_CURRENT_POSITION, different = 0;
         double *x = get(b, f);
         peri_view v;
         memset(&v, 0, sizeof v);
-        CHECK(peri_field_size(b, f) == n * (vector ? dim : 1));
+        CHECK(peri_size_of_field(b, f) == n * (vector ? dim : 1));
         (void)MUST(b, peri_view_field(b, f, &v));
         CHECK(v.count == n && v.components == (vector ? dim : 1) && v.data != NULL);
-        CHECK(v.type == PERI_F64 || v.type == PERI_F32 || v.type == PERI_I32);
+        CHECK(v.type == PERI_TYPE_F64 || v.type == PERI_TYPE_F32 || v.type == PERI_TYPE_I32);
         for (i = 0; i < n; ++i)
             for (k = 0; k < v.components; ++k) {
                 double want = x[i * v.components + k];
                 CHECK_NEAR(from_view(&v, i, k), want, 2 * ULP64, 2 * ULP64 * fabs(v.offset[k]));
                 if (want != x[k]) different = 1;
             }
-        CHECK(different || f == PERI_VOLUME); /* 3D: all cells alike */
+        CHECK(different || f == PERI_FIELD_VOLUME); /* 3D: all cells alike */
         free(x);
     }
     peri_body_destroy(b);
 }
 static void views_and_reads_agree(void) {
-    views_agree(PERI_PLANE_STRESS, PERI_F64);
-    views_agree(PERI_PLANE_STRAIN, PERI_F32);
-    views_agree(PERI_SOLID, PERI_F64);
-    views_agree(PERI_SOLID, PERI_F32);
-    views_agree(PERI_SOLID, PERI_MIXED);
+    views_agree(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE);
+    views_agree(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_SINGLE);
+    views_agree(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE);
+    views_agree(PERI_SPACE_SOLID, PERI_PRECISION_SINGLE);
+    views_agree(PERI_SPACE_SOLID, PERI_PRECISION_MIXED);
 }
 
 /* "A stored field's view stays valid, and current." */
 static void stored_views_stay_current(void) {
-    const int32_t stored[5] = {PERI_POSITION, PERI_DISPLACEMENT, PERI_VELOCITY, PERI_FORCE_DENSITY, PERI_VOLUME};
-    peri_body *b = subject(PERI_PLANE_STRESS, PERI_F64), *c = NULL;
+    const int32_t stored[5] = {PERI_FIELD_POSITION, PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_FORCE_DENSITY, PERI_FIELD_VOLUME};
+    peri_body *b = subject(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE), *c = NULL;
     peri_view v[5];
     int k;
     for (k = 0; k < 5; ++k) (void)MUST(b, peri_view_field(b, stored[k], &v[k]));
-    (void)go(b, PERI_VELOCITY_VERLET, 7, 0, 0);
-    (void)MUST(b, peri_clone(b, &c, NULL));
-    (void)go(c, PERI_VELOCITY_VERLET, 7, 0, 0); /* the clone's motion must not show */
+    (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 7, 0, 0);
+    (void)MUST(b, peri_body_clone(b, &c, NULL));
+    (void)go(c, PERI_INTEGRATOR_VELOCITY_VERLET, 7, 0, 0); /* the clone's motion must not show */
     for (k = 0; k < 5; ++k) {
         double *x = get(b, stored[k]);
         int64_t i;
-        for (i = 0; i < peri_field_size(b, stored[k]); ++i)
+        for (i = 0; i < peri_size_of_field(b, stored[k]); ++i)
             CHECK_NEAR(from_view(&v[k], i / v[k].components, (int)(i % v[k].components)), x[i], 2 * ULP64,
                        2 * ULP64 * fabs(v[k].offset[i % v[k].components]));
         free(x);
@@ -119,14 +119,14 @@ static void stored_views_stay_current(void) {
 /* SOURCE OF TRUTH: definitions. Current = position + displacement; damage from the bonds that are (not) intact, whole cells:
    1 - (intact volume)/(family volume); grown damage leaves out what was cut at first, so damage of a cut-only body has none. */
 static void derived_fields_by_definition(void) {
-    peri_body *b = subject(PERI_PLANE_STRESS, PERI_F64);
-    double *x = get(b, PERI_POSITION), *u = get(b, PERI_DISPLACEMENT), *y = get(b, PERI_CURRENT), *vol = get(b, PERI_VOLUME);
-    double *damage = get(b, PERI_DAMAGE), *grown = get(b, PERI_DAMAGE_GROWN), *size = get(b, PERI_FAMILY_SIZE);
-    double *mat = get(b, PERI_MATERIAL);
+    peri_body *b = subject(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE);
+    double *x = get(b, PERI_FIELD_POSITION), *u = get(b, PERI_FIELD_DISPLACEMENT), *y = get(b, PERI_FIELD_CURRENT_POSITION), *vol = get(b, PERI_FIELD_VOLUME);
+    double *damage = get(b, PERI_FIELD_DAMAGE), *grown = get(b, PERI_FIELD_DAMAGE_GROWN), *size = get(b, PERI_FIELD_FAMILY_SIZE);
+    double *mat = get(b, PERI_FIELD_MATERIAL);
     int32_t width = peri_family_width(b), *rows;
     int64_t n = peri_point_count(b), i, k;
     rows = (int32_t *)calloc((size_t)(n * width), sizeof *rows);
-    (void)MUST(b, peri_read_families(b, 0, n, rows, n * width));
+    (void)MUST(b, peri_get_families(b, 0, n, rows, n * width));
     for (i = 0; i < n; ++i) {
         double all = 0, intact = 0;
         int count = 0;
@@ -146,8 +146,8 @@ static void derived_fields_by_definition(void) {
     free(grown);
     free(damage);
     (void)MUST(b, peri_reset(b));
-    grown = get(b, PERI_DAMAGE_GROWN);
-    damage = get(b, PERI_DAMAGE);
+    grown = get(b, PERI_FIELD_DAMAGE_GROWN);
+    damage = get(b, PERI_FIELD_DAMAGE);
     CHECK(largest(grown, n) == 0 && largest(damage, n) > 0.1);
     free(x);
     free(u);
@@ -165,10 +165,10 @@ static void derived_fields_by_definition(void) {
 static void write_then_read(void) {
     int k;
     for (k = 0; k < 4; ++k) {
-        int32_t precision = k & 1 ? PERI_F32 : PERI_F64, field = k & 2 ? PERI_VELOCITY : PERI_DISPLACEMENT;
-        peri_body *b = subject(PERI_SOLID, precision);
-        int64_t n = peri_field_size(b, field), i;
-        double *in = random_field(n, 0.3 * H, 77), *out, ulp = precision == PERI_F64 ? ULP64 : ULP32;
+        int32_t precision = k & 1 ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE, field = k & 2 ? PERI_FIELD_VELOCITY : PERI_FIELD_DISPLACEMENT;
+        peri_body *b = subject(PERI_SPACE_SOLID, precision);
+        int64_t n = peri_size_of_field(b, field), i;
+        double *in = random_field(n, 0.3 * H, 77), *out, ulp = precision == PERI_PRECISION_DOUBLE ? ULP64 : ULP32;
         put(b, field, in);
         out = get(b, field);
         for (i = 0; i < n; ++i) CHECK_NEAR(out[i], in[i], 3 * ulp, 0);
@@ -285,8 +285,8 @@ static void compare(const array *a, const double *want, int64_t n, int component
 
 static void vtu(int32_t space, int32_t precision) {
     static const struct { const char *name; int32_t field; } fields[6] = {
-        {"isplacement", PERI_DISPLACEMENT}, {"elocity", PERI_VELOCITY}, {"amage", PERI_DAMAGE},
-        {"nergy", PERI_ENERGY_DENSITY},     {"aterial", PERI_MATERIAL}, {"olume", PERI_VOLUME}};
+        {"isplacement", PERI_FIELD_DISPLACEMENT}, {"elocity", PERI_FIELD_VELOCITY}, {"amage", PERI_FIELD_DAMAGE},
+        {"nergy", PERI_FIELD_ENERGY_DENSITY},     {"aterial", PERI_FIELD_MATERIAL}, {"olume", PERI_FIELD_VOLUME}};
     peri_body *b = subject(space, precision);
     buffer f = {NULL, 0, 0, 0, 0}, g;
     array a[24];
@@ -295,7 +295,7 @@ static void vtu(int32_t space, int32_t precision) {
     int dim = peri_dimension(b), count, k;
     double *x;
     memset(a, 0, sizeof a);
-    (void)MUST(b, peri_write_vtu(b, collect, &f));
+    (void)MUST(b, peri_export_vtu_to(b, collect, &f));
     count = parse_vtu(&f, a, 24, &points, &cells);
     CHECK(count >= 10 && points == n && cells > 0);
     for (k = 0; k < 6; ++k) {
@@ -303,7 +303,7 @@ static void vtu(int32_t space, int32_t precision) {
         compare(find(a, count, fields[k].name), x, n, k < 2 ? dim : 1, fields[k].name);
         free(x);
     }
-    x = get(b, PERI_STRESS); /* ParaView's order of a symmetric tensor is xx yy zz xy yz xz */
+    x = get(b, PERI_FIELD_STRESS); /* ParaView's order of a symmetric tensor is xx yy zz xy yz xz */
     for (i = 0; i < n; ++i)
         for (k = 0; k < 6; ++k) {
             static const int plane[6] = {0, 1, -1, 2, -1, -1};
@@ -315,7 +315,7 @@ static void vtu(int32_t space, int32_t precision) {
     free(x);
     for (k = 0; k < count; ++k) /* the array inside <Points>: three components, none of the fields */
         if (a[k].components == 3 && !strstr(a[k].name, "isplacement") && !strstr(a[k].name, "elocity")) place = &a[k];
-    x = get(b, PERI_POSITION);
+    x = get(b, PERI_FIELD_POSITION);
     compare(place, x, n, dim, "points");
     free(x);
     connectivity = find(a, count, "connectivity");
@@ -334,18 +334,18 @@ static void vtu(int32_t space, int32_t precision) {
     for (k = 1; k <= f.calls; ++k) { /* a writer that fails, at every call */
         memset(&g, 0, sizeof g);
         g.fail_at = k;
-        CHECK(peri_write_vtu(b, collect, &g) == PERI_ERROR_WRITE && g.calls == k);
+        CHECK(peri_export_vtu_to(b, collect, &g) == PERI_ERROR_WRITE && g.calls == k);
         free(g.bytes);
     }
     memset(&g, 0, sizeof g);
-    (void)MUST(b, peri_write_vtu(b, collect, &g)); /* the same again afterwards */
+    (void)MUST(b, peri_export_vtu_to(b, collect, &g)); /* the same again afterwards */
     CHECK(g.size == f.size && memcmp(g.bytes, f.bytes, (size_t)f.size) == 0);
     free(g.bytes);
-    if (space == PERI_SOLID) { /* and through the file helper */
+    if (space == PERI_SPACE_SOLID) { /* and through the file helper */
         FILE *file;
         char *text = (char *)calloc(1, (size_t)f.size + 1);
         const char *path = "test_output_tmp.vtu";
-        (void)MUST(b, peri_save_vtu(b, path));
+        (void)MUST(b, peri_export_vtu(b, path));
         file = fopen(path, "rb");
         CHECK(file != NULL && fread(text, 1, (size_t)f.size + 1, file) == (size_t)f.size);
         CHECK(memcmp(text, f.bytes, (size_t)f.size) == 0);
@@ -357,9 +357,9 @@ static void vtu(int32_t space, int32_t precision) {
     peri_body_destroy(b);
 }
 static void vtu_holds_what_read_gives(void) {
-    vtu(PERI_PLANE_STRESS, PERI_F64);
-    vtu(PERI_PLANE_STRAIN, PERI_F32);
-    vtu(PERI_SOLID, PERI_F64);
+    vtu(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE);
+    vtu(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_SINGLE);
+    vtu(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE);
 }
 
 /* ---- CSV ---------------------------------------------------------------------------------------------------------- */
@@ -374,7 +374,7 @@ static void history_line(peri_body *b, const char *line) {
         CHECK(end != line && *end == (k < 11 ? ',' : '\n'));
         line = end + 1;
     }
-    (void)MUST(b, peri_read_energy(b, &e));
+    (void)MUST(b, peri_get_energy(b, &e));
     CHECK(v[0] == (double)peri_step_count(b) && v[10] == (double)peri_broken_count(b) && v[11] == (double)peri_cut_count(b));
     CHECK_NEAR(v[1], peri_time(b), 1e-12, 0);
     CHECK_NEAR(v[2], e.kinetic, 1e-12, 0);
@@ -388,16 +388,16 @@ static void history_line(peri_body *b, const char *line) {
     CHECK(v[2] > 0 && v[3] > 0 && v[4] != 0 && v[6] > 0 && v[7] > 0 && v[8] > 0 && v[10] > 0 && v[11] > 0);
 }
 
-/* SOURCE OF TRUTH: peri_write_history's contract: step, time, the ledger in the order of peri_energy, broken and cut bonds. */
+/* SOURCE OF TRUTH: peri_export_history_to's contract: step, time, the ledger in the order of peri_energy, broken and cut bonds. */
 static void history(void) {
     static const char *const names[12] = {"step",     "time",    "kinetic",  "elastic", "external", "obstacle",
                                           "damping",  "fracture", "initial", "error",   "broken",   "cut"};
-    peri_body *b = subject(PERI_PLANE_STRESS, PERI_F64);
+    peri_body *b = subject(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE);
     buffer f = {NULL, 0, 0, 0, 0}, g = {NULL, 0, 0, 0, 0};
     const char *at, *second;
     int k;
-    (void)MUST(b, peri_write_history(b, 1, collect, &f));
-    (void)MUST(b, peri_write_history(b, 0, collect, &g));
+    (void)MUST(b, peri_export_history_to(b, 1, collect, &f));
+    (void)MUST(b, peri_export_history_to(b, 0, collect, &g));
     at = f.bytes;
     for (k = 0; k < 12; ++k) { /* the names, in this order, one per column */
         const char *stop = strpbrk(at, ",\n"), *word = strstr(at, names[k]);
@@ -412,13 +412,13 @@ static void history(void) {
     for (k = 1; k <= f.calls; ++k) {
         buffer h = {NULL, 0, 0, 0, 0};
         h.fail_at = k;
-        CHECK(peri_write_history(b, 1, collect, &h) == PERI_ERROR_WRITE);
+        CHECK(peri_export_history_to(b, 1, collect, &h) == PERI_ERROR_WRITE);
         free(h.bytes);
     }
     /* a locale with a decimal comma must not get into the file */
     if (setlocale(LC_ALL, "de_DE.UTF-8") || setlocale(LC_ALL, "fr_FR.UTF-8") || setlocale(LC_ALL, "de_DE")) {
         buffer h = {NULL, 0, 0, 0, 0};
-        (void)MUST(b, peri_write_history(b, 0, collect, &h));
+        (void)MUST(b, peri_export_history_to(b, 0, collect, &h));
         (void)setlocale(LC_ALL, "C");
         CHECK(strcmp(h.bytes, g.bytes) == 0);
         free(h.bytes);
@@ -431,16 +431,16 @@ static void history(void) {
 /* append = 0 starts the file with a header, 1 adds a line. */
 static void history_file(void) {
     const char *path = "test_output_tmp.csv";
-    peri_body *b = subject(PERI_SOLID, PERI_F32);
+    peri_body *b = subject(PERI_SPACE_SOLID, PERI_PRECISION_SINGLE);
     char text[4096];
     size_t size;
     FILE *file;
     int lines = 0, round;
     for (round = 0; round < 2; ++round) { /* the second round starts the file again */
-        (void)MUST(b, peri_save_history(b, path, 0));
-        (void)go(b, PERI_VELOCITY_VERLET, 5, 0, 0.05);
-        (void)MUST(b, peri_save_history(b, path, 1));
-        (void)MUST(b, peri_save_history(b, path, 1));
+        (void)MUST(b, peri_export_history(b, path, 0));
+        (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 5, 0, 0.05);
+        (void)MUST(b, peri_export_history(b, path, 1));
+        (void)MUST(b, peri_export_history(b, path, 1));
     }
     file = fopen(path, "rb");
     CHECK(file != NULL);

@@ -21,34 +21,36 @@ static int32_t ripples(void *user, int64_t index, const double *x) {
     return sin(wave[0] * x[0] + wave[1] * x[1]) > -0.7;
 }
 
-static void sway(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t sway(void *user, double time, int64_t count, const int32_t *points, double *value) {
     int64_t k;
     for (k = 0; k < count * *(const int *)user; ++k) value[k] = 1e-3 * sin(3.0 * time) + 1e-4 * (points[0] % 7);
+    return 0;
 }
 
-static void tell(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t tell(void *user, int32_t i, int32_t j, double time, double stretch) {
     (void)i, (void)j, (void)time, (void)stretch;
     ++*(int64_t *)user;
+    return 0;
 }
 
 static void cut_somewhere(peri_body *b) {
     const double from[3] = {real_in(0, 9), real_in(0, 5), 0}, to[3] = {real_in(0, 9), real_in(0, 5), 0}, normal[3] = {0, 1, 0.2};
     const double radius = real_in(1, 3);
-    if (peri_dimension(b) == 2) MUST(b, peri_cut_segment(b, from, to));
-    else MUST(b, peri_cut_disc(b, from, normal, radius));
+    if (peri_dimension(b) == 2) MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+    else MUST(b, peri_cut_disc(b, PERI_CUT_INITIAL, from, normal, radius));
 }
 
 static int32_t frame(void *user, peri_body *b) {
     peri_energy e;
     (void)user;
-    MUST(b, peri_read_energy(b, &e));
+    MUST(b, peri_get_energy(b, &e));
     if (whole_below(3) == 0) cut_somewhere(b);
     return whole_below(20) == 0;
 }
 
 static int32_t material_of(peri_body *b) {
-    peri_material m;
-    peri_material_init(&m, PERI_BOND_BASED);
+    peri_material_desc m;
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = real_in(0.5, 1.5);
     m.density = real_in(0.5, 1.5);
     m.critical_stretch = whole_below(5) ? real_in(0.01, 0.06) : 0.0;
@@ -64,13 +66,13 @@ static peri_body *shape_of(int32_t reference, double *lo, double *hi, uint64_t s
     int shape, k;
     peri_body_desc_init(&d);
     d.space = 1 + whole_below(3);
-    d.precision = whole_below(3) ? PERI_F64 : whole_below(2) ? PERI_F32 : PERI_MIXED;
-    d.geometry = whole_below(4) ? PERI_NONLINEAR : PERI_LINEAR;
+    d.precision = whole_below(3) ? PERI_PRECISION_DOUBLE : whole_below(2) ? PERI_PRECISION_SINGLE : PERI_PRECISION_MIXED;
+    d.geometry = whole_below(4) ? PERI_GEOMETRY_NONLINEAR : PERI_GEOMETRY_LINEAR;
     d.influence = 1 + whole_below(6);
-    d.quadrature = 1 + whole_below(d.space == PERI_SOLID ? 3 : 5);
+    d.quadrature = 1 + whole_below(d.space == PERI_SPACE_SOLID ? 3 : 5);
     d.horizon = real_in(1.2, 3.2);
     d.break_timing = 1 + whole_below(2);
-    *rounded = d.precision != PERI_F64;
+    *rounded = d.precision != PERI_PRECISION_DOUBLE;
     *after_drift = d.break_timing == PERI_BREAK_AFTER_DRIFT;
     d.thickness = real_in(0.1, 1.1);
     d.threads = 1 + whole_below(2);
@@ -88,7 +90,7 @@ static peri_body *shape_of(int32_t reference, double *lo, double *hi, uint64_t s
     if (shape == 1) (void)peri_add_shape(b, material, lo, hi, 1.0, ripples, (void *)(uintptr_t)wave);
     if (shape == 2) MUST(b, peri_add_perturbed_box(b, material, lo, hi, 1.0, real_in(0, 1), seed));
     if (shape == 3) MUST(b, peri_add_ball(b, material, middle, real_in(3, 5), 1.0));
-    if (whole_below(3) == 0) MUST(b, peri_add_box(b, 0, next, end, whole_below(2) ? 1.0 : 0.7));
+    if (whole_below(3) == 0) MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), next, end, whole_below(2) ? 1.0 : 0.7));
     return b;
 }
 
@@ -102,11 +104,11 @@ static void load(peri_body *b, const double *lo, const double *hi, int *dim) {
     switch (whole_below(4)) {
     case 0:
         MUST(b, peri_prescribe_velocity(b, left, 1 + whole_below(3), pull_left, NULL, NULL));
-        MUST(b, peri_prescribe_velocity(b, right, PERI_X, pull_right, fn, dim));
+        MUST(b, peri_prescribe_velocity(b, right, PERI_AXIS_X, pull_right, fn, dim));
         break;
-    case 1: MUST(b, peri_prescribe_displacement(b, left, PERI_X | PERI_Y, NULL, sway, dim)); break;
+    case 1: MUST(b, peri_prescribe_displacement(b, left, PERI_AXIS_X | PERI_AXIS_Y, NULL, sway, dim)); break;
     case 2: MUST(b, peri_apply_body_force(b, right, pull_right, fn, dim)); break;
-    default: MUST(b, peri_apply_traction(b, right, 3, pull_right, NULL, NULL)); break;
+    default: MUST(b, peri_apply_layer_traction(b, right, 3, pull_right, NULL, NULL)); break;
     }
     if (whole_below(3) == 0) MUST(b, peri_set_no_fail(b, left, 1));
     if (whole_below(3) == 0) MUST(b, peri_add_ball_obstacle(b, ball, 2, 0, NULL, NULL));
@@ -116,7 +118,7 @@ static outcome play(uint64_t seed, int32_t reference, double safety) {
     outcome o;
     double lo[3], hi[3];
     peri_energy e;
-    peri_run run;
+    peri_advance_desc run;
     peri_body *b, *copy;
     uint64_t noise = seed;
     int64_t k;
@@ -134,11 +136,11 @@ static outcome play(uint64_t seed, int32_t reference, double safety) {
     load(b, lo, hi, &dim);
     if (whole_below(2)) MUST(b, peri_on_break(b, tell, &o.told));
     else o.told = -1;
-    o.size = peri_field_size(b, PERI_DISPLACEMENT);
+    o.size = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
     o.u = (double *)malloc((size_t)o.size * sizeof(double));
     for (k = 0; k < o.size; ++k) o.u[k] = 0.02 * (2 * test_random(&noise) - 1);
-    MUST(b, peri_write(b, PERI_DISPLACEMENT, o.u, o.size));
-    peri_run_init(&run);
+    MUST(b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, o.u, o.size));
+    peri_advance_desc_init(&run);
     run.safety = safety;
     run.integrator = 1 + whole_below(2);
     run.damping = whole_below(2) ? real_in(0, 0.1) : 0.0;
@@ -147,14 +149,14 @@ static outcome play(uint64_t seed, int32_t reference, double safety) {
     if (whole_below(2)) run.steps = 25;
     else run.duration = peri_stable_step(b) * safety * real_in(15, 25);
     MUST(b, peri_advance(b, &run));
-    MUST(b, peri_clone(b, &copy, NULL));
+    MUST(b, peri_body_clone(b, &copy, NULL));
     peri_body_destroy(b);
     run.on_frame = NULL;
     run.duration = 0;
     run.steps = 5;
     MUST(copy, peri_advance(copy, &run));
-    MUST(copy, peri_read(copy, PERI_DISPLACEMENT, o.u, o.size));
-    MUST(copy, peri_read_energy(copy, &e));
+    MUST(copy, peri_get_field(copy, PERI_FIELD_DISPLACEMENT, o.u, o.size));
+    MUST(copy, peri_get_energy(copy, &e));
     o.broken = peri_broken_count(copy);
     o.error = e.error;
     o.energy = e.kinetic + e.elastic + fabs(e.external) + e.initial + e.fracture;

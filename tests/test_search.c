@@ -37,7 +37,7 @@ static peri_body *body_of(const cloud *c, const peri_body_desc *desc) {
 static peri_body_desc desc_of(const cloud *c) {
     peri_body_desc d;
     peri_body_desc_init(&d);
-    d.space = c->dim == 3 ? PERI_SOLID : PERI_PLANE_STRAIN;
+    d.space = c->dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN;
     d.horizon = c->horizon;
     d.threads = 1;
     return d;
@@ -57,14 +57,14 @@ static void check_families(const cloud *c) {
     if (lonely >= 0) { /* the first of them is named */
         peri_error error;
         CHECK(status == PERI_ERROR_FAMILY || status == PERI_ERROR_HORIZON);
-        CHECK(peri_last_error(body, &error) == PERI_OK && error.index == lonely);
+        CHECK(peri_get_error(body, &error) == PERI_OK && error.index == lonely);
         peri_body_destroy(body);
         return;
     }
     MUST(body, status);
     width = peri_family_width(body);
     if (c->count * width > (int64_t)(sizeof rows_a / sizeof rows_a[0])) exit(3);
-    MUST(body, peri_read_families(body, 0, c->count, rows_a, c->count * width));
+    MUST(body, peri_get_families(body, 0, c->count, rows_a, c->count * width));
     for (i = 0; i < c->count; ++i) {
         const int32_t *row = &rows_a[i * width];
         int64_t k = 0;
@@ -183,7 +183,7 @@ static void twins(void) {
             for (d = 0; d < dim; ++d) given.x[pair[k][1] * dim + d] = given.x[pair[k][0] * dim + d];
             body = body_of(&given, &desc);
             CHECK(peri_build(body) == PERI_ERROR_COINCIDENT);
-            CHECK(peri_last_error(body, &error) == PERI_OK);
+            CHECK(peri_get_error(body, &error) == PERI_OK);
             CHECK(error.index == named[k][1] && error.value == (double)named[k][0]);
             peri_body_destroy(body);
         }
@@ -214,7 +214,7 @@ typedef struct event {
     int32_t i, j;
 } event;
 
-static void on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     event *e = (event *)user;
     (void)stretch;
     if (i >= j || (e->count > 0 && e->time == time && (i < e->i || (i == e->i && j <= e->j)))) e->disorder++;
@@ -222,11 +222,12 @@ static void on_break(void *user, int32_t i, int32_t j, double time, double stret
     e->i = i;
     e->j = j;
     e->count++;
+    return 0;
 }
 
 typedef struct scene {
     const char *name;
-    int32_t     model, quadrature, correction, precision, influence;
+    int32_t     law, quadrature, correction, precision, influence;
     int         breaks, dim; /* breaks 0: with centroids the end of lower id decides for both                              */
 } scene;
 
@@ -234,9 +235,9 @@ typedef struct scene {
 static void act(const cloud *c, const scene *s, double *force, double *damage, int64_t *bonds, event *seen, const int64_t *to) {
     static double u[3 * N_MAX], out[3 * N_MAX];
     peri_body_desc desc = desc_of(c);
-    peri_material m;
+    peri_material_desc m;
     peri_body *body = NULL;
-    peri_run run;
+    peri_advance_desc run;
     int64_t i;
     int d;
     desc.quadrature = s->quadrature;
@@ -244,8 +245,8 @@ static void act(const cloud *c, const scene *s, double *force, double *damage, i
     desc.precision = s->precision;
     desc.influence = s->influence;
     CHECK(peri_body_create(&desc, &body, NULL) == PERI_OK);
-    peri_material_init(&m, s->model);
-    if (s->model != PERI_BOND_BASED) m.poisson = 0.2;
+    peri_material_desc_init(&m, s->law);
+    if (s->law != PERI_LAW_BOND_BASED) m.poisson = 0.2;
     m.young = m.density = 1.0;
     m.critical_stretch = s->breaks ? 0.02 : 0.0;
     MUST(body, peri_add_material(body, &m));
@@ -255,16 +256,16 @@ static void act(const cloud *c, const scene *s, double *force, double *damage, i
         const double *x = &c->x[i * c->dim];
         for (d = 0; d < c->dim; ++d) u[i * c->dim + d] = 0.01 * sin(0.8 * x[0] + d) * x[(d + 1) % c->dim] + 0.02 * (x[d] > 4.0) * x[d];
     }
-    MUST(body, peri_write(body, PERI_DISPLACEMENT, u, c->count * c->dim));
-    MUST(body, peri_read(body, PERI_FORCE_DENSITY, out, c->count * c->dim));
+    MUST(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, u, c->count * c->dim));
+    MUST(body, peri_get_field(body, PERI_FIELD_FORCE_DENSITY, out, c->count * c->dim));
     for (i = 0; i < c->count; ++i)
         for (d = 0; d < c->dim; ++d) force[i * c->dim + d] = out[(to ? to[i] : i) * c->dim + d];
     memset(seen, 0, sizeof *seen);
     MUST(body, peri_on_break(body, on_break, seen));
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = 2;
     MUST(body, peri_advance(body, &run));
-    MUST(body, peri_read(body, PERI_DAMAGE, out, c->count));
+    MUST(body, peri_get_field(body, PERI_FIELD_DAMAGE, out, c->count));
     for (i = 0; i < c->count; ++i) damage[i] = out[to ? to[i] : i];
     *bonds = peri_bond_count(body);
     CHECK(seen->disorder == 0 && seen->count == peri_broken_count(body) && (seen->count > 0) == s->breaks);
@@ -273,23 +274,23 @@ static void act(const cloud *c, const scene *s, double *force, double *damage, i
 
 static void renumbered(void) {
     static const scene scenes[] = {
-        { "bond-based", PERI_BOND_BASED, PERI_FULL_VOLUME, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_CONSTANT, 1, 3 },
-        { "bond-based f32", PERI_BOND_BASED, PERI_FULL_VOLUME, PERI_NO_CORRECTION, PERI_F32, PERI_INFLUENCE_CUBIC, 1, 3 },
-        { "bond-based 2D", PERI_BOND_BASED, PERI_FULL_VOLUME, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_GAUSSIAN, 1, 2 },
-        { "ramp", PERI_BOND_BASED, PERI_VOLUME_RAMP, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_CONSTANT, 1, 2 },
-        { "partial", PERI_BOND_BASED, PERI_PARTIAL_VOLUME, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_LINEAR, 1, 2 },
-        { "centroid", PERI_BOND_BASED, PERI_PARTIAL_CENTROID, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_CONSTANT, 0, 2 },
-        { "LPS", PERI_LPS, PERI_FULL_VOLUME, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_CONSTANT, 1, 3 },
-        { "Oterkus", PERI_OTERKUS, PERI_FULL_VOLUME, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_INVERSE, 1, 2 },
-        { "correspondence", PERI_CORRESPONDENCE, PERI_FULL_VOLUME, PERI_NO_CORRECTION, PERI_F64, PERI_INFLUENCE_CONSTANT, 1, 2 },
-        { "volume correction", PERI_BOND_BASED, PERI_FULL_VOLUME, PERI_VOLUME_CORRECTION, PERI_F64, PERI_INFLUENCE_CONSTANT, 1, 2 },
-        { "moment correction", PERI_LPS, PERI_FULL_VOLUME, PERI_MOMENT_CORRECTION, PERI_F64, PERI_INFLUENCE_CONSTANT, 1, 2 },
+        { "bond-based", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 3 },
+        { "bond-based f32", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_SINGLE, PERI_INFLUENCE_CUBIC, 1, 3 },
+        { "bond-based 2D", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_GAUSSIAN, 1, 2 },
+        { "ramp", PERI_LAW_BOND_BASED, PERI_QUADRATURE_RAMP, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
+        { "partial", PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_LINEAR, 1, 2 },
+        { "centroid", PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL_CENTROID, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 0, 2 },
+        { "LPS", PERI_LAW_LPS, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 3 },
+        { "Oterkus", PERI_LAW_OTERKUS, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_INVERSE, 1, 2 },
+        { "correspondence", PERI_LAW_CORRESPONDENCE, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
+        { "volume correction", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_VOLUME, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
+        { "moment correction", PERI_LAW_LPS, PERI_QUADRATURE_FULL, PERI_CORRECTION_MOMENT, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
     };
     static double force[2][3 * N_MAX], damage[2][N_MAX];
     size_t k;
     for (k = 0; k < sizeof scenes / sizeof scenes[0]; ++k) {
         const scene *s = &scenes[k];
-        const double rounding = s->precision == PERI_F32 ? 2e-5 : 1e-11;
+        const double rounding = s->precision == PERI_PRECISION_SINGLE ? 2e-5 : 1e-11;
         double largest = 0.0, apart = 0.0, hurt = 0.0;
         int64_t bonds[2], i;
         event seen[2];
@@ -311,12 +312,12 @@ static void renumbered(void) {
     }
 }
 
-static double written_out(void *user, double q) {
+static int32_t written_out(void *user, double q, double *w) {
     switch (*(const int32_t *)user) {
-    case PERI_INFLUENCE_LINEAR: return 1 - q;
-    case PERI_INFLUENCE_CUBIC: return 1 - 3 * q * q + 2 * q * q * q;
-    case PERI_INFLUENCE_QUINTIC: return 1 - q * q * q * (10 - 15 * q + 6 * q * q);
-    default: return exp(-q * q);
+    case PERI_INFLUENCE_LINEAR: { *w = 1 - q; return 0; }
+    case PERI_INFLUENCE_CUBIC: { *w = 1 - 3 * q * q + 2 * q * q * q; return 0; }
+    case PERI_INFLUENCE_QUINTIC: { *w = 1 - q * q * q * (10 - 15 * q + 6 * q * q); return 0; }
+    default: { *w = exp(-q * q); return 0; }
     }
 }
 
@@ -340,8 +341,8 @@ static void influences(void) {
             body = body_of(&given, &d);
             MUST(body, peri_build(body));
             for (i = 0; i < 3 * given.count; ++i) force[user][i] = 1e-2 * sin(0.37 * (double)i);
-            MUST(body, peri_write(body, PERI_DISPLACEMENT, force[user], 3 * given.count));
-            MUST(body, peri_read(body, PERI_FORCE_DENSITY, force[user], 3 * given.count));
+            MUST(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, force[user], 3 * given.count));
+            MUST(body, peri_get_field(body, PERI_FIELD_FORCE_DENSITY, force[user], 3 * given.count));
             peri_body_destroy(body);
         }
         for (i = 0; i < 3 * given.count; ++i) {
@@ -372,7 +373,7 @@ static void pairs_found(void) {
         }
     pair[0] = 200;
     CHECK(wrong == 0 && peri_bond_count(body) == bonds);
-    CHECK(peri_cut_pairs(body, 1, pair) == 1 && peri_cut_pairs(body, 1, pair) == 0 && peri_cut_count(body) == 1);
+    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 1 && peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 0 && peri_cut_count(body) == 1);
     CHECK(peri_bond_is_intact(body, pair[1], pair[0]) == 0);
     peri_body_destroy(body);
 }
@@ -402,17 +403,17 @@ static void any_threads(void) {
                 desc.threads = threads;
                 body = test_unit_body(&desc, 0.0);
                 if (kind == 0) MUST(body, peri_add_points(body, given.count, given.x, given.volume, NULL));
-                else MUST(body, peri_add_box(body, 0, lo, hi, dim == 2 ? 0.8 : 1.0));
+                else MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, dim == 2 ? 0.8 : 1.0));
                 MUST(body, peri_build(body));
                 n = peri_point_count(body);
                 if (n > N_MAX) exit(3);
                 if (threads == 1) width = peri_family_width(body);
                 CHECK(peri_family_width(body) == width);
                 if (n * width > (int64_t)(sizeof rows_b / sizeof rows_b[0])) exit(3);
-                MUST(body, peri_read_families(body, 0, n, rows, n * width));
+                MUST(body, peri_get_families(body, 0, n, rows, n * width));
                 for (k = 0; k < n * dim; ++k) out[k] = 1e-3 * sin(0.37 * (double)k);
-                MUST(body, peri_write(body, PERI_DISPLACEMENT, out, n * dim));
-                MUST(body, peri_read(body, PERI_FORCE_DENSITY, out, n * dim));
+                MUST(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, out, n * dim));
+                MUST(body, peri_get_field(body, PERI_FIELD_FORCE_DENSITY, out, n * dim));
                 if (threads > 1) {
                     CHECK(memcmp(rows_a, rows_b, (size_t)(n * width) * sizeof *rows_a) == 0);
                     CHECK(memcmp(force[0], force[1], (size_t)(n * dim) * sizeof force[0][0]) == 0);
@@ -443,24 +444,24 @@ static void lattices(void) {
                 desc = desc_of(&given);
                 desc.kernel = reference;
                 body = test_unit_body(&desc, 0.0);
-                if (kind == 0) MUST(body, peri_add_ball(body, 0, centre, dim == 2 ? 24.0 : 7.5, 1.0));
-                else MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
-                if (kind == 2) MUST(body, peri_add_box(body, 0, lo2, hi2, 0.99));
+                if (kind == 0) MUST(body, peri_add_ball(body, peri_id(body, PERI_KIND_MATERIAL, 1), centre, dim == 2 ? 24.0 : 7.5, 1.0));
+                else MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
+                if (kind == 2) MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo2, hi2, 0.99));
                 if (kind == 3) {
                     const double lo3[3] = { hi[0] + 0.4, 0.0, 0.0 }, hi3[3] = { hi[0] + 3.4, hi[1], hi[2] };
-                    MUST(body, peri_add_box(body, 0, lo3, hi3, 1.0));
+                    MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo3, hi3, 1.0));
                 }
                 MUST(body, peri_build(body));
                 given.count = peri_point_count(body);
                 if (given.count > N_MAX) exit(3);
                 for (k = 0; k < given.count * dim; ++k) u[k] = 1e-2 * sin(0.37 * (double)k);
-                MUST(body, peri_write(body, PERI_DISPLACEMENT, u, given.count * dim));
-                MUST(body, peri_read(body, PERI_FORCE_DENSITY, force[reference], given.count * dim));
+                MUST(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, u, given.count * dim));
+                MUST(body, peri_get_field(body, PERI_FIELD_FORCE_DENSITY, force[reference], given.count * dim));
                 if (!reference) { /* the rows, as of a cloud */
                     int64_t i, j, wrong = 0, width = peri_family_width(body);
-                    MUST(body, peri_read(body, PERI_POSITION, given.x, given.count * dim));
+                    MUST(body, peri_get_field(body, PERI_FIELD_POSITION, given.x, given.count * dim));
                     if (given.count * width > (int64_t)(sizeof rows_a / sizeof rows_a[0])) exit(3);
-                    MUST(body, peri_read_families(body, 0, given.count, rows_a, given.count * width));
+                    MUST(body, peri_get_families(body, 0, given.count, rows_a, given.count * width));
                     for (i = 0; i < given.count; ++i) {
                         int64_t n = 0;
                         for (j = 0; j < given.count; ++j) {
@@ -488,7 +489,7 @@ static void lattices(void) {
 /* Groups of a lattice with the same columns share the constants of their law, and bounds of the frequency are taken by columns, as long as
    all bonds are whole. Truth: the constants of each point by itself, which the textbook kernel (desc.kernel) uses on rows. */
 static void constants_shared(void) {
-    static const int32_t models[3] = { PERI_LPS, PERI_OTERKUS, PERI_CORRESPONDENCE };
+    static const int32_t models[3] = { PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE };
     static double u[3 * N_MAX], force[2][3 * N_MAX];
     int dim, k, ball;
     for (k = 0; k < 12; ++k) {
@@ -501,29 +502,29 @@ static void constants_shared(void) {
             const double lo[3] = { 0, 0, 0 }, hi[3] = { dim == 2 ? 37.0 : 13.0, dim == 2 ? 41.0 : 14.0, 12 }, centre[3] = { 0.1, 0.2, 0.3 };
             const double from[3] = { 0, 3.1, 0 }, to[3] = { 5, 3.1, 0 }, up[3] = { 0, 1, 0 };
             peri_body_desc d;
-            peri_material m;
+            peri_material_desc m;
             peri_body *body = NULL;
             peri_body_desc_init(&d);
-            d.space = dim == 3 ? PERI_SOLID : PERI_PLANE_STRESS;
+            d.space = dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS;
             d.horizon = 2.3;
             d.threads = 1;
             d.kernel = reference;
             CHECK(peri_body_create(&d, &body, NULL) == PERI_OK);
-            peri_material_init(&m, models[k % 3]);
+            peri_material_desc_init(&m, models[k % 3]);
             m.young = m.density = 1.0;
             m.poisson = 0.4; /* theta adds to the stiffness */
             MUST(body, peri_add_material(body, &m));
-            if (ball) MUST(body, peri_add_ball(body, 0, centre, dim == 2 ? 20.0 : 7.5, 1.0));
-            else MUST(body, peri_add_box(body, 0, lo, hi, 1.0));
+            if (ball) MUST(body, peri_add_ball(body, peri_id(body, PERI_KIND_MATERIAL, 1), centre, dim == 2 ? 20.0 : 7.5, 1.0));
+            else MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
             MUST(body, peri_build(body));
             n = peri_point_count(body);
             if (n > N_MAX) exit(3);
             for (i = 0; i < n * dim; ++i) u[i] = 1e-2 * sin(0.37 * (double)i);
-            MUST(body, peri_write(body, PERI_DISPLACEMENT, u, n * dim));
-            MUST(body, peri_read(body, PERI_FORCE_DENSITY, force[reference], n * dim));
+            MUST(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, u, n * dim));
+            MUST(body, peri_get_field(body, PERI_FIELD_FORCE_DENSITY, force[reference], n * dim));
             step[reference][0] = peri_stable_step(body);
-            if (dim == 2) MUST(body, peri_cut_segment(body, from, to)); /* and when they are whole no more */
-            else MUST(body, peri_cut_disc(body, from, up, 4.0));
+            if (dim == 2) MUST(body, peri_cut_segment(body, PERI_CUT_INITIAL, from, to)); /* and when they are whole no more */
+            else MUST(body, peri_cut_disc(body, PERI_CUT_INITIAL, from, up, 4.0));
             step[reference][1] = peri_stable_step(body);
             peri_body_destroy(body);
         }

@@ -11,35 +11,37 @@
 #define CLOSE 1e-9  /* of the largest: sums over the same bonds in another order, times their number                      */
 
 typedef struct kind {
-    int32_t model, criterion, kernel, moving; /* moving: a load and an obstacle follow the time                           */
+    int32_t law, criterion, kernel, moving; /* moving: a load and an obstacle follow the time                           */
 } kind;
 
 /* ---- the scene ---------------------------------------------------------------------------------------------------- */
 
-static void swell(void *user, double time, int64_t count, const int32_t *points, double *values) {
+static int32_t swell(void *user, double time, int64_t count, const int32_t *points, double *values) {
     (void)user;
     for (int64_t k = 0; k < count; ++k) values[2 * k] = 1e-4 * (1 + time + points[k] % 3);
+    return 0;
 }
 
-static void creep(void *user, double time, double *place) {
+static int32_t creep(void *user, double time, double *place) {
     (void)user;
     place[1] += 0.01 * time;
+    return 0;
 }
 
 static peri_body *unbuilt(kind k) {
     const double lo[2] = {0, 0}, hi[2] = {NX, NY};
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
     peri_body_desc_init(&d);
-    d.space = PERI_PLANE_STRAIN;
+    d.space = PERI_SPACE_PLANE_STRAIN;
     d.horizon = 2.6;
     d.kernel = k.kernel;
     d.threads = 1;
     (void)MUST(NULL, peri_body_create(&d, &b, NULL));
-    peri_material_init(&m, k.model);
+    peri_material_desc_init(&m, k.law);
     m.young = m.density = 1;
-    if (k.model != PERI_BOND_BASED) m.poisson = 0.2;
+    if (k.law != PERI_LAW_BOND_BASED) m.poisson = 0.2;
     m.criterion = k.criterion;
     if (k.criterion == PERI_CRITERION_STRETCH) m.critical_stretch = 0.2;
     else m.fracture_energy = 0.2;
@@ -57,7 +59,7 @@ static void furnish(peri_body *b, kind k) {
     const double force[2] = {2e-4, 1e-4}, floor_[2] = {0, 0.6}, up[2] = {0, 1};
     (void)MUST(b, peri_build(b));
     CHECK(columns(b, 0, 3) == 1 && columns(b, NX - 3, NX) == 2 && columns(b, 4, 9) == 3);
-    (void)MUST(b, peri_prescribe_displacement(b, 1, PERI_X | PERI_Y, NULL, NULL, NULL));
+    (void)MUST(b, peri_prescribe_displacement(b, 1, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
     (void)MUST(b, peri_apply_body_force(b, 2, force, NULL, NULL));
     if (k.moving) (void)MUST(b, peri_apply_body_force(b, 3, force, swell, NULL));
     (void)MUST(b, peri_add_plane_obstacle(b, floor_, up, 0.0, k.moving ? creep : NULL, NULL));
@@ -70,16 +72,16 @@ static void stir(peri_body *b, int32_t field, double amplitude, uint64_t seed) {
 }
 
 static int32_t march(peri_body *b, int64_t steps) {
-    peri_run r;
-    peri_run_init(&r);
+    peri_advance_desc r;
+    peri_advance_desc_init(&r);
     r.steps = steps;
     r.damping = 0.01;
     return peri_advance(b, &r);
 }
 
 static int32_t settle(peri_body *b) {
-    peri_statics s;
-    peri_statics_init(&s);
+    peri_solve_desc s;
+    peri_solve_desc_init(&s);
     s.tolerance = 1e-3;
     s.loose = PERI_LOOSE_BALANCED;
     s.steps = 2;
@@ -93,10 +95,10 @@ static peri_body *body_of(kind k, int past) {
     const double from[2] = {6, 0}, to[2] = {6, 3};
     peri_body *b = unbuilt(k);
     furnish(b, k);
-    if (past == CRACKED) CHECK(MUST(b, peri_cut_segment(b, from, to)) > 0);
+    if (past == CRACKED) CHECK(MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, from, to)) > 0);
     if (past == MOVED || past == CRACKED) {
-        stir(b, PERI_DISPLACEMENT, 0.02, 5);
-        stir(b, PERI_VELOCITY, 0.01, 6);
+        stir(b, PERI_FIELD_DISPLACEMENT, 0.02, 5);
+        stir(b, PERI_FIELD_VELOCITY, 0.01, 6);
         (void)MUST(b, march(b, 4));
     }
     if (past == SOLVED) (void)MUST(b, settle(b));
@@ -112,12 +114,13 @@ static int near_middle(void *user, int32_t i, int32_t j, const double *xi, const
     return xi[0] < 8 && xj[0] > 8 && xi[1] > 5;
 }
 
-static void listen(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t listen(void *user, int32_t i, int32_t j, double time, double stretch) {
     (void)user;
     (void)i;
     (void)j;
     (void)time;
     (void)stretch;
+    return 0;
 }
 
 typedef enum change {
@@ -130,28 +133,28 @@ static int64_t cut(peri_body *b, change what) {
     const double from[2] = {7, NY}, to[2] = {7, 4}, line[6] = {9, NY, 9, 5, 10, 5};
     const int32_t pairs[4] = {9, 10, 9 + NX, 10 + NX};
     switch (what) {
-    case CUT_SEGMENT: return peri_cut_segment(b, from, to);
-    case CUT_LINE: return peri_cut_polyline(b, 3, line);
-    case CUT_PAIRS: return peri_cut_pairs(b, 2, pairs);
-    default: return peri_cut_if(b, near_middle, NULL);
+    case CUT_SEGMENT: return peri_cut_segment(b, PERI_CUT_INITIAL, from, to);
+    case CUT_LINE: return peri_cut_polyline(b, PERI_CUT_INITIAL, 3, line);
+    case CUT_PAIRS: return peri_cut_pairs(b, PERI_CUT_INITIAL, 2, pairs);
+    default: return peri_cut_if(b, PERI_CUT_INITIAL, near_middle, NULL);
     }
 }
 
 static int64_t load(peri_body *b, change what) {
     const double value[2] = {1e-4, -2e-4}, right[2] = {1, 0}, wall[2] = {NX - 0.6, 0}, left[2] = {-1, 0}, centre[2] = {6, NY + 0.8};
     switch (what) {
-    case HOLD: return peri_prescribe_displacement(b, 2, PERI_Y, value, NULL, NULL);
-    case DRIVE: return peri_prescribe_velocity(b, 2, PERI_X, value, NULL, NULL);
+    case HOLD: return peri_prescribe_displacement(b, 2, PERI_AXIS_Y, value, NULL, NULL);
+    case DRIVE: return peri_prescribe_velocity(b, 2, PERI_AXIS_X, value, NULL, NULL);
     case PUSH: return peri_apply_body_force(b, 3, value, NULL, NULL);
-    case PULL: return peri_apply_traction(b, 2, NY, value, NULL, NULL);
-    case FACE: return peri_apply_surface_traction(b, 2, NY, right, value, NULL, NULL);
+    case PULL: return peri_apply_layer_traction(b, 2, NY, value, NULL, NULL);
+    case FACE: return peri_apply_traction(b, 2, NY, right, value, NULL, NULL);
     case PRESS: return peri_apply_pressure(b, PERI_ALL, 1e-4, NULL, NULL);
-    case PRESS_CRACK: return peri_apply_bond_pressure(b, PERI_ALL, 1e-4, NULL, NULL);
-    case FREE_LOAD: return peri_remove_load(b, 1);
-    case FREE_SUPPORT: return peri_remove_load(b, 0);
+    case PRESS_CRACK: return peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1e-4, NULL, NULL);
+    case FREE_LOAD: return peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 2));
+    case FREE_SUPPORT: return peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 1));
     case PLANE: return peri_add_plane_obstacle(b, wall, left, 0.0, NULL, NULL);
     case BALL: return peri_add_ball_obstacle(b, centre, 1.7, 0.0, NULL, NULL);
-    default: return peri_remove_obstacle(b, 0);
+    default: return peri_remove_obstacle(b, peri_id(b, PERI_KIND_OBSTACLE, 1));
     }
 }
 
@@ -163,8 +166,8 @@ static int64_t apply(peri_body *b, change what) {
     case NOTHING: break;
     case ADD_DISPLACEMENT: status = peri_add_displacement(b, 3, by); break;
     case ADD_VELOCITY: status = peri_add_velocity(b, PERI_ALL, by); break;
-    case WRITE_DISPLACEMENT: stir(b, PERI_DISPLACEMENT, 0.03, 7); break;
-    case WRITE_VELOCITY: stir(b, PERI_VELOCITY, 0.03, 8); break;
+    case WRITE_DISPLACEMENT: stir(b, PERI_FIELD_DISPLACEMENT, 0.03, 7); break;
+    case WRITE_VELOCITY: stir(b, PERI_FIELD_VELOCITY, 0.03, 8); break;
     case RESET: status = peri_reset(b); break;
     case MARCH: status = march(b, 3); break;
     case SOLVE: status = settle(b); break;
@@ -180,14 +183,14 @@ static int64_t apply(peri_body *b, change what) {
 /* ---- readers: each gives what it read, statuses included, and returns how many numbers ----------------------------- */
 
 static int64_t read_field(peri_body *b, int32_t field, double *out) {
-    const int64_t n = peri_field_size(b, field);
-    out[0] = peri_read(b, field, out + 1, ROOM - 1);
+    const int64_t n = peri_size_of_field(b, field);
+    out[0] = peri_get_field(b, field, out + 1, ROOM - 1);
     return 1 + n;
 }
 
 static int64_t view_force(peri_body *b, double *out) {
     peri_view v;
-    out[0] = peri_view_field(b, PERI_FORCE_DENSITY, &v);
+    out[0] = peri_view_field(b, PERI_FIELD_FORCE_DENSITY, &v);
     for (int64_t i = 0; i < v.count; ++i)
         for (int d = 0; d < 2; ++d)
             out[1 + 2 * i + d] = v.scale * ((const double *)v.data)[i * v.point_stride + d * v.component_stride];
@@ -196,14 +199,14 @@ static int64_t view_force(peri_body *b, double *out) {
 
 static int64_t read_totals(peri_body *b, double *out) {
     int64_t n = 0;
-    for (int32_t k = 0; k < 4; ++k, n += 3) out[n] = peri_read_reaction(b, k, out + n + 1);
-    for (int32_t k = 0; k < 2; ++k, n += 3) out[n] = peri_read_obstacle_force(b, k, out + n + 1);
+    for (int32_t k = 0; k < 4; ++k, n += 3) out[n] = peri_get_reaction(b, k, out + n + 1);
+    for (int32_t k = 0; k < 2; ++k, n += 3) out[n] = peri_get_obstacle_force(b, k, out + n + 1);
     return n;
 }
 
 static int64_t read_energy(peri_body *b, double *out) {
     peri_energy e;
-    out[0] = peri_read_energy(b, &e);
+    out[0] = peri_get_energy(b, &e);
     memcpy(out + 1, &e, sizeof e);
     return 1 + (int64_t)(sizeof e / sizeof(double));
 }
@@ -227,17 +230,17 @@ static int64_t multiply(peri_body *b, double *out) {
 static int64_t assemble(peri_body *b, double *out) {
     peri_matrix *m = NULL;
     int64_t n = 0;
-    out[0] = peri_assemble(b, &m);
+    out[0] = peri_matrix_create(b, &m);
     if (m) n = peri_matrix_entries(m);
     CHECK(n + 1 <= ROOM);
-    if (m) (void)peri_read_matrix(m, NULL, NULL, out + 1);
+    if (m) (void)peri_get_matrix(m, NULL, NULL, out + 1);
     peri_matrix_destroy(m);
     return 1 + n;
 }
 
 static int64_t read_motion(peri_body *b, double *out) {
-    int64_t n = read_field(b, PERI_DISPLACEMENT, out);
-    n += read_field(b, PERI_VELOCITY, out + n);
+    int64_t n = read_field(b, PERI_FIELD_DISPLACEMENT, out);
+    n += read_field(b, PERI_FIELD_VELOCITY, out + n);
     n += read_energy(b, out + n);
     return n + read_counts(b, out + n);
 }
@@ -251,19 +254,19 @@ typedef enum reader {
 
 static int64_t look(peri_body *b, reader what, double *out) {
     switch (what) {
-    case FORCE: return read_field(b, PERI_FORCE_DENSITY, out);
+    case FORCE: return read_field(b, PERI_FIELD_FORCE_DENSITY, out);
     case VIEW: return view_force(b, out);
     case TOTALS: return read_totals(b, out);
     case ENERGY: return read_energy(b, out);
     case COUNTS: return read_counts(b, out);
     case MULTIPLY: return multiply(b, out);
     case ASSEMBLE: return assemble(b, out);
-    case STRESS: return read_field(b, PERI_STRESS, out);
-    case BOND_STRESS: return read_field(b, PERI_FORCE_STRESS, out);
-    case SPREAD: return read_field(b, PERI_ENERGY_DENSITY, out);
-    case REACTION: return read_field(b, PERI_REACTION, out);
-    case DAMAGE: return read_field(b, PERI_DAMAGE, out);
-    case GROWN: return read_field(b, PERI_DAMAGE_GROWN, out);
+    case STRESS: return read_field(b, PERI_FIELD_STRESS, out);
+    case BOND_STRESS: return read_field(b, PERI_FIELD_FORCE_STRESS, out);
+    case SPREAD: return read_field(b, PERI_FIELD_ENERGY_DENSITY, out);
+    case REACTION: return read_field(b, PERI_FIELD_REACTION, out);
+    case DAMAGE: return read_field(b, PERI_FIELD_DAMAGE, out);
+    case GROWN: return read_field(b, PERI_FIELD_DAMAGE_GROWN, out);
     case STEPS: out[0] = march(b, 3); return 1 + read_motion(b, out + 1);
     default: out[0] = settle(b); return 1 + read_motion(b, out + 1);
     }
@@ -279,7 +282,7 @@ static void look_at_all(peri_body *b) {
 
 static peri_body *copy_of(const peri_body *b) {
     peri_body *copy = NULL;
-    (void)MUST(b, peri_clone(b, &copy, NULL));
+    (void)MUST(b, peri_body_clone(b, &copy, NULL));
     return copy;
 }
 
@@ -308,7 +311,7 @@ static void compare_all(peri_body *read, const peri_body *unread, int past, int 
 }
 
 /* Half of the pasts of every change in the usual run: the other half in the scene after. All with --long. */
-static int is_spared(kind k, int past, int what) { return !test_long && (past + what + k.model + k.kernel) % 2; }
+static int is_spared(kind k, int past, int what) { return !test_long && (past + what + k.law + k.kernel) % 2; }
 
 static void same_bits(kind k) {
     for (int past = 0; past < PASTS; ++past) {
@@ -328,13 +331,13 @@ static void same_bits(kind k) {
 }
 
 static const kind kinds[] = {
-    {PERI_BOND_BASED, PERI_CRITERION_STRETCH, PERI_KERNEL_BEST, 1},
-    {PERI_BOND_BASED, PERI_CRITERION_STRETCH, PERI_KERNEL_LIST, 1},
-    {PERI_LPS, PERI_CRITERION_STRETCH, PERI_KERNEL_BEST, 1},
-    {PERI_LPS, PERI_CRITERION_BOND_ENERGY, PERI_KERNEL_REFERENCE, 1},
-    {PERI_OTERKUS, PERI_CRITERION_NODE_ENERGY, PERI_KERNEL_BEST, 1},
-    {PERI_CORRESPONDENCE, PERI_CRITERION_STRETCH, PERI_KERNEL_BEST, 1},
-    {PERI_CORRESPONDENCE, PERI_CRITERION_STRETCH, PERI_KERNEL_LIST, 1},
+    {PERI_LAW_BOND_BASED, PERI_CRITERION_STRETCH, PERI_KERNEL_BEST, 1},
+    {PERI_LAW_BOND_BASED, PERI_CRITERION_STRETCH, PERI_KERNEL_LIST, 1},
+    {PERI_LAW_LPS, PERI_CRITERION_STRETCH, PERI_KERNEL_BEST, 1},
+    {PERI_LAW_LPS, PERI_CRITERION_BOND_ENERGY, PERI_KERNEL_REFERENCE, 1},
+    {PERI_LAW_OTERKUS, PERI_CRITERION_NODE_ENERGY, PERI_KERNEL_BEST, 1},
+    {PERI_LAW_CORRESPONDENCE, PERI_CRITERION_STRETCH, PERI_KERNEL_BEST, 1},
+    {PERI_LAW_CORRESPONDENCE, PERI_CRITERION_STRETCH, PERI_KERNEL_LIST, 1},
 };
 #define KINDS (sizeof kinds / sizeof *kinds)
 
@@ -381,10 +384,10 @@ static int32_t change_in_frame(void *user, peri_body *b) {
 }
 
 static int32_t run_with(peri_body *b, visit *v, int statics) {
-    peri_run r;
-    peri_statics s;
-    peri_run_init(&r);
-    peri_statics_init(&s);
+    peri_advance_desc r;
+    peri_solve_desc s;
+    peri_advance_desc_init(&r);
+    peri_solve_desc_init(&s);
     r.steps = 4;
     r.frame_steps = 2;
     r.on_frame = s.on_step = change_in_frame;
@@ -423,17 +426,17 @@ static void reading_in_on_step_leaves_no_trace(void) {
 static peri_body *anew(peri_body *b, kind k, change what) {
     const int64_t n = peri_point_count(b), width = peri_family_width(b);
     int32_t *rows = (int32_t *)calloc((size_t)(n * width), sizeof *rows);
-    double *u = get(b, PERI_DISPLACEMENT), *v = get(b, PERI_VELOCITY);
+    double *u = get(b, PERI_FIELD_DISPLACEMENT), *v = get(b, PERI_FIELD_VELOCITY);
     peri_body *fresh = unbuilt(k);
-    (void)MUST(b, peri_read_families(b, 0, n, rows, n * width));
+    (void)MUST(b, peri_get_families(b, 0, n, rows, n * width));
     for (int32_t i = 0; i < n; ++i)
         for (int64_t e = i * width; e < (i + 1) * width; ++e)
             if (rows[e] != i && peri_bond_is_intact(b, i, rows[e]) == 0) rows[e] = i;
     (void)MUST(fresh, peri_set_families(fresh, (int32_t)width, rows));
     furnish(fresh, k);
     if (what >= HOLD) (void)apply(fresh, what);
-    put(fresh, PERI_DISPLACEMENT, u);
-    put(fresh, PERI_VELOCITY, v);
+    put(fresh, PERI_FIELD_DISPLACEMENT, u);
+    put(fresh, PERI_FIELD_VELOCITY, v);
     free(rows);
     free(u);
     free(v);
@@ -499,7 +502,7 @@ static void reset_is_as_built(void) {
 static peri_energy ledger_of(peri_body *b) {
     peri_energy e;
     memset(&e, 0, sizeof e);
-    (void)MUST(b, peri_read_energy(b, &e));
+    (void)MUST(b, peri_get_energy(b, &e));
     return e;
 }
 

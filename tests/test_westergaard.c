@@ -126,11 +126,12 @@ static int32_t outermost(void *user, int64_t index, const double *x) {
     return fmax(fabs(x[0]), fabs(x[1])) > SIDE / 2 - SIDE / s->cells;
 }
 
-static void hold(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t hold(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const rim *r = (const rim *)user;
     int64_t k;
     (void)time;
     for (k = 0; k < count; ++k) exact_at(&r->x[2 * points[k]], r->s->nu, &value[2 * k]);
+    return 0;
 }
 
 /* The root of [C] 48, the integral of |u - exact|^2 over that of |exact|^2: by their size the errors of its tables are roots, too. */
@@ -173,9 +174,9 @@ static outcome solve(const study *s, int smooth) {
     static const int shapes[3] = {CONST, LINEAR, CUBIC};
     const double corner[2] = {-SIDE / 2, -SIDE / 2}, h = SIDE / s->cells, reach = 2 * s->ratio * h;
     peri_body *b = study_square(s->law, s->shape, s->ratio, s->cells, corner, SIDE, STIFF, s->nu);
-    double *x = get(b, PERI_POSITION), *u, from[2] = {0, 0}, to[2] = {0, 0}, off = 0, all = 0;
+    double *x = get(b, PERI_FIELD_POSITION), *u, from[2] = {0, 0}, to[2] = {0, 0}, off = 0, all = 0;
     int32_t rim_set, near_crack;
-    peri_statics_report report;
+    peri_solve_report report;
     outcome o;
     rim r;
     int64_t i;
@@ -185,15 +186,15 @@ static outcome solve(const study *s, int smooth) {
     r.x = x;
     to[0] = s->touched ? HALF : HALF * (1 - 1e-6);
     from[0] = -to[0];
-    CHECK(MUST(b, peri_cut_segment(b, from, to)) > 0);
+    CHECK(MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, from, to)) > 0);
     rim_set = (int32_t)MUST(b, peri_select_if(b, NULL, outermost, (void *)s));
-    (void)MUST(b, peri_prescribe_displacement(b, rim_set, PERI_X | PERI_Y, NULL, hold, &r));
+    (void)MUST(b, peri_prescribe_displacement(b, rim_set, PERI_AXIS_X | PERI_AXIS_Y, NULL, hold, &r));
     near_crack = study_box(b, -HALF - reach, -reach, HALF + reach, reach);
     if (s->consistent) (void)MUST(b, peri_apply_pressure(b, near_crack, PRESSURE, NULL, NULL));
-    else (void)MUST(b, peri_apply_bond_pressure(b, near_crack, PRESSURE, NULL, NULL));
+    else (void)MUST(b, peri_apply_bond_pressure_for_comparison(b, near_crack, PRESSURE, NULL, NULL));
     (void)MUST(b, study_solve(b, 1e-7, 20000, &report));
     o.iterations = report.iterations;
-    u = get(b, PERI_DISPLACEMENT);
+    u = get(b, PERI_FIELD_DISPLACEMENT);
     o.error = error_of(s, x, u);
     for (i = 0; i < (int64_t)s->cells * s->cells; ++i) {
         double want[2];
@@ -215,9 +216,9 @@ static outcome solve(const study *s, int smooth) {
     return o;
 }
 
-static const study_law STABLE = {PERI_CORRESPONDENCE, PERI_NO_CORRECTION, 0.2, "stable 0.2"};
-static const study_law STIFFER = {PERI_CORRESPONDENCE, PERI_NO_CORRECTION, 0.5, "stable 0.5"};
-static const study_law MOMENT = {PERI_LPS, PERI_MOMENT_CORRECTION, 0, "Silling+m"};
+static const study_law STABLE = {PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE, 0.2, "stable 0.2"};
+static const study_law STIFFER = {PERI_LAW_CORRESPONDENCE, PERI_CORRECTION_NONE, 0.5, "stable 0.5"};
+static const study_law MOMENT = {PERI_LAW_LPS, PERI_CORRECTION_MOMENT, 0, "Silling+m"};
 
 /* Solves on the grids of a list that ends with 0, and prints a line of the table. Returns the order of the errors. */
 static double series(study s, const int *grids, outcome *o) {

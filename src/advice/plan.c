@@ -24,7 +24,7 @@ PERI_API void peri_plan_desc_init(peri_plan_desc *p) {
 static int32_t peri__lay_out_estimate(peri__estimate *s) {
     peri_body *b = &s->body;
     peri__model *m = &s->model;
-    const peri_material *material = &b->materials[0];
+    const peri_material_desc *material = &b->materials[0];
     const int32_t dim = b->dim;
     double volume = 1.0;
     memset(m, 0, sizeof *m);
@@ -57,7 +57,7 @@ static int32_t peri__lay_out_estimate(peri__estimate *s) {
     m->material = s->material;
     s->volume[0] = s->volume[1] = volume;
     peri__note_law(m, &m->laws[0], material->criterion);
-    s->corrected = b->desc.correction == PERI_MOMENT_CORRECTION || (m->pairwise && b->desc.correction != PERI_NO_CORRECTION);
+    s->corrected = b->desc.correction == PERI_CORRECTION_MOMENT || (m->pairwise && b->desc.correction != PERI_CORRECTION_NONE);
 
     memset(&s->cloud, 0, sizeof s->cloud);
     s->cloud.body = b;
@@ -80,7 +80,7 @@ static int32_t peri__open_estimate(peri__estimate *s, const peri_plan_desc *plan
     peri_body *b = &s->body;
     memset(s, 0, sizeof *s);
     peri__start_body(b, plan->body);
-    PERI_NEED(b, peri__one_of(plan->source, PERI_SOURCE_COUNT_), "source");
+    PERI_NEED_CHOICE(b, source, plan->source);
     PERI_NEED(b, plan->measure == 0 || plan->measure == 1, "measure");
     PERI_NEED_NUMBER(b, plan->amount >= 0.0 && plan->amount <= 1.0, plan->amount);
     int32_t status = peri__check_material(b, plan->material, 1);
@@ -155,7 +155,7 @@ static int64_t peri__body_bytes(const peri__estimate *s) {
 static void peri__mark_list(peri__estimate *s, void *there, void *other) {
     const peri_body_desc *desc = &s->body.desc;
     peri__model *m = &s->model;
-    const int centroids = desc->quadrature == PERI_PARTIAL_CENTROID;
+    const int centroids = desc->quadrature == PERI_QUADRATURE_PARTIAL_CENTROID;
     m->bonds = s->bonds;
     m->entries = s->bonds + PERI_GROUP;
     m->order = s->width <= PERI_VECTOR_LIMIT ? (int32_t *)there : NULL;
@@ -165,7 +165,7 @@ static void peri__mark_list(peri__estimate *s, void *there, void *other) {
     m->back = s->corrected && !m->pairwise ? other : there;
     m->bond = centroids || s->width > PERI_VECTOR_LIMIT ? there : NULL;
     m->centroid = centroids ? there : NULL;
-    m->partial_volume = desc->quadrature != PERI_FULL_VOLUME ? (float *)there : NULL;
+    m->partial_volume = desc->quadrature != PERI_QUADRATURE_FULL ? (float *)there : NULL;
 }
 
 static void peri__mark_stencil(peri__estimate *s, void *there) {
@@ -408,10 +408,10 @@ static void peri__small_body(const peri__estimate *s, int64_t *cells) {
 
 /* Seconds per step of a built body: the least of some measurements, or a negative status. */
 static double peri__measure_steps(peri_body *b) {
-    peri_run run;
+    peri_advance_desc run;
     double least = 0.0;
     int done = 0;
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = 1;
     while (done < PERI_MEASUREMENTS) {
         const double from = peri__clock();
@@ -455,7 +455,7 @@ static int32_t peri__measure_plan(const peri__estimate *s, const peri_plan_desc 
         else report->seconds = seconds * ((double)report->bonds / (double)b->model->bonds);
         if (step < report->stable_step) report->stable_step = step;
     }
-    if (status < 0 && error) (void)peri_last_error(b, error);
+    if (status < 0 && error) (void)peri_get_error(b, error);
     peri_body_destroy(b);
     return status < 0 ? (int32_t)status : PERI_OK;
 }

@@ -3,13 +3,13 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted; no more than `most`, a peri_instructions or 0. */
+/* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted; no more than `most`, a peri_instructions. */
 static int32_t peri__isa(int32_t most) {
 #ifdef PERI_ISA
-    if ((most == 0 || most >= PERI_AVX512) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+    if ((most == PERI_INSTRUCTIONS_BEST || most >= PERI_INSTRUCTIONS_AVX512) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
         && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
         return 2;
-    if ((most == 0 || most >= PERI_AVX2) && __builtin_cpu_supports("avx2")) return 1;
+    if ((most == PERI_INSTRUCTIONS_BEST || most >= PERI_INSTRUCTIONS_AVX2) && __builtin_cpu_supports("avx2")) return 1;
 #endif
     (void)most;
     return 0;
@@ -38,10 +38,23 @@ static double peri__stored(double a) {
 }
 
 /* Is this a choice of an enum that counts from 1? */
-static int peri__one_of(int32_t choice, int32_t count) { return choice > 0 && choice < count; }
 
 /* Finite, without isfinite: -ffast-math compilers may fold isfinite to 1. */
+/* As the default of some settings; written out, for compilers that take numbers to be finite. */
+static int peri__is_nan(double a) {
+    uint64_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return (bits & 0x7FFFFFFFFFFFFFFFu) > 0x7FF0000000000000u;
+}
+
 static int peri__finite(double a) { return a >= -DBL_MAX && a <= DBL_MAX; }
+
+/* The first entry that is not finite. */
+static double peri__not_finite(const double *a, int32_t dim) {
+    int32_t d = 0;
+    while (d < dim - 1 && peri__finite(a[d])) ++d;
+    return a[d];
+}
 
 static int peri__finite_vector(const double *a, int32_t dim) {
     for (int32_t d = 0; d < dim; ++d)

@@ -5,53 +5,57 @@
 
 /* X(name, number, text) */
 #define PERI_STATUS_LIST(X)                                                                                            \
-    X(STOPPED, 1, "a callback asked to stop; the body is at a whole step and may go on")                               \
+    X(STOPPED, 1, "a callback asked to stop; the body is at a whole step")                                             \
     X(OK, 0, "success")                                                                                                \
-    X(ERROR_ARGUMENT, -1, "a required pointer is NULL, or a count or a choice is not one of the allowed values")       \
-    X(ERROR_DESCRIPTOR, -2, "the descriptor was not filled by its init function, or is of another version")            \
-    X(ERROR_MEMORY, -3, "the allocator returned NULL")                                                                 \
-    X(ERROR_RANGE, -4, "a number is not finite or lies outside the range of its field")                                \
-    X(ERROR_ORDER, -5, "this call comes too early or too late: points before peri_build, all else after it")           \
-    X(ERROR_MATERIAL, -6, "no such material, or a material that contradicts itself")                                   \
-    X(ERROR_POISSON, -7, "a bond-based material has a fixed Poisson ratio (1/4 in 3D and plane strain, 1/3 in plane stress); it must be") \
-    X(ERROR_INFLUENCE, -8, "the influence function is not finite here, or has no finite moments to calibrate with")    \
-    X(ERROR_POINT, -9, "a point has a position that is not finite, or a volume that is not positive and finite")       \
-    X(ERROR_COINCIDENT, -10, "two points are at the same place")                                                       \
-    X(ERROR_NO_POINTS, -11, "the body, or the shape just added, has no point")                                         \
-    X(ERROR_HORIZON, -12, "the horizon is smaller than the spacing of the points")                                     \
-    X(ERROR_FAMILY, -13, "a point has no neighbour within its horizon, or none with a weight")                         \
-    X(ERROR_IBOND, -14, "the given families are not valid: id out of range, given twice, or not mutual")               \
-    X(ERROR_TOO_LARGE, -15, "more points or bonds than 32-bit ids can number, or more than the memory can address")    \
-    X(ERROR_SET, -16, "no such set, a name that is taken, or a selection that holds no point")                         \
-    X(ERROR_ID, -17, "no such point, load or obstacle")                                                                \
-    X(ERROR_CRACK, -18, "the crack has no extent, or is of a kind that this space does not have")                      \
-    X(ERROR_PAIR, -19, "the two points share no bond")                                                                 \
-    X(ERROR_STEP, -20, "the time step is larger than the stable step, which is the value")                             \
-    X(ERROR_UNSTABLE, -21, "a point is faster than 1e9 speeds of sound or not finite: unstable step, load or start")   \
-    X(ERROR_CALLBACK, -22, "a callback wrote a number that is not finite")                                             \
-    X(ERROR_FIELD, -23, "the field cannot be used in this way: not stored, or not writable")                           \
-    X(ERROR_CAPACITY, -24, "the buffer has the wrong size; it needs the value")                                        \
-    X(ERROR_WRITE, -25, "the file could not be opened or written, or the write callback failed")                       \
-    X(ERROR_CRITERION, -26, "the failure criterion cannot act on this model, or lacks its fracture energy")            \
-    X(ERROR_MODEL, -27, "this model has no such constant, or cannot take this quadrature, interface or load")          \
-    X(ERROR_LOOSE, -28, "no support holds this part of the body against some motion")                                  \
-    X(ERROR_INDEFINITE, -29, "the tangent stiffness is not positive: buckling, softening or compression")              \
-    X(ERROR_CONVERGENCE, -30, "no equilibrium within the iterations allowed; the value is the residual over its scale") \
-    X(ERROR_LEFT_OUT, -31, "left out of this build, by the switch that the field names")
+    X(ERROR_ARGUMENT, -1, "a required pointer is NULL, or a count is wrong")                                           \
+    X(ERROR_CHOICE, -2, "not a value of this enum, or a flag that is not 0 or 1")                                      \
+    X(ERROR_DESCRIPTOR, -3, "not filled by its init function, or of another version")                                  \
+    X(ERROR_RANGE, -4, "a number is not finite or outside the range of its field")                                     \
+    X(ERROR_ORDER, -5, "too early, too late, or from a callback that may not")                                         \
+    X(ERROR_MEMORY, -6, "the allocator returned NULL")                                                                 \
+    X(ERROR_TOO_LARGE, -7, "more than the library or memory takes; see the value")                                     \
+    X(ERROR_CAPACITY, -8, "the buffer has the wrong size; it needs the value")                                         \
+    X(ERROR_ID_NONE, -9, "no id: zero, a plain number, or what a failed call returned")                                           \
+    X(ERROR_ID_KIND, -10, "an id of another kind: of a load, say, not of a set")                                       \
+    X(ERROR_ID_BODY, -11, "an id of another body")                                                                     \
+    X(ERROR_ID_GONE, -12, "nothing has this id: it was removed, or never given")                                       \
+    X(ERROR_INDEX, -13, "no point has this number")                                                                    \
+    X(ERROR_NAME, -14, "a name that is taken, or that no set has")                                                     \
+    X(ERROR_EMPTY, -15, "the body, the shape or the selection holds no point")                                         \
+    X(ERROR_MATERIAL, -16, "the material contradicts itself, or is missing")                                           \
+    X(ERROR_POISSON, -17, "bond-based: Poisson's ratio is fixed; it is the value")                                     \
+    X(ERROR_LAW, -18, "this law has no such thing, or cannot take this")                                               \
+    X(ERROR_CRITERION, -19, "the criterion cannot act on this law, or lacks its G0")                                   \
+    X(ERROR_INFLUENCE, -20, "the influence function or its moments are not finite")                                    \
+    X(ERROR_POINT, -21, "a position is not finite, or a volume not positive")                                          \
+    X(ERROR_COINCIDENT, -22, "two points are at the same place")                                                       \
+    X(ERROR_HORIZON, -23, "the horizon is smaller than the spacing of the points")                                     \
+    X(ERROR_FAMILY, -24, "a point has no neighbour, or none with a weight")                                            \
+    X(ERROR_IBOND, -25, "given families: number out of range, twice, or not mutual")                                   \
+    X(ERROR_CRACK, -26, "the crack has no extent, or is not for this space")                                           \
+    X(ERROR_PAIR, -27, "the two points share no bond")                                                                 \
+    X(ERROR_FIELD, -28, "this field cannot be used in this way: it is not stored")                                     \
+    X(ERROR_AREA, -29, "the points feel another area of the face: the value")                                          \
+    X(ERROR_STEP, -30, "the time step exceeds the stable step, which is the value")                                    \
+    X(ERROR_UNSTABLE, -31, "a point passed 1e9 speeds of sound: step, load or start")                                  \
+    X(ERROR_CALLBACK, -32, "a callback failed, or wrote what is not finite: the value")                                \
+    X(ERROR_LOOSE, -33, "no support holds this part against some motion")                                              \
+    X(ERROR_INDEFINITE, -34, "the tangent is not positive: buckling or softening")                                     \
+    X(ERROR_CONVERGENCE, -35, "no equilibrium within the iterations; value: residual")                                 \
+    X(ERROR_WRITE, -36, "the file or the write callback failed")                                                       \
+    X(ERROR_LEFT_OUT, -37, "left out of this build, by the switch that the field names")
 
 #define PERI_STATUS_NUMBER_(name, number, text) PERI_SAME_NUMBER_(name, PERI_##name == (number))
 PERI_STATUS_LIST(PERI_STATUS_NUMBER_)
-PERI_SAME_COUNT(status, PERI_STATUS_LIST, PERI_STATUS_COUNT_);
+PERI_SAME_COUNT(status, PERI_STATUS_LIST, peri__count_status);
 
-/* Without a default, so that compilers tell of a status that neither the list nor the count has. */
+/* Without a default, so that compilers tell of a status that the list has not. */
 PERI_API const char *peri_status_text(int32_t status) {
 #define PERI_STATUS_CASE_(name, number, text)                                                                          \
     case PERI_##name:                                                                                                  \
         return text;
     switch ((peri_status)status) {
         PERI_STATUS_LIST(PERI_STATUS_CASE_)
-    case PERI_STATUS_COUNT_:
-        break;
     }
 #undef PERI_STATUS_CASE_
     return "unknown status";
@@ -74,13 +78,20 @@ static int32_t peri__fail(peri_body *b, int32_t code, const char *field, int64_t
     return peri__set_error(&b->error, code, field, index, value);
 }
 
-PERI_API int32_t peri_last_error(const peri_body *b, peri_error *error) {
+/* The record is not part of what `const` promises: bodies are made by the library, and none of them is a const object. */
+static int32_t peri__fail_const(const peri_body *b, int32_t code, const char *field, int64_t index, double value) {
+    return peri__fail((peri_body *)b, code, field, index, value);
+}
+
+PERI_API int32_t peri_version(void) { return PERI_VERSION_NUMBER; }
+
+PERI_API int32_t peri_get_error(const peri_body *b, peri_error *error) {
     if (!b || !error) return PERI_ERROR_ARGUMENT;
     *error = b->error;
     return PERI_OK;
 }
 
-PERI_API int64_t peri_error_format(const peri_error *error, char *buffer, int64_t capacity) {
+PERI_API int64_t peri_format_error(const peri_error *error, char *buffer, int64_t capacity) {
     char numbers[96] = "", *end = numbers;
     if (!error || !error->field || !error->text || capacity < 0 || (!buffer && capacity > 0)) return PERI_ERROR_ARGUMENT;
     if (error->index >= 0) end = peri__put_integer(peri__put_text(end, " index "), error->index);
@@ -136,6 +147,10 @@ static const char *peri__field_name(const char *expression) {
 #define PERI_NEED_VECTOR(b, vector)                                                                                    \
     PERI_NEED(b, vector, #vector);                                                                                     \
     if (!peri__finite_vector(vector, (b)->dim)) return peri__fail((b), PERI_ERROR_RANGE, #vector, -1, 0.0)
+#define PERI_NEED_CHOICE(b, group, choice)                                                                             \
+    if (!PERI_IS_ONE_OF(group, choice)) return peri__fail((b), PERI_ERROR_CHOICE, peri__field_name(#choice), -1, (double)(choice))
+#define PERI_NEED_FLAG(b, flag)                                                                                        \
+    if ((flag) != 0 && (flag) != 1) return peri__fail((b), PERI_ERROR_CHOICE, peri__field_name(#flag), -1, (double)(flag))
 #define PERI_NEED_NUMBER(b, condition, number)                                                                         \
     if (!(peri__finite(number) && (condition)))                                                                        \
         return peri__fail((b), PERI_ERROR_RANGE, peri__field_name(#number), -1, number)
@@ -146,9 +161,3 @@ static const char *peri__field_name(const char *expression) {
 #define PERI_NEED_IDLE(b)                                                                                              \
     PERI_NEED_BUILT(b);                                                                                                \
     if ((b)->running) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)
-
-static int32_t peri__check_material_id(peri_body *b, int32_t material) {
-    if (material < 0 || material >= b->material_count)
-        return peri__fail(b, PERI_ERROR_MATERIAL, "material", material, 0.0);
-    return PERI_OK;
-}

@@ -15,7 +15,7 @@
 
    Words, one meaning each. Bodies and families:
      model     peri__model: the discretisation that peri_build makes. The constitutive law of a material is its law
-     law       peri__law: the elasticity of a material; its number is the `model` of peri_material
+     law       peri__law: the elasticity of a material; its kind is the `law` of peri_material_desc
      family    the points within the horizon of a point; its bonds are directed, from the point outwards
      row       the family of one point, in one form wherever it is stored (peri__row)
      list      families as rows one after the other; an entry is an index into it, a place a point's index in the order of its rows
@@ -111,7 +111,7 @@ typedef enum peri__seen { /* how passes on vectors see that a bond may be over a
 
 typedef struct peri__pair { /* constants of the bonds between two materials, in inner units                               */
     double c; /* of the end whose row this is; the same from both where both laws are pairwise                           */
-    double limit[PERI_CRITERION_COUNT_]; /* by criterion; PERI_NEVER where neither material has it                       */
+    double limit[peri__count_criterion]; /* by criterion; PERI_NEVER where neither material has it                       */
     double s0; /* the least limit of those seen by stretch: over it a bond breaks                                        */
 } peri__pair;
 
@@ -122,7 +122,7 @@ typedef enum peri__gather { /* what a point makes of its family before forces ca
 } peri__gather;
 
 typedef struct peri__law { /* the elasticity of a material, inner units                                                   */
-    int32_t model;
+    int32_t kind;              /* peri_law                                                                               */
     int32_t gather, gauge, pairwise; /* what its points gather; g = |xi|^gauge; 1: no constants, c of the pair. See law.h */
     double  young, lambda, mu; /* lambda: of the plane, lambda' = E nu/(1-nu^2) in plane stress                          */
     double  a, b;              /* A, B of LPS                                                                            */
@@ -143,7 +143,7 @@ typedef enum peri__constant {
 
 typedef struct peri__interface {
     int32_t       i, j;
-    peri_material material;
+    peri_material_desc material;
 } peri__interface;
 
 typedef struct peri__ops peri__ops;
@@ -357,8 +357,9 @@ typedef struct peri__multilevel peri__multilevel;
 
 typedef struct peri__solver { /* what a static solve takes, and gives back at its end                                     */
     peri_body          *body;
-    const peri_statics *settings;
-    peri_statics_report report;
+    const peri_solve_desc *settings;
+    double              load_from; /* where the load factor begins                                                       */
+    peri_solve_report   report;
     peri__krylov        k;
     peri__tangent       t;
     void               *blocks;   /* real [packed][stride]                                                               */
@@ -412,6 +413,7 @@ typedef enum peri__stale {
 typedef struct peri__progress {
     int64_t      cut, broken, steps; /* cut, broken: directed                                                            */
     double       time;               /* [T], the caller's unit: a run ends at its duration to the last bit               */
+    int32_t      loaded;             /* 1: loads have acted, by a solve or a run                                       */
     double       load_factor;        /* of constant loads and supports; the time of callbacks where `still`              */
     int32_t      still;              /* 1: the last motion was a static one                                              */
     uint32_t     stale;              /* bits of peri__stale                                                              */
@@ -450,9 +452,10 @@ struct peri_body {
     peri_body_desc desc;
     peri__memory   memory;
     peri_error     error;
+    int32_t        number;  /* of the body in its ids, 1..127                                                            */
     int32_t        dim, f32, b32; /* single precision: of the state; of the arithmetic of bonds, weights and constants   */
 
-    peri_material    materials[PERI_MATERIAL_LIMIT];
+    peri_material_desc    materials[PERI_MATERIAL_LIMIT];
     int32_t          material_count;
     peri__interface *interfaces;
     int64_t          interface_count, interface_capacity;
@@ -491,7 +494,7 @@ struct peri_body {
     void     *change_response; /* and of the response                                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
-    peri__derived derived[PERI_FIELD_COUNT_]; /* by field                                                                */
+    peri__derived derived[peri__count_field]; /* by field                                                                */
 
     peri__set      *sets;
     int64_t         set_count, set_capacity;

@@ -186,7 +186,7 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
     for (int k = 0; k < PERI_ARRAYS; ++k)
         held[arrays[k].purpose] += peri__held_bytes(peri__array_of(b, &arrays[k]), arrays[k].count, arrays[k].size);
     for (int k = 0; k < 3; ++k) held[PERI__STATE] += peri__held_bytes(vectors[k], peri__vector_reals(m), peri__real(b));
-    for (int k = 0; k < PERI_FIELD_COUNT_; ++k)
+    for (int k = 0; k < peri__count_field; ++k)
         held[PERI__FIELDS] += peri__held_bytes(b->derived[k].data, m->points * b->derived[k].components, sizeof(double));
     int64_t loads = peri__held_bytes(b->sets, b->set_capacity, sizeof *b->sets);
     loads += peri__held_bytes(b->loads, b->load_capacity, sizeof *b->loads);
@@ -213,7 +213,7 @@ static int64_t peri__held_total(const int64_t *held) {
     return total;
 }
 
-PERI_API int32_t peri_read_memory(const peri_body *b, peri_memory *memory) {
+PERI_API int32_t peri_get_memory(const peri_body *b, peri_memory *memory) {
     int64_t held[PERI__PURPOSES] = { 0 };
     if (!b || !memory) return PERI_ERROR_ARGUMENT;
     if (b->model) peri__count_model(b, b->model, held);

@@ -9,31 +9,33 @@ PERI_API void peri_body_desc_init(peri_body_desc *d) {
     if (!d) return;
     memset(d, 0, sizeof *d);
     d->cookie = PERI_COOKIE_BODY;
-    d->precision = PERI_F64;
-    d->geometry = PERI_NONLINEAR;
+    d->precision = PERI_PRECISION_DOUBLE;
+    d->geometry = PERI_GEOMETRY_NONLINEAR;
     d->influence = PERI_INFLUENCE_CONSTANT;
-    d->quadrature = PERI_FULL_VOLUME;
+    d->quadrature = PERI_QUADRATURE_FULL;
     d->break_timing = PERI_BREAK_AT_STEP_END;
-    d->correction = PERI_NO_CORRECTION;
+    d->correction = PERI_CORRECTION_NONE;
+    d->kernel = PERI_KERNEL_BEST;
+    d->instructions = PERI_INSTRUCTIONS_BEST;
     d->ledger = 1;
     d->thickness = 1.0;
 }
 
 /* The name of the first field out of range, or NULL. */
 static const char *peri__bad_choice(const peri_body_desc *d) {
-    if (!peri__one_of(d->space, PERI_SPACE_COUNT_)) return "space";
-    if (d->precision != PERI_F64 && d->precision != PERI_F32 && d->precision != PERI_MIXED) return "precision";
-    if (!peri__one_of(d->geometry, PERI_GEOMETRY_COUNT_)) return "geometry";
-    if (!peri__one_of(d->influence, PERI_INFLUENCE_COUNT_)) return "influence";
+    if (!PERI_IS_ONE_OF(space, d->space)) return "space";
+    if (!PERI_IS_ONE_OF(precision, d->precision)) return "precision";
+    if (!PERI_IS_ONE_OF(geometry, d->geometry)) return "geometry";
+    if (!PERI_IS_ONE_OF(influence, d->influence)) return "influence";
     if (d->influence == PERI_INFLUENCE_USER && !d->influence_fn) return "influence_fn";
-    if (!peri__one_of(d->quadrature, PERI_QUADRATURE_COUNT_)) return "quadrature";
-    if (d->space == PERI_SOLID && peri__is_planar(d->quadrature)) return "quadrature";
-    if (!peri__one_of(d->break_timing, PERI_BREAK_TIMING_COUNT_)) return "break_timing";
-    if (!peri__one_of(d->correction, PERI_CORRECTION_COUNT_)) return "correction";
-    if (d->correction != PERI_NO_CORRECTION && peri__is_planar(d->quadrature)) return "correction";
+    if (!PERI_IS_ONE_OF(quadrature, d->quadrature)) return "quadrature";
+    if (d->space == PERI_SPACE_SOLID && peri__is_planar(d->quadrature)) return "quadrature";
+    if (!PERI_IS_ONE_OF(break_timing, d->break_timing)) return "break_timing";
+    if (!PERI_IS_ONE_OF(correction, d->correction)) return "correction";
+    if (d->correction != PERI_CORRECTION_NONE && peri__is_planar(d->quadrature)) return "correction";
     if (d->threads < 0) return "threads";
-    if (d->kernel < 0 || d->kernel >= PERI_KERNEL_COUNT_) return "kernel";
-    if (d->instructions < 0 || d->instructions >= PERI_INSTRUCTIONS_COUNT_) return "instructions";
+    if (!PERI_IS_ONE_OF(kernel, d->kernel)) return "kernel";
+    if (!PERI_IS_ONE_OF(instructions, d->instructions)) return "instructions";
     if ((d->allocate == NULL) != (d->release == NULL)) return "allocate, release";
     return NULL;
 }
@@ -41,10 +43,10 @@ static const char *peri__bad_choice(const peri_body_desc *d) {
 /* The switch that left a space or a precision out of this build, or NULL. */
 static const char *peri__without_space(int32_t space) {
 #ifdef PERI_NO_2D
-    if (space != PERI_SOLID) return "PERI_NO_2D";
+    if (space != PERI_SPACE_SOLID) return "PERI_NO_2D";
 #endif
 #ifdef PERI_NO_3D
-    if (space == PERI_SOLID) return "PERI_NO_3D";
+    if (space == PERI_SPACE_SOLID) return "PERI_NO_3D";
 #endif
     (void)space;
     return NULL;
@@ -52,13 +54,13 @@ static const char *peri__without_space(int32_t space) {
 
 static const char *peri__without_precision(int32_t precision) {
 #ifdef PERI_NO_F64
-    if (precision == PERI_F64) return "PERI_NO_F64";
+    if (precision == PERI_PRECISION_DOUBLE) return "PERI_NO_F64";
 #endif
 #ifdef PERI_NO_MIXED
-    if (precision == PERI_MIXED) return "PERI_NO_MIXED";
+    if (precision == PERI_PRECISION_MIXED) return "PERI_NO_MIXED";
 #endif
 #ifdef PERI_NO_F32
-    if (precision == PERI_F32) return "PERI_NO_F32";
+    if (precision == PERI_PRECISION_SINGLE) return "PERI_NO_F32";
 #endif
     (void)precision;
     return NULL;
@@ -101,9 +103,10 @@ static peri__progress peri__at_start(int64_t cut) {
 static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->desc = *desc;
     b->memory = peri__hooks(desc);
-    b->dim = desc->space == PERI_SOLID ? 3 : 2;
-    b->f32 = desc->precision == PERI_F32;
-    b->b32 = desc->precision != PERI_F64;
+    b->dim = desc->space == PERI_SPACE_SOLID ? 3 : 2;
+    b->f32 = desc->precision == PERI_PRECISION_SINGLE;
+    b->b32 = desc->precision != PERI_PRECISION_DOUBLE;
+    b->number = desc->number > 0 ? desc->number : peri__number_of(b);
     b->now = peri__at_start(0);
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
 }
@@ -139,11 +142,11 @@ static void peri__release_model(const peri_body *b, peri__model *m) {
 /* What a material that is used asks of the body. */
 static void peri__note_law(peri__model *m, const peri__law *law, int32_t criterion) {
     m->seen_by |= peri__seen_by(criterion);
-    if (m->law != 0 && m->law != law->model) m->mixed = 1;
+    if (m->law != 0 && m->law != law->kind) m->mixed = 1;
     m->pairwise = law->pairwise && (m->law == 0 || m->pairwise);
     m->gathers |= law->gather;
     m->gauge = law->gauge;
-    m->law = law->model;
+    m->law = law->kind;
 }
 
 /* Are the modulus and density of material i, in those of the body, within what bonds and states can be reckoned with? */
@@ -315,7 +318,7 @@ static void peri__free_state(peri_body *b) {
         peri__delete(memory, peri__array_of(b, &arrays[k]), arrays[k].count, arrays[k].size);
         peri__set_array(b, &arrays[k], NULL);
     }
-    for (int k = 0; k < PERI_FIELD_COUNT_; ++k) {
+    for (int k = 0; k < peri__count_field; ++k) {
         peri__delete(memory, b->derived[k].data, m->points * b->derived[k].components, sizeof(double));
         b->derived[k].data = NULL;
     }
@@ -380,7 +383,7 @@ static int32_t peri__update_classes(peri_body *b) {
         for (int32_t q = 0; q < b->classes; ++q) {
             peri__pair *pair = &b->pairs[p * b->classes + q];
             *pair = m->pairs[p % n * n + q % n];
-            for (int32_t k = 0; (p >= n || q >= n) && k < PERI_CRITERION_COUNT_; ++k) pair->s0 = pair->limit[k] = PERI_NEVER;
+            for (int32_t k = 0; (p >= n || q >= n) && k < peri__count_criterion; ++k) pair->s0 = pair->limit[k] = PERI_NEVER;
         }
     for (int64_t i = 0; b->point_class && i < m->points; ++i)
         b->point_class[i] = (uint8_t)(m->material[i] + (b->no_fail && b->no_fail[i] ? n : 0));
@@ -419,7 +422,7 @@ PERI_API int32_t peri_build(peri_body *b) {
     int64_t points = b->setup.point_count, blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
     int32_t status;
     if (b->material_count == 0) return peri__fail(b, PERI_ERROR_MATERIAL, "material", -1, 0.0);
-    if (points == 0) return peri__fail(b, PERI_ERROR_NO_POINTS, "points", -1, 0.0);
+    if (points == 0) return peri__fail(b, PERI_ERROR_EMPTY, "points", -1, 0.0);
 
     memset(&cloud, 0, sizeof cloud);
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
@@ -469,4 +472,11 @@ PERI_API void peri_body_destroy(peri_body *b) {
     peri__free_setup(b);
     peri__delete(&memory, b->interfaces, b->interface_capacity, sizeof *b->interfaces);
     peri__delete(&memory, b, 1, sizeof *b);
+}
+
+PERI_API int32_t peri_unlock(peri_body *b) {
+    PERI_NEED_BODY(b);
+    if (!b->running) return peri__fail(b, PERI_ERROR_ORDER, "peri_unlock", -1, 0.0);
+    b->running = PERI__IDLE;
+    return PERI_OK;
 }

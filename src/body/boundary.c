@@ -22,14 +22,14 @@ static void peri__assign_support(peri_body *b, int64_t s) {
     }
 }
 
+/* Returns where in b->loads it is. `set` as inside; axes: bits. */
 static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
                               void *user) {
     peri__load load;
     int support = kind != PERI__FORCE;
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
     PERI_NEED(b, value || fn || support, "value");
-    PERI_NEED(b, axes > 0 && axes < 1 << b->dim, "axes");
+    int32_t status = peri__check_room(b, PERI_KIND_LOAD, PERI_ID_LIMIT, "load");
+    if (status < 0) return status;
     if (value && !peri__finite_vector(value, b->dim)) return peri__fail(b, PERI_ERROR_RANGE, "value", -1, 0.0);
     memset(&load, 0, sizeof load);
     load.kind = kind;
@@ -57,47 +57,59 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
     return (int32_t)(b->load_count - 1);
 }
 
+/* The id of a load, of where it is, or the error instead. */
+static int32_t peri__load_id(const peri_body *b, int32_t at) { return at < 0 ? at : peri__id(b, PERI_KIND_LOAD, at); }
+
+static int32_t peri__prescribe(peri_body *b, int32_t kind, int32_t id, int32_t axes, const double *value, peri_load_fn fn, void *user) {
+    const int32_t all = b->dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY, none = PERI_AXIS_X & PERI_AXIS_Y;
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
+    if ((axes & none) != none || (axes & ~all) != 0 || axes == none) return peri__fail(b, PERI_ERROR_CHOICE, "axes", -1, axes);
+    return peri__load_id(b, peri__add_load(b, kind, set, axes & ~none, value, fn, user));
+}
+
 PERI_API int32_t peri_prescribe_displacement(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
                                              void *user) {
     PERI_NEED_CHANGEABLE(b);
-    return peri__add_load(b, PERI__DISPLACEMENT, set, axes, value, fn, user);
+    return peri__prescribe(b, PERI__DISPLACEMENT, set, axes, value, fn, user);
 }
 
 PERI_API int32_t peri_prescribe_velocity(peri_body *b, int32_t set, int32_t axes, const double *value, peri_load_fn fn,
                                          void *user) {
     PERI_NEED_CHANGEABLE(b);
-    return peri__add_load(b, PERI__VELOCITY, set, axes, value, fn, user);
+    return peri__prescribe(b, PERI__VELOCITY, set, axes, value, fn, user);
 }
 
 PERI_API int32_t peri_apply_body_force(peri_body *b, int32_t set, const double *value, peri_load_fn fn, void *user) {
     PERI_NEED_CHANGEABLE(b);
-    return peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
+    const int32_t at = peri__find_set(b, set);
+    return at < 0 ? at : peri__load_id(b, peri__add_load(b, PERI__FORCE, at, (1 << b->dim) - 1, value, fn, user));
 }
 
-PERI_API int32_t peri_apply_traction(peri_body *b, int32_t set, double area, const double *value, peri_load_fn fn,
-                                     void *user) {
+PERI_API int32_t peri_apply_layer_traction(peri_body *b, int32_t id, double area, const double *value, peri_load_fn fn,
+                                           void *user) {
     double volume = 0.0;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_NUMBER(b, area > 0.0, area);
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
     const peri__model *m = b->model;
     for (int64_t k = 0; k < peri__set_count(b, set); ++k) volume += m->volume[peri__set_point(b, set, k)];
-    status = peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
-    if (status >= 0) b->loads[status].per_value = area / (volume * pow(m->length, b->dim));
-    return status;
+    const int32_t at = peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
+    if (at >= 0) b->loads[at].per_value = area / (volume * pow(m->length, b->dim));
+    return peri__load_id(b, at);
 }
 
-static int32_t peri__check_load(peri_body *b, int32_t load) {
-    if (load < 0 || load >= b->load_count || b->loads[load].kind == PERI__FREE)
-        return peri__fail(b, PERI_ERROR_ID, "load", load, 0.0);
-    return PERI_OK;
+/* Where a load is, or why its id, which `field` holds, is none. */
+static int64_t peri__find_load(peri_body *b, int32_t id, const char *field) {
+    const int64_t at = peri__find(b, PERI_KIND_LOAD, id, field);
+    return at >= 0 && b->loads[at].kind == PERI__FREE ? peri__fail(b, PERI_ERROR_ID_GONE, field, id, 0.0) : at;
 }
 
-PERI_API int32_t peri_remove_load(peri_body *b, int32_t load) {
+PERI_API int32_t peri_remove_load(peri_body *b, int32_t id) {
     PERI_NEED_CHANGEABLE(b);
-    int32_t status = peri__check_load(b, load);
-    if (status < 0) return status;
+    const int64_t load = peri__find_load(b, id, "load");
+    if (load < 0) return (int32_t)load;
     const int support = b->loads[load].owned != NULL;
     peri__free_load(b, &b->loads[load]);
     b->loads[load].kind = PERI__FREE;
@@ -114,6 +126,8 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
     const peri__model *m = b->model;
     int64_t vector = m->stride * m->dim;
     PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
+    int32_t status = peri__check_room(b, PERI_KIND_OBSTACLE, PERI_ID_LIMIT, "obstacle");
+    if (status < 0) return status;
     peri__inner(b, place, obstacle->position);
     for (int32_t d = 0; d < b->dim; ++d) /* beyond 1e15 spacings the surface of a ball is lost in rounding */
         if (!(fabs(obstacle->position[d]) < (obstacle->kind == PERI__BALL ? 1e15 : DBL_MAX)))
@@ -127,7 +141,7 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
     if (!b->push) return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
     b->obstacles[b->obstacle_count++] = *obstacle;
     peri__changed(b, PERI__ACTION);
-    return (int32_t)(b->obstacle_count - 1);
+    return peri__id(b, PERI_KIND_OBSTACLE, b->obstacle_count - 1);
 }
 
 PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, const double *normal, double stiffness,
@@ -158,16 +172,15 @@ PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, doub
     return peri__add_obstacle(b, &obstacle, centre, stiffness);
 }
 
-static int32_t peri__check_obstacle(peri_body *b, int32_t obstacle) {
-    if (obstacle < 0 || obstacle >= b->obstacle_count || b->obstacles[obstacle].kind == PERI__REMOVED)
-        return peri__fail(b, PERI_ERROR_ID, "obstacle", obstacle, 0.0);
-    return PERI_OK;
+static int64_t peri__find_obstacle(peri_body *b, int32_t id) {
+    const int64_t at = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
+    return at >= 0 && b->obstacles[at].kind == PERI__REMOVED ? peri__fail(b, PERI_ERROR_ID_GONE, "obstacle", id, 0.0) : at;
 }
 
-PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t obstacle) {
+PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t id) {
     PERI_NEED_CHANGEABLE(b);
-    int32_t status = peri__check_obstacle(b, obstacle);
-    if (status < 0) return status;
+    const int64_t obstacle = peri__find_obstacle(b, id);
+    if (obstacle < 0) return (int32_t)obstacle;
     b->obstacles[obstacle].kind = PERI__REMOVED;
     peri__changed(b, PERI__ACTION);
     return PERI_OK;

@@ -64,7 +64,7 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
     return ok && b->sets && b->loads;
 }
 
-PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error *error) {
+PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_error *error) {
     peri_body *b;
     (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
     if (copy) *copy = NULL;
@@ -76,6 +76,7 @@ PERI_API int32_t peri_clone(const peri_body *from, peri_body **copy, peri_error 
     peri__start_body(b, &from->desc);
     memcpy(b->materials, from->materials, sizeof b->materials);
     b->material_count = from->material_count;
+    b->number = from->number;
     b->model = from->model;
     b->ops = from->ops;
     b->classes = from->classes;
@@ -148,11 +149,13 @@ PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->now.steps :
 
 PERI_API double peri_time(const peri_body *b) { return b ? b->now.time : 0.0; }
 
-PERI_API int32_t peri_read_families(peri_body *b, int64_t first, int64_t count, int32_t *rows, int64_t capacity) {
+PERI_API double peri_load_factor(const peri_body *b) { return b && b->now.loaded ? b->now.load_factor : 0.0; }
+
+PERI_API int32_t peri_get_families(peri_body *b, int64_t first, int64_t count, int32_t *rows, int64_t capacity) {
     PERI_NEED_BUILT(b);
     PERI_NEED(b, rows, "rows");
     if (first < 0 || count < 0 || first > b->model->points || count > b->model->points - first)
-        return peri__fail(b, PERI_ERROR_ID, "first, count", first, (double)count);
+        return peri__fail(b, PERI_ERROR_INDEX, "first", first, (double)count);
     if (capacity < count * b->model->width)
         return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)(count * b->model->width));
     for (int64_t i = first; i < first + count; ++i) {

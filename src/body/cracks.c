@@ -61,18 +61,21 @@ static void peri__add_face(peri__crack *c, const double *normal, const double *p
 }
 
 /* Flags for cuts, taken on the first: alive for every bond, and which of them is not part of the initial crack. */
-static int32_t peri__need_flags(peri_body *b) {
-    if (b->now.steps == 0 && !b->uncut) b->uncut = peri__new_flags(b);
-    if ((b->now.steps == 0 && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
+static int32_t peri__need_flags(peri_body *b, int32_t standing) {
+    PERI_NEED_CHOICE(b, standing, standing);
+    const int initial = standing == PERI_CUT_INITIAL;
+    if (initial && b->now.steps > 0) return peri__fail(b, PERI_ERROR_ORDER, "standing", -1, standing);
+    if (initial && !b->uncut) b->uncut = peri__new_flags(b);
+    if ((initial && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
     return PERI_OK;
 }
 
 /* Cuts bond k of row i, one direction; returns 1 where it was whole. */
-static int peri__cut_one(peri_body *b, int64_t i, int64_t k) {
+static int peri__cut_one(peri_body *b, int32_t standing, int64_t i, int64_t k) {
     uint32_t flag = (uint32_t)1 << (k % 32), *alive = &b->alive[i * b->model->words + k / 32];
     if (!(*alive & flag)) return 0;
     *alive &= ~flag;
-    if (b->now.steps == 0) {
+    if (standing == PERI_CUT_INITIAL) {
         b->uncut[i * b->model->words + k / 32] &= ~flag;
         b->now.cut++;
     } else {
@@ -84,7 +87,14 @@ static int peri__cut_one(peri_body *b, int64_t i, int64_t k) {
 typedef struct peri__cutter {
     peri_body         *body;
     const peri__crack *crack;
+    int32_t            standing;
 } peri__cutter;
+
+/* Component d of where point i is cut, inner units. */
+static double peri__cut_at(const peri_body *b, int32_t standing, int64_t i, int32_t d) {
+    const int64_t at = d * b->model->stride + i;
+    return peri__get_real(b->model->x, b->f32, at) + (standing == PERI_CUT_IN_PLACE ? peri__get_real(b->u, b->f32, at) : 0.0);
+}
 
 /* Each row cuts its own direction. The test takes the ends in ascending order, so both directions agree to the last bit. */
 static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
@@ -96,42 +106,43 @@ static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sum
     for (int64_t i = begin; i < end; ++i) {
         double xi[3], xj[3];
         peri__read_row(b, i, &row);
-        for (int32_t d = 0; d < dim; ++d) xi[d] = peri__get_real(m->x, b->f32, d * m->stride + i);
+        for (int32_t d = 0; d < dim; ++d) xi[d] = peri__cut_at(b, cutter->standing, i, d);
         for (int64_t k = 0; k < row.count; ++k) {
             int64_t j = row.ids[k];
             uint32_t flag = (uint32_t)1 << (k % 32), *alive = &b->alive[i * m->words + k / 32];
             int near_crack = 1;
             for (int32_t d = 0; d < dim; ++d) {
-                xj[d] = peri__get_real(m->x, b->f32, d * m->stride + j);
+                xj[d] = peri__cut_at(b, cutter->standing, j, d);
                 near_crack = near_crack && (xi[d] >= cutter->crack->lo[d] || xj[d] >= cutter->crack->lo[d])
                           && (xi[d] <= cutter->crack->hi[d] || xj[d] <= cutter->crack->hi[d]);
             }
             if (!near_crack || !(*alive & flag)) continue;
             if (!peri__meets(cutter->crack, i < j ? xi : xj, i < j ? xj : xi, dim)) continue;
             *alive &= ~flag;
-            if (b->now.steps == 0) b->uncut[i * m->words + k / 32] &= ~flag;
+            if (cutter->standing == PERI_CUT_INITIAL) b->uncut[i * m->words + k / 32] &= ~flag;
             sums->n++;
         }
     }
 }
 
-static int64_t peri__apply_crack(peri_body *b, const peri__crack *crack) {
+static int64_t peri__apply_crack(peri_body *b, int32_t standing, const peri__crack *crack) {
     peri__cutter cutter;
-    int32_t status = peri__need_flags(b);
+    int32_t status = peri__need_flags(b, standing);
     if (status < 0) return status;
     peri__changed(b, PERI__CUTS);
     cutter.body = b;
     cutter.crack = crack;
+    cutter.standing = standing;
     peri__for_points(b, b->model->points, 2 * b->model->width, peri__cut_block, &cutter, b->sums);
     int64_t cut = peri__total(b->sums, b->model->points).n;
-    if (b->now.steps == 0) b->now.cut += cut;
+    if (standing == PERI_CUT_INITIAL) b->now.cut += cut;
     else b->now.broken += cut;
     if (cut == 0) peri__log(b, 1, "the crack meets no bond that was whole");
     return cut / 2;
 }
 
 /* The flat convex polygon with `count` vertices (2 in 2D, 3 or 4 in 3D), thickened by the tolerance. */
-static int64_t peri__cut_polygon(peri_body *b, int count, double vertex[4][3]) {
+static int64_t peri__cut_polygon(peri_body *b, int32_t standing, int count, double vertex[4][3]) {
     peri__crack crack;
     int32_t dim = b->dim;
     double touch = peri__touching(b), normal[3] = { 0.0, 0.0, 0.0 };
@@ -171,13 +182,13 @@ static int64_t peri__cut_polygon(peri_body *b, int count, double vertex[4][3]) {
         crack.lo[d] -= 2.0 * touch;
         crack.hi[d] += 2.0 * touch;
     }
-    return peri__apply_crack(b, &crack);
+    return peri__apply_crack(b, standing, &crack);
 }
 
 #define PERI_NEED_SPACE(b, need)                                                                                       \
     if ((b)->dim != (need)) return peri__fail((b), PERI_ERROR_CRACK, "space", -1, (b)->dim)
 
-PERI_API int64_t peri_cut_segment(peri_body *b, const double *from, const double *to) {
+PERI_API int64_t peri_cut_segment(peri_body *b, int32_t standing, const double *from, const double *to) {
     double vertex[4][3];
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 2);
@@ -185,10 +196,10 @@ PERI_API int64_t peri_cut_segment(peri_body *b, const double *from, const double
     PERI_NEED_VECTOR(b, to);
     peri__inner(b, from, vertex[0]);
     peri__inner(b, to, vertex[1]);
-    return peri__cut_polygon(b, 2, vertex);
+    return peri__cut_polygon(b, standing, 2, vertex);
 }
 
-PERI_API int64_t peri_cut_polyline(peri_body *b, int64_t count, const double *vertices) {
+PERI_API int64_t peri_cut_polyline(peri_body *b, int32_t standing, int64_t count, const double *vertices) {
     int64_t cut = 0;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 2);
@@ -204,14 +215,14 @@ PERI_API int64_t peri_cut_polyline(peri_body *b, int64_t count, const double *ve
         if (k > 0 && !(length > 0.0 && peri__finite(length))) return peri__fail(b, PERI_ERROR_CRACK, "vertices", k, 0.0);
     }
     for (int64_t k = 0; k + 1 < count; ++k) {
-        int64_t more = peri_cut_segment(b, &vertices[2 * k], &vertices[2 * k + 2]);
+        int64_t more = peri_cut_segment(b, standing, &vertices[2 * k], &vertices[2 * k + 2]);
         if (more < 0) return more;
         cut += more;
     }
     return cut;
 }
 
-PERI_API int64_t peri_cut_triangle(peri_body *b, const double *p, const double *q, const double *r) {
+PERI_API int64_t peri_cut_triangle(peri_body *b, int32_t standing, const double *p, const double *q, const double *r) {
     double vertex[4][3];
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 3);
@@ -221,10 +232,10 @@ PERI_API int64_t peri_cut_triangle(peri_body *b, const double *p, const double *
     peri__inner(b, p, vertex[0]);
     peri__inner(b, q, vertex[1]);
     peri__inner(b, r, vertex[2]);
-    return peri__cut_polygon(b, 3, vertex);
+    return peri__cut_polygon(b, standing, 3, vertex);
 }
 
-PERI_API int64_t peri_cut_rectangle(peri_body *b, const double *corner, const double *edge1, const double *edge2) {
+PERI_API int64_t peri_cut_rectangle(peri_body *b, int32_t standing, const double *corner, const double *edge1, const double *edge2) {
     double vertex[4][3];
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_SPACE(b, 3);
@@ -237,10 +248,10 @@ PERI_API int64_t peri_cut_rectangle(peri_body *b, const double *corner, const do
         vertex[2][d] = vertex[1][d] + edge2[d] / b->model->length;
         vertex[3][d] = vertex[0][d] + edge2[d] / b->model->length;
     }
-    return peri__cut_polygon(b, 4, vertex);
+    return peri__cut_polygon(b, standing, 4, vertex);
 }
 
-PERI_API int64_t peri_cut_disc(peri_body *b, const double *centre, const double *normal, double radius) {
+PERI_API int64_t peri_cut_disc(peri_body *b, int32_t standing, const double *centre, const double *normal, double radius) {
     peri__crack crack;
     double opposite[3], touch;
     PERI_NEED_CHANGEABLE(b);
@@ -261,10 +272,10 @@ PERI_API int64_t peri_cut_disc(peri_body *b, const double *centre, const double 
     }
     peri__add_face(&crack, crack.axis, crack.centre, touch, 3);
     peri__add_face(&crack, opposite, crack.centre, touch, 3);
-    return peri__apply_crack(b, &crack);
+    return peri__apply_crack(b, standing, &crack);
 }
 
-PERI_API int64_t peri_cut_pairs(peri_body *b, int64_t count, const int32_t *pairs) {
+PERI_API int64_t peri_cut_pairs(peri_body *b, int32_t standing, int64_t count, const int32_t *pairs) {
     int64_t cut = 0;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED(b, count >= 0, "count");
@@ -272,26 +283,26 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int64_t count, const int32_t *pair
     for (int64_t k = 0; k < count; ++k) {
         int32_t i = pairs[2 * k], j = pairs[2 * k + 1];
         if (i < 0 || j < 0 || i >= b->model->points || j >= b->model->points)
-            return peri__fail(b, PERI_ERROR_ID, "pairs", k, i < 0 || i >= b->model->points ? i : j);
+            return peri__fail(b, PERI_ERROR_INDEX, "pairs", k, i < 0 || i >= b->model->points ? i : j);
         if (peri__find_bond(b->model, i, j) < 0) return peri__fail(b, PERI_ERROR_PAIR, "pairs", k, 0.0);
     }
-    int32_t status = peri__need_flags(b);
+    int32_t status = peri__need_flags(b, standing);
     if (status < 0) return status;
     peri__changed(b, PERI__CUTS);
     for (int64_t k = 0; k < count; ++k) {
         int32_t i = pairs[2 * k], j = pairs[2 * k + 1];
-        cut += peri__cut_one(b, i, peri__find_bond(b->model, i, j));
-        (void)peri__cut_one(b, j, peri__find_bond(b->model, j, i));
+        cut += peri__cut_one(b, standing, i, peri__find_bond(b->model, i, j));
+        (void)peri__cut_one(b, standing, j, peri__find_bond(b->model, j, i));
     }
     return cut;
 }
 
-PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
+PERI_API int64_t peri_cut_if(peri_body *b, int32_t standing, peri_pair_fn cut, void *user) {
     int64_t count = 0;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED(b, cut, "cut");
     const peri__model *m = b->model;
-    int32_t status = peri__need_flags(b);
+    int32_t status = peri__need_flags(b, standing);
     if (status < 0) return status;
     peri__note_energy(b);
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
@@ -303,12 +314,12 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
             double xi[3], xj[3];
             if (j < i || !peri__is_alive(b, i, k)) continue;
             for (int32_t d = 0; d < m->dim; ++d) {
-                xi[d] = peri__position(b, i, d);
-                xj[d] = peri__position(b, j, d);
+                xi[d] = m->origin[d] + m->length * peri__cut_at(b, standing, i, d);
+                xj[d] = m->origin[d] + m->length * peri__cut_at(b, standing, j, d);
             }
             if (!cut(user, (int32_t)i, (int32_t)j, xi, xj)) continue;
-            count += peri__cut_one(b, i, k);
-            (void)peri__cut_one(b, j, peri__find_bond(m, j, i));
+            count += peri__cut_one(b, standing, i, k);
+            (void)peri__cut_one(b, standing, j, peri__find_bond(m, j, i));
         }
     }
     peri__leave(b, former);
@@ -319,29 +330,30 @@ PERI_API int64_t peri_cut_if(peri_body *b, peri_pair_fn cut, void *user) {
 PERI_API int32_t peri_bond_is_intact(peri_body *b, int32_t i, int32_t j) {
     PERI_NEED_BUILT(b);
     if (i < 0 || i >= b->model->points || j < 0 || j >= b->model->points)
-        return peri__fail(b, PERI_ERROR_ID, "i, j", i < 0 || i >= b->model->points ? i : j, 0.0);
+        return peri__fail(b, PERI_ERROR_INDEX, i < 0 || i >= b->model->points ? "i" : "j", i < 0 || i >= b->model->points ? i : j, 0.0);
     int64_t k = peri__find_bond(b->model, i, j);
-    if (k < 0) return peri__fail(b, PERI_ERROR_PAIR, "i, j", i, j);
+    if (k < 0) return peri__fail(b, PERI_ERROR_PAIR, "j", i, j);
     return peri__is_alive(b, i, k);
 }
 
-PERI_API int32_t peri_set_no_fail(peri_body *b, int32_t set, int32_t on) {
+PERI_API int32_t peri_set_no_fail(peri_body *b, int32_t id, int32_t on) {
     PERI_NEED_CHANGEABLE(b);
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
+    PERI_NEED_FLAG(b, on);
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
     uint8_t *fresh = NULL;
     if (!b->no_fail) {
         fresh = b->no_fail = (uint8_t *)peri__new(&b->memory, b->model->points, 1);
         if (!fresh) return peri__fail(b, PERI_ERROR_MEMORY, "no_fail", -1, 0.0);
     }
-    status = peri__update_classes(b); /* takes memory, so before anything changes */
+    int32_t status = peri__update_classes(b); /* takes memory, so before anything changes */
     if (status < 0) {
         peri__delete(&b->memory, fresh, b->model->points, 1);
         b->no_fail = NULL;
         (void)peri__update_classes(b);
         return peri__fail(b, PERI_ERROR_MEMORY, "classes", -1, 0.0);
     }
-    for (int64_t k = 0; k < peri__set_count(b, set); ++k) b->no_fail[peri__set_point(b, set, k)] = on != 0;
+    for (int64_t k = 0; k < peri__set_count(b, set); ++k) b->no_fail[peri__set_point(b, set, k)] = (uint8_t)on;
     return peri__update_classes(b);
 }
 

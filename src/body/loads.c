@@ -13,7 +13,8 @@ static int64_t peri__dof(const peri_body *b, const peri__load *load, int64_t k, 
 
 /* Component d of the value of point k of a load, user's units. */
 static double peri__load_value(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
-    return load->fn ? load->value[k * b->dim + d] : b->now.load_factor * load->constant[d];
+    if (load->fn) return load->value[k * b->dim + d];
+    return load->kind == PERI__VELOCITY ? load->constant[d] : b->now.load_factor * load->constant[d];
 }
 
 /* Component d of the force density that a load gives to its point k, inner units. */
@@ -29,11 +30,12 @@ static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
     if (!load->fn) return PERI_OK;
     for (int64_t k = 0; k < load->count; ++k)
         for (int32_t d = 0; d < b->dim; ++d) load->value[k * b->dim + d] = load->constant[d];
-    load->fn(load->user, time, load->count, load->all ? load->all : b->sets[load->set - 1].points,
-             load->value);
+    const int32_t *points = load->all ? load->all : b->sets[load->set - 1].points;
+    const int32_t said = load->fn(load->user, time, load->count, points, load->value);
+    if (said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_load_fn", -1, said);
     for (int64_t k = 0; k < load->count * b->dim; ++k)
         if (!peri__finite(load->value[k]))
-            return peri__fail(b, PERI_ERROR_CALLBACK, "load at the point", peri__set_point(b, load->set, k / b->dim), load->value[k]);
+            return peri__fail(b, PERI_ERROR_CALLBACK, "value", peri__set_point(b, load->set, k / b->dim), load->value[k]);
     return PERI_OK;
 }
 
@@ -63,7 +65,7 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
                 int64_t at = peri__dof(b, load, k, d);
                 double force = peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d);
                 if (!(fabs(force) < (b->f32 ? FLT_MAX : DBL_MAX)))
-                    return peri__fail(b, PERI_ERROR_RANGE, "load at the point", peri__set_point(b, load->set, k), force);
+                    return peri__fail(b, PERI_ERROR_RANGE, "value", peri__set_point(b, load->set, k), force);
                 peri__put_real(b->f, b->f32, at, force);
             }
     }

@@ -7,18 +7,18 @@
    1e9 speeds of sound. */
 static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit,
                                  const char *field) {
-    const int cubes = b->model->gathers & PERI__GRADIENT && b->b32 && b->desc.geometry != PERI_LINEAR;
+    const int cubes = b->model->gathers & PERI__GRADIENT && b->b32 && b->desc.geometry != PERI_GEOMETRY_LINEAR;
     const double limit = array == b->v ? 1e9 : cubes ? 1e11 : 1e15;
     for (int64_t k = 0; k < count; ++k)
         if (!(fabs(in[k] / unit) < limit)) return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);
     return PERI_OK;
 }
 
-static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t set, const double *value) {
+static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t id, const double *value) {
     PERI_NEED_VECTOR(b, value);
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
-    status = peri__check_state(b, array, value, b->dim, unit, "value");
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
+    const int32_t status = peri__check_state(b, array, value, b->dim, unit, "value");
     if (status < 0) return status;
     peri__changed(b, PERI__MOTION);
     for (int64_t k = 0; k < peri__set_count(b, set); ++k)

@@ -3,12 +3,12 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-PERI_API int32_t peri_read_obstacle_force(peri_body *b, int32_t obstacle, double *force) {
+PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force) {
     PERI_NEED_BUILT(b);
-    int32_t status = peri__check_obstacle(b, obstacle);
-    if (status < 0) return status;
+    const int64_t obstacle = peri__find_obstacle(b, id);
+    if (obstacle < 0) return (int32_t)obstacle;
     PERI_NEED(b, force, "force");
-    status = peri__ensure_force(b); /* moves the obstacle to where it is now */
+    const int32_t status = peri__ensure_force(b); /* moves the obstacle to where it is now */
     if (status < 0) return status;
     const peri__model *m = b->model;
     double total[3] = { 0.0, 0.0, 0.0 };
@@ -34,15 +34,12 @@ static void peri__read_reactions(const peri_body *b, double *out) {
     }
 }
 
-PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
-    PERI_NEED_BUILT(b);
-    int32_t status = peri__check_load(b, id);
-    if (status < 0) return status;
-    PERI_NEED(b, force, "force");
-    status = peri__ensure_force(b);
+/* Of the load at an index. */
+static int32_t peri__read_reaction_of(peri_body *b, int64_t at, double *force) {
+    const int32_t status = peri__ensure_force(b);
     if (status < 0) return status;
     const peri__model *m = b->model;
-    const peri__load *load = &b->loads[id];
+    const peri__load *load = &b->loads[at];
     double total[3] = { 0.0, 0.0, 0.0 };
     for (int64_t k = 0; k < load->count; ++k)
         for (int32_t d = 0; d < m->dim; ++d) {
@@ -53,4 +50,12 @@ PERI_API int32_t peri_read_reaction(peri_body *b, int32_t id, double *force) {
         }
     for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
     return PERI_OK;
+}
+
+PERI_API int32_t peri_get_reaction(peri_body *b, int32_t load, double *force) {
+    PERI_NEED_BUILT(b);
+    const int64_t at = peri__find_load(b, load, "load");
+    if (at < 0) return (int32_t)at;
+    PERI_NEED(b, force, "force");
+    return peri__read_reaction_of(b, at, force);
 }

@@ -1,4 +1,4 @@
-/* sets.c - named selections of points. Set 0, PERI_ALL, holds all and is stored nowhere. */
+/* sets.c - named selections of points. Inside they are numbered from 1; 0 is PERI_ALL, which is stored nowhere. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -23,15 +23,25 @@ static int32_t peri__set_point(const peri_body *b, int32_t set, int64_t k) {
     return set == PERI_ALL ? (int32_t)k : b->sets[set - 1].points[k];
 }
 
-static int32_t peri__check_set(peri_body *b, int32_t set) {
-    return set >= 0 && set <= b->set_count ? PERI_OK : peri__fail(b, PERI_ERROR_SET, "set", set, 0.0);
+/* What a set is called inside, 0 for all; or why its id is none. */
+static int32_t peri__find_set(peri_body *b, int32_t id) {
+    if (id == PERI_ALL) return 0;
+    const int64_t index = peri__find(b, PERI_KIND_SET, id, "set");
+    return (int32_t)(index < 0 ? index : index + 1);
+}
+
+/* The id of the set with a name, 0 where there is none. */
+static int32_t peri__set_named(const peri_body *b, const char *name) {
+    for (int64_t k = 0; k < b->set_count; ++k)
+        if (b->sets[k].name && strcmp(b->sets[k].name, name) == 0) return peri__id(b, PERI_KIND_SET, k);
+    return 0;
 }
 
 PERI_API int32_t peri_find_set(const peri_body *b, const char *name) {
-    if (!b || !name) return PERI_ERROR_ARGUMENT;
-    for (int64_t k = 0; k < b->set_count; ++k)
-        if (b->sets[k].name && strcmp(b->sets[k].name, name) == 0) return (int32_t)(k + 1);
-    return PERI_ERROR_SET;
+    PERI_NEED_BODY(b);
+    if (!name) return peri__fail_const(b, PERI_ERROR_ARGUMENT, "name", -1, 0.0);
+    const int32_t set = peri__set_named(b, name);
+    return set ? set : peri__fail_const(b, PERI_ERROR_NAME, "name", -1, 0.0);
 }
 
 /* Takes over points[capacity], of which the first count are the set (ascending); frees them where it fails. */
@@ -39,9 +49,10 @@ static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, in
     peri__set set;
     int32_t status = PERI_OK;
     memset(&set, 0, sizeof set);
-    if (count == 0) status = peri__fail(b, PERI_ERROR_SET, "selection", -1, 0.0);
-    else if (name && peri_find_set(b, name) > 0) status = peri__fail(b, PERI_ERROR_SET, "name", peri_find_set(b, name), 0.0);
-    else if (!peri__grow(&b->memory, &b->sets, &b->set_capacity, b->set_count + 1, sizeof *b->sets))
+    if (count == 0) status = peri__fail(b, PERI_ERROR_EMPTY, "set", -1, 0.0);
+    else if (name && peri__set_named(b, name)) status = peri__fail(b, PERI_ERROR_NAME, "name", peri__set_named(b, name), 0.0);
+    else status = peri__check_room(b, PERI_KIND_SET, PERI_ID_LIMIT, "set");
+    if (status == PERI_OK && !peri__grow(&b->memory, &b->sets, &b->set_capacity, b->set_count + 1, sizeof *b->sets))
         status = peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
     if (status == PERI_OK) {
         set.points = (int32_t *)peri__copy(&b->memory, points, count, sizeof *points);
@@ -59,7 +70,7 @@ static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, in
     peri__delete(&b->memory, points, capacity, sizeof *points);
     if (status < 0) return status;
     b->sets[b->set_count++] = set;
-    return (int32_t)b->set_count;
+    return peri__id(b, PERI_KIND_SET, b->set_count - 1);
 }
 
 static int32_t peri__select(peri_body *b, const char *name, peri_point_fn take, void *user) {
@@ -126,7 +137,7 @@ PERI_API int32_t peri_select_points(peri_body *b, const char *name, int64_t coun
     PERI_NEED(b, points && count >= 0, "points");
     const peri__model *m = b->model;
     for (int64_t k = 0; k < count; ++k)
-        if (points[k] < 0 || points[k] >= m->points) return peri__fail(b, PERI_ERROR_ID, "points", k, points[k]);
+        if (points[k] < 0 || points[k] >= m->points) return peri__fail(b, PERI_ERROR_INDEX, "points", k, points[k]);
     /* mark, then collect: ascending, and each once */
     uint8_t *marked = (uint8_t *)peri__new(&b->memory, m->points, 1);
     int32_t *ids = (int32_t *)peri__new(&b->memory, m->points, sizeof *ids);
@@ -143,16 +154,17 @@ PERI_API int32_t peri_select_points(peri_body *b, const char *name, int64_t coun
     return peri__new_set(b, name, ids, m->points, kept);
 }
 
-PERI_API int64_t peri_set_size(const peri_body *b, int32_t set) {
-    if (!b) return PERI_ERROR_ARGUMENT;
-    if (!b->model) return PERI_ERROR_ORDER;
-    return set >= 0 && set <= b->set_count ? peri__set_count(b, set) : PERI_ERROR_SET;
+PERI_API int64_t peri_size_of_set(const peri_body *b, int32_t set) {
+    PERI_NEED_BODY(b);
+    if (!b->model) return peri__fail_const(b, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
+    const int32_t at = peri__find_set((peri_body *)b, set);
+    return at < 0 ? at : peri__set_count(b, at);
 }
 
-PERI_API int32_t peri_read_set(peri_body *b, int32_t set, int32_t *points, int64_t capacity) {
+PERI_API int32_t peri_get_set(peri_body *b, int32_t id, int32_t *points, int64_t capacity) {
     PERI_NEED_BUILT(b);
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
     PERI_NEED(b, points, "points");
     int64_t count = peri__set_count(b, set);
     if (capacity < count) return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)count);

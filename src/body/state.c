@@ -28,7 +28,7 @@ static peri__operands peri__operands_of(const peri_body *b) {
     s.pull = b->pull;
     if (b->worked) s.worked = (const char *)b->worked + (size_t)m->margin * peri__real(b);
     s.node = b->node;
-    s.linear = b->desc.geometry == PERI_LINEAR;
+    s.linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     return s;
 }
 

@@ -63,7 +63,7 @@ static void peri__deform(const peri_body *b, int64_t i, const peri__row *row, pe
 static void peri__strain_of(const peri_body *b, const peri__deformation *f, double strain[3][3]) {
     double e[3][3], h[3][3];
     memcpy(h, f->h, sizeof h);
-    peri__strain(b->dim, b->desc.geometry == PERI_LINEAR, h, e);
+    peri__strain(b->dim, b->desc.geometry == PERI_GEOMETRY_LINEAR, h, e);
     for (int a = 0; a < b->dim; ++a)
         for (int c = 0; c < b->dim; ++c) {
             strain[a][c] = f->whole ? e[a][c] : 0.0;
@@ -81,7 +81,7 @@ static double peri__det(double f[3][3]) {
    the space is not spanned the volume is that of the strain, sqrt(det(1 + 2 E)). */
 static void peri__cauchy(const peri_body *b, double p[3][3], const peri__deformation *deformation, double *out) {
     double sigma[3][3], f[3][3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, volume = 1.0, strain[3][3];
-    int dim = b->dim, linear = b->desc.geometry == PERI_LINEAR;
+    int dim = b->dim, linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     if (!linear && !deformation->whole) {
         peri__strain_of(b, deformation, strain);
         for (int a = 0; a < dim; ++a)
@@ -107,14 +107,14 @@ static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *
     double s[3][3], h[3][3];
     memcpy(h, f->h, sizeof h);
     peri__strain_of(b, f, s);
-    peri__stress(law, b->dim, b->desc.geometry == PERI_LINEAR, h, s, p);
+    peri__stress(law, b->dim, b->desc.geometry == PERI_GEOMETRY_LINEAR, h, s, p);
 }
 
 /* sum T xi V over the live bonds, T the half that point i gives. */
 static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__row *row, const peri__deformation *f, double p[3][3]) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
-    int linear = b->desc.geometry == PERI_LINEAR;
+    int linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     double inverse[6] = { 0.0 }, pressure_factor = 0.0, stabilization = 0.0, stress[3][3];
     int tensor = 0;
     if (!law->pairwise) pressure_factor = peri__get_constant(b, i, PERI__PRESSURE_FACTOR);

@@ -16,13 +16,13 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_COOKIE_RUN (UINT64_C(0x7065726900030000) + sizeof(peri_run))
+#define PERI_COOKIE_RUN (UINT64_C(0x7065726900030000) + sizeof(peri_advance_desc))
 
-PERI_API void peri_run_init(peri_run *r) {
+PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
     if (!r) return;
     memset(r, 0, sizeof *r);
     r->cookie = PERI_COOKIE_RUN;
-    r->integrator = PERI_VELOCITY_VERLET;
+    r->integrator = PERI_INTEGRATOR_VELOCITY_VERLET;
     r->safety = 0.9;
 }
 
@@ -74,9 +74,9 @@ static int32_t peri__unstagger(peri_body *b, double dt, double damping) {
 }
 
 /* One step of dt (inner units) to the time `next`. */
-static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double next, double damping) {
+static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double dt, double next, double damping) {
     const peri__model *m = b->model;
-    int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
+    int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
     peri__operands operands = peri__operands_of(b);
@@ -130,14 +130,16 @@ static int32_t peri__one_step(peri_body *b, const peri_run *r, double dt, double
     return PERI_OK;
 }
 
-static int32_t peri__check_run(peri_body *b, const peri_run *r) {
-    PERI_NEED(b, r, "run");
-    if (r->cookie != PERI_COOKIE_RUN) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "run", -1, 0.0);
-    PERI_NEED(b, peri__one_of(r->integrator, PERI_INTEGRATOR_COUNT_), "integrator");
+static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
+    PERI_NEED(b, r, "desc");
+    if (r->cookie != PERI_COOKIE_RUN) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
+    PERI_NEED_FLAG(b, r->force_step);
+    PERI_NEED_CHOICE(b, integrator, r->integrator);
     PERI_NEED_NUMBER(b, r->duration >= 0.0, r->duration);
     PERI_NEED_NUMBER(b, r->time_step >= 0.0, r->time_step);
     PERI_NEED_NUMBER(b, r->safety > 0.0 && r->safety <= 1.0, r->safety);
     PERI_NEED_NUMBER(b, r->damping >= 0.0, r->damping);
+    if (!peri__is_nan(r->load_factor)) PERI_NEED_NUMBER(b, 1, r->load_factor);
     PERI_NEED(b, r->frame_steps >= 0, "frame_steps");
     PERI_NEED(b, r->steps >= 0, "steps");
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
@@ -156,7 +158,7 @@ static int32_t peri__check_run(peri_body *b, const peri_run *r) {
 }
 
 /* on_frame, and what it may have changed. */
-static int32_t peri__show_frame(peri_body *b, const peri_run *r) {
+static int32_t peri__show_frame(peri_body *b, const peri_advance_desc *r) {
     const int32_t former = peri__enter(b, PERI__IN_FRAME);
     int32_t stop = r->on_frame(r->user, b);
     peri__leave(b, former);
@@ -173,7 +175,7 @@ typedef struct peri__plan {
     int64_t full, steps, done;
 } peri__plan;
 
-static int32_t peri__plan_steps(peri_body *b, const peri_run *r, double left, peri__plan *plan) {
+static int32_t peri__plan_steps(peri_body *b, const peri_advance_desc *r, double left, peri__plan *plan) {
     plan->start = b->now.time;
     plan->steps -= plan->done;
     plan->full = plan->steps;
@@ -193,13 +195,13 @@ static int32_t peri__plan_steps(peri_body *b, const peri_run *r, double left, pe
 static double peri__next_size(const peri__plan *plan) { return plan->done < plan->full ? plan->dt : plan->last; }
 
 /* Is a step of `size` too large by now? State-based bonds that broke, or an obstacle that on_frame added, can have made it so. */
-static int peri__outrun(const peri_body *b, const peri_run *r, double size) {
+static int peri__outrun(const peri_body *b, const peri_advance_desc *r, double size) {
     return !(r->force_step && r->time_step > 0.0) && size > peri__stable(b) * (1.0 + 1e-12);
 }
 
-static int32_t peri__march(peri_body *b, const peri_run *r) {
+static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
     const peri__model *m = b->model;
-    int central = r->integrator == PERI_CENTRAL_DIFFERENCE;
+    int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double damping = r->damping * m->time;
     int64_t left_to_frame = r->frame_steps;
     peri__plan plan = { 0.0, 0.0, 0.0, b->now.time + r->duration, 0, r->steps, 0 };
@@ -237,14 +239,16 @@ static int32_t peri__march(peri_body *b, const peri_run *r) {
     return status;
 }
 
-PERI_API int32_t peri_advance(peri_body *b, const peri_run *r) {
+PERI_API int32_t peri_advance(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED_IDLE(b);
     int32_t status = peri__check_run(b, r);
     if (status < 0) return status;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
-    if (b->now.still) peri__changed(b, PERI__ACTION); /* loads count in full again */
+    const double factor = !peri__is_nan(r->load_factor) ? r->load_factor : b->now.loaded ? b->now.load_factor : 1.0;
+    if (b->now.still || factor != b->now.load_factor) peri__changed(b, PERI__ACTION); /* callbacks are asked for another time */
     b->now.still = 0;
-    b->now.load_factor = 1.0;
+    b->now.loaded = 1;
+    b->now.load_factor = factor;
     status = peri__march(b, r);
     peri__leave(b, former);
     return status;

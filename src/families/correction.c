@@ -128,7 +128,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
             if (stiff < least) least = stiff;
             x[k] = 1.0;
         }
-        if (b->desc.correction == PERI_VOLUME_CORRECTION) {
+        if (b->desc.correction == PERI_CORRECTION_VOLUME) {
             double volume = m->volume[i] + peri__family_volume(m, i);
             for (int64_t k = 0; bonds && k < m->count[i]; ++k) {
                 int64_t j = m->ids[m->start[i] + k];
@@ -137,7 +137,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
             continue;
         }
         if (!(total > 0.0)) continue; /* refused later */
-        if (b->desc.correction == PERI_MOMENT_CORRECTION && least >= 0.0) {
+        if (b->desc.correction == PERI_CORRECTION_MOMENT && least >= 0.0) {
             if (fitted >= 0 && peri__same_family(f, i, fitted)) {
                 memcpy(x, &f->factor[m->start[fitted]], (size_t)m->count[i] * sizeof *x);
                 continue;
@@ -172,7 +172,7 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
 static int peri__corrects(const peri_body *b, const peri__model *m) {
     int bonds = 0;
     for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].pairwise;
-    return b->desc.correction == PERI_MOMENT_CORRECTION || (bonds && b->desc.correction != PERI_NO_CORRECTION);
+    return b->desc.correction == PERI_CORRECTION_MOMENT || (bonds && b->desc.correction != PERI_CORRECTION_NONE);
 }
 
 /* Corrects the weights as the descriptor asks. Influence functions were checked to have moments where bond-based materials are. */

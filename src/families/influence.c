@@ -21,32 +21,38 @@ static const peri__polynomial peri__septic  = { 8, { 1, 0, 0, 0, -35, 84, -70, 2
 static const peri__polynomial peri__power_2 = { 3, { 1, -2, 1 }, 2, 1, { 1 } };
 static const peri__polynomial peri__power_3 = { 4, { 1, -3, 3, -1 }, 3, 1, { 1 } };
 
+/* The caller's function; not finite where it failed. */
+static double peri__user_influence(const peri_body_desc *desc, double q) {
+    double w = 0.0;
+    return desc->influence_fn(desc->influence_user, q, &w) < 0 ? (double)NAN : w;
+}
+
 /* X(name, number, w, moment, polynomial): w of q and edge; the moment I_k of k, 0 where none is finite, or by quadrature; the polynomial
    where w is one within the horizon and 0 beyond, else NULL. */
 #define PERI_BY_QUADRATURE (-1.0)
 #define PERI_POLYNOMIAL_(X, name, number, p)                                                                           \
     X(name, number, peri__polynomial_value(p, q), peri__polynomial_moment(p, k), p)
 #define PERI_INFLUENCE_LIST(X)                                                                                         \
-    X(CONSTANT, 1, 1.0, 1.0 / (k + 1), NULL)                                                                           \
-    PERI_POLYNOMIAL_(X, CUTOFF, 2, &peri__cutoff)                                                                      \
-    PERI_POLYNOMIAL_(X, LINEAR, 3, &peri__linear)                                                                      \
-    PERI_POLYNOMIAL_(X, CUBIC, 4, &peri__cubic)                                                                        \
-    PERI_POLYNOMIAL_(X, QUINTIC, 5, &peri__quintic)                                                                    \
-    PERI_POLYNOMIAL_(X, SEPTIC, 6, &peri__septic)                                                                      \
-    PERI_POLYNOMIAL_(X, POWER_2, 7, &peri__power_2)                                                                    \
-    PERI_POLYNOMIAL_(X, POWER_3, 8, &peri__power_3)                                                                    \
-    X(GAUSSIAN, 9, exp(-q * q), PERI_BY_QUADRATURE, NULL)                                                              \
-    X(PROPORTIONAL, 10, q, 1.0 / (k + 2), NULL)                                                                        \
-    X(INVERSE, 11, 1.0 / q, 1.0 / k, NULL)                                                                             \
-    X(INVERSE_4, 12, 1.0 / (q * q * q * q), 0.0, NULL)                                                                 \
-    X(POLE_EDGE, 13, q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0, PERI_BY_QUADRATURE, NULL)                          \
-    X(POLE_HALF, 14, 1.0 / (2.0 * q - 1.0), 0.0, NULL)                                                                 \
-    X(POLE_QUARTER, 15, peri__in_range(exp(1.0 / (q - 0.25))), 0.0, NULL)                                              \
-    X(USER, 16, peri__in_range(desc->influence_fn(desc->influence_user, q)), PERI_BY_QUADRATURE, NULL)
+    X(CONSTANT, 401, 1.0, 1.0 / (k + 1), NULL)                                                                           \
+    PERI_POLYNOMIAL_(X, CUTOFF, 402, &peri__cutoff)                                                                      \
+    PERI_POLYNOMIAL_(X, LINEAR, 403, &peri__linear)                                                                      \
+    PERI_POLYNOMIAL_(X, CUBIC, 404, &peri__cubic)                                                                        \
+    PERI_POLYNOMIAL_(X, QUINTIC, 405, &peri__quintic)                                                                    \
+    PERI_POLYNOMIAL_(X, SEPTIC, 406, &peri__septic)                                                                      \
+    PERI_POLYNOMIAL_(X, POWER_2, 407, &peri__power_2)                                                                    \
+    PERI_POLYNOMIAL_(X, POWER_3, 408, &peri__power_3)                                                                    \
+    X(GAUSSIAN, 409, exp(-q * q), PERI_BY_QUADRATURE, NULL)                                                              \
+    X(PROPORTIONAL, 410, q, 1.0 / (k + 2), NULL)                                                                        \
+    X(INVERSE, 411, 1.0 / q, 1.0 / k, NULL)                                                                             \
+    X(INVERSE_4, 412, 1.0 / (q * q * q * q), 0.0, NULL)                                                                 \
+    X(POLE_EDGE, 413, q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0, PERI_BY_QUADRATURE, NULL)                          \
+    X(POLE_HALF, 414, 1.0 / (2.0 * q - 1.0), 0.0, NULL)                                                                 \
+    X(POLE_QUARTER, 415, peri__in_range(exp(1.0 / (q - 0.25))), 0.0, NULL)                                              \
+    X(USER, 416, peri__in_range(peri__user_influence(desc, q)), PERI_BY_QUADRATURE, NULL)
 
 #define PERI_INFLUENCE_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(INFLUENCE_##name, PERI_INFLUENCE_##name == (number))
 PERI_INFLUENCE_LIST(PERI_INFLUENCE_NUMBER_)
-PERI_SAME_COUNT(influence, PERI_INFLUENCE_LIST, PERI_INFLUENCE_COUNT_ - 1);
+PERI_SAME_COUNT(influence, PERI_INFLUENCE_LIST, peri__count_influence);
 
 /* A q within the horizon's tolerance is 1, so that a root there is one whatever the rounding of q. */
 static double peri__within_one(double q) { return q < 1.0 - PERI_HORIZON_TOLERANCE ? q : 1.0; }

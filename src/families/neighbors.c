@@ -27,7 +27,7 @@ static void peri__sort_row(int32_t *row, int64_t count) {
 /* Sizes of the families of the points in a block of cells. sums->n: how many points are where one of them is, itself included. */
 static void peri__count_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__cloud *c = (const peri__cloud *)context;
-    const int whole = c->body->desc.quadrature == PERI_FULL_VOLUME;
+    const int whole = c->body->desc.quadrature == PERI_QUADRATURE_FULL;
     peri__near s;
     for (int64_t cell = begin; cell < end; ++cell) {
         if (c->start[cell] == c->start[cell + 1]) continue;
@@ -189,7 +189,7 @@ static int32_t peri__write_families(peri_body *b, peri__cloud *c, int numbered) 
     m->order = c->order; /* which the model owns from now on, see peri__free_cells */
     if (!peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     numbered = numbered || m->width > PERI_VECTOR_LIMIT;
-    c->weighs = !numbered && b->desc.quadrature == PERI_FULL_VOLUME && b->desc.influence != PERI_INFLUENCE_USER;
+    c->weighs = !numbered && b->desc.quadrature == PERI_QUADRATURE_FULL && b->desc.influence != PERI_INFLUENCE_USER;
     peri__sums *sums = (peri__sums *)peri__new(&m->memory, blocks, sizeof *sums);
     if (c->weighs) m->weight = peri__new_tail(&m->memory, m->entries, peri__bond_real(b), PERI_GROUP);
     if (!sums || (c->weighs && !m->weight)) {

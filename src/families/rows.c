@@ -106,9 +106,9 @@ PERI_SHARED double peri__least_stretch(const peri__operands *s, int64_t i) {
 /* And the least limit of a criterion that a bond of point i may have. */
 PERI_SHARED double peri__least_limit(const peri__operands *s, int64_t i, int32_t criterion) {
     const peri__pair *pairs = s->point_class ? &s->pairs[s->point_class[i] * s->classes] : s->pairs;
-    double least = pairs->limit[criterion];
+    double least = pairs->limit[criterion - peri__first_criterion];
     for (int32_t k = 1; s->point_class && k < s->classes; ++k)
-        if (pairs[k].limit[criterion] < least) least = pairs[k].limit[criterion];
+        if (pairs[k].limit[criterion - peri__first_criterion] < least) least = pairs[k].limit[criterion - peri__first_criterion];
     return least;
 }
 
@@ -158,7 +158,7 @@ static double peri__stretch(const peri_body *b, int64_t i, const peri__row *row,
     const peri__model *m = b->model;
     int64_t at = row->first + k, j = row->ids[k];
     double along = 0.0, square = 0.0, bond = peri__get_real(row->bond, b->b32, k);
-    int linear = b->desc.geometry == PERI_LINEAR;
+    int linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     for (int32_t d = 0; d < m->dim; ++d) {
         double xi = peri__get_real(m->x, b->f32, d * m->stride + j) - peri__get_real(m->x, b->f32, d * m->stride + i);
         double eta = peri__get_real(b->u, b->f32, d * m->stride + j) - peri__get_real(b->u, b->f32, d * m->stride + i);

@@ -319,7 +319,7 @@ static int64_t peri__take_near(const peri__cloud *c, peri__near *s, const double
 /* Keeps of the hits those that are in the family of the point at place `own`; the quadrature may want more than the distance. */
 static int64_t peri__keep_family(const peri__cloud *c, peri__near *s, int64_t taken, int32_t own) {
     int64_t kept = 0;
-    if (c->body->desc.quadrature == PERI_FULL_VOLUME) return taken;
+    if (c->body->desc.quadrature == PERI_QUADRATURE_FULL) return taken;
     for (int64_t k = 0; k < taken; ++k) {
         if (!peri__is_family(c, c->order[own], c->order[s->hit[k]])) continue;
         s->hit[kept] = s->hit[k];

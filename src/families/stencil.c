@@ -397,7 +397,7 @@ static void peri__fill_ends(const peri__model *m, const peri__vector *row, peri_
     if (m->laws[own].pairwise) spring[0] = peri__quotient(m->b32, 0.5 * m->pairs[row->key[5]].c, row->length);
     if (m->laws[other].pairwise) spring[1] = peri__quotient(m->b32, 0.5 * m->pairs[other * m->materials + own].c, row->length);
     ends->spring = m->b32 ? (double)((float)spring[0] + (float)spring[1]) : spring[0] + spring[1]; /* as the rows add them */
-    ends->energy = m->pairs[row->key[5]].limit[PERI_CRITERION_BOND_ENERGY] * row->bond.partial_volume;
+    ends->energy = m->pairs[row->key[5]].limit[PERI_CRITERION_BOND_ENERGY - peri__first_criterion] * row->bond.partial_volume;
 }
 
 static int32_t peri__keep_stencil(peri__builder *d) {
@@ -426,7 +426,7 @@ static int32_t peri__keep_stencil(peri__builder *d) {
     for (int64_t c = 0; c < l->kept; ++c)
         if (l->column[c].offset > l->reach) l->reach = l->column[c].offset;
     l->columns = l->begin[l->groups];
-    l->partial = d->cloud->body->desc.quadrature != PERI_FULL_VOLUME;
+    l->partial = d->cloud->body->desc.quadrature != PERI_QUADRATURE_FULL;
     m->width = (int32_t)d->width;
     m->bonds = d->bonds;
     if (m->pairwise) m->row_sum = d->row_sum;
@@ -446,7 +446,7 @@ static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
     peri__model *m = c->model;
     peri__stencil *l = &m->stencil;
     int32_t status = PERI_ERROR_MEMORY;
-    if (b->desc.quadrature == PERI_PARTIAL_CENTROID) return 0;
+    if (b->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID) return 0;
     if (b->desc.kernel != PERI_KERNEL_BEST) return 0;
     if (m->ids ? m->back != m->weight : b->setup.ibond || peri__corrects(b, m)) return 0;
     peri__builder *d = (peri__builder *)peri__new(&b->memory, 1, sizeof *d);

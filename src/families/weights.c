@@ -52,11 +52,11 @@ static int peri__weigh_bond(const peri__cloud *c, peri__partial_volumes *parts, 
     for (int32_t d = 0; d < m->dim; ++d) square += bond->xi[d] * bond->xi[d];
     bond->length = length = sqrt(square);
     beta = peri__beta(c, parts, i, j);
-    if (desc->quadrature == PERI_PARTIAL_CENTROID) {
+    if (desc->quadrature == PERI_QUADRATURE_PARTIAL_CENTROID) {
         (void)peri__partial_volume(c, i, j, bond->centre);
         bond->length = sqrt(peri__dot(bond->centre, bond->centre, m->dim));
     }
-    if (desc->quadrature == PERI_PARTIAL_MOMENT)
+    if (desc->quadrature == PERI_QUADRATURE_PARTIAL_MOMENT)
         w = 0.5 * (peri__moment_weight(c, i, j, length, c->edge) + peri__moment_weight(c, j, i, length, c->edge));
     else
         w = beta * peri__influence(desc, bond->length / m->horizon, c->edge);
@@ -273,7 +273,7 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__model *m = c->model;
     if (c->weighs) return PERI_OK;
     const size_t real = peri__bond_real(b);
-    const int parts = b->desc.quadrature != PERI_FULL_VOLUME, centroids = b->desc.quadrature == PERI_PARTIAL_CENTROID;
+    const int parts = b->desc.quadrature != PERI_QUADRATURE_FULL, centroids = b->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID;
     if (!m->weight) m->weight = peri__new_tail(&m->memory, m->entries, real, PERI_GROUP);
     if (centroids) m->bond = peri__new(&m->memory, m->entries, real);
     if (parts) m->partial_volume = (float *)peri__new(&m->memory, m->entries, sizeof(float));

@@ -6,15 +6,15 @@
 /* X(name, number, exact, planar). exact: beta is the part of the cell within the horizon; planar: the centroid of the part counts, too,
    which is known in the plane only. */
 #define PERI_QUADRATURE_LIST(X)                                                                                        \
-    X(FULL_VOLUME, 1, 0, 0)                                                                                            \
-    X(VOLUME_RAMP, 2, 0, 0)                                                                                            \
-    X(PARTIAL_VOLUME, 3, 1, 0)                                                                                         \
-    X(PARTIAL_CENTROID, 4, 1, 1)                                                                                       \
-    X(PARTIAL_MOMENT, 5, 1, 1)
+    X(FULL, 501, 0, 0)                                                                                            \
+    X(RAMP, 502, 0, 0)                                                                                            \
+    X(PARTIAL, 503, 1, 0)                                                                                         \
+    X(PARTIAL_CENTROID, 504, 1, 1)                                                                                       \
+    X(PARTIAL_MOMENT, 505, 1, 1)
 
-#define PERI_QUADRATURE_NUMBER_(name, number, exact, planar) PERI_SAME_NUMBER_(name, PERI_##name == (number))
+#define PERI_QUADRATURE_NUMBER_(name, number, exact, planar) PERI_SAME_NUMBER_(QUADRATURE_##name, PERI_QUADRATURE_##name == (number))
 PERI_QUADRATURE_LIST(PERI_QUADRATURE_NUMBER_)
-PERI_SAME_COUNT(quadrature, PERI_QUADRATURE_LIST, PERI_QUADRATURE_COUNT_ - 1);
+PERI_SAME_COUNT(quadrature, PERI_QUADRATURE_LIST, peri__count_quadrature);
 
 static int peri__is_exact(int32_t quadrature) {
 #define PERI_EXACT_CASE_(name, number, exact, planar) || (quadrature == (number) && exact)
@@ -152,8 +152,8 @@ static double peri__beta(const peri__cloud *c, peri__partial_volumes *parts, int
     double part, xi[3] = { 0.0, 0.0, 0.0 };
     int regular = pi->lattice && !pi->vertices && j >= pi->first && j < pi->first + pi->count;
     size_t slot = 0;
-    if (c->body->desc.quadrature == PERI_FULL_VOLUME) return 1.0;
-    if (c->body->desc.quadrature == PERI_VOLUME_RAMP) return peri__ramp(c, i, j);
+    if (c->body->desc.quadrature == PERI_QUADRATURE_FULL) return 1.0;
+    if (c->body->desc.quadrature == PERI_QUADRATURE_RAMP) return peri__ramp(c, i, j);
     for (int32_t d = 0; d < m->dim; ++d) regular = regular && fabs(c->x[j * m->dim + d] - c->x[i * m->dim + d]) < 1e5;
     if (!regular) {
         part = 0.5 * (peri__partial_volume(c, i, j, NULL) + peri__partial_volume(c, j, i, NULL));
@@ -178,7 +178,7 @@ static double peri__beta(const peri__cloud *c, peri__partial_volumes *parts, int
 static void peri__set_reach(peri__cloud *c) {
     const peri__model *m = c->model;
     double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
-    if (c->body->desc.quadrature == PERI_VOLUME_RAMP) reach += 0.5 * c->largest;
+    if (c->body->desc.quadrature == PERI_QUADRATURE_RAMP) reach += 0.5 * c->largest;
     if (peri__is_exact(c->body->desc.quadrature)) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
     c->reach2 = reach * reach;
 }
@@ -198,8 +198,8 @@ static int peri__has_part(const peri__cloud *c, int64_t i, int64_t j) {
 /* Is j in the family of i, given that it is within reach? Mutual. */
 static int peri__is_family(const peri__cloud *c, int64_t i, int64_t j) {
     switch (c->body->desc.quadrature) {
-    case PERI_FULL_VOLUME: return 1;
-    case PERI_VOLUME_RAMP: return peri__ramp(c, i, j) > PERI_HORIZON_TOLERANCE;
+    case PERI_QUADRATURE_FULL: return 1;
+    case PERI_QUADRATURE_RAMP: return peri__ramp(c, i, j) > PERI_HORIZON_TOLERANCE;
     default: return peri__has_part(c, i, j) || peri__has_part(c, j, i);
     }
 }

@@ -57,9 +57,9 @@ static void peri__free_setup(peri_body *b) {
 static int32_t peri__lattice(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing,
                              peri__piece *piece) {
     PERI_NEED_UNBUILT(b);
-    int32_t status = peri__check_material_id(b, material);
+    const int64_t at = peri__find(b, PERI_KIND_MATERIAL, material, "material");
     double sites = 1.0;
-    if (status < 0) return status;
+    if (at < 0) return (int32_t)at;
     PERI_NEED_VECTOR(b, lo);
     PERI_NEED_VECTOR(b, hi);
     PERI_NEED_NUMBER(b, spacing > 0.0, spacing);
@@ -132,7 +132,7 @@ static int64_t peri__add_lattice(peri_body *b, int32_t material, peri__piece *pi
         taken = (uint8_t *)peri__new(&b->memory, sites / 8 + 1, 1);
         if (!taken) return peri__fail(b, PERI_ERROR_MEMORY, "shape", -1, 0.0);
         added = peri__mark_sites(b, piece, sites, inside, user, taken);
-        if (added == 0) status = peri__fail(b, PERI_ERROR_NO_POINTS, "shape", -1, 0.0);
+        if (added == 0) status = peri__fail(b, PERI_ERROR_EMPTY, "shape", -1, 0.0);
     }
     if (status == PERI_OK) status = peri__reserve_points(b, added);
     for (int64_t k = 0, point = s->point_count; status == PERI_OK && k < sites; ++k) {
@@ -141,7 +141,7 @@ static int64_t peri__add_lattice(peri_body *b, int32_t material, peri__piece *pi
         peri__site(piece, k, index);
         for (int32_t d = 0; d < b->dim; ++d) s->local[point * b->dim + d] = (double)index[d] + 0.5;
         s->volume[point] = cell_volume;
-        s->material[point] = (uint8_t)material;
+        s->material[point] = (uint8_t)(PERI_ID_INDEX(material) - 1);
         point++;
     }
     peri__delete(&b->memory, taken, sites / 8 + 1, 1);
@@ -274,17 +274,18 @@ PERI_API int64_t peri_add_points(peri_body *b, int64_t count, const double *posi
     peri__setup *s;
     PERI_NEED_UNBUILT(b);
     PERI_NEED(b, count >= 0, "count");
-    if (count == 0) return peri__fail(b, PERI_ERROR_NO_POINTS, "count", -1, 0.0);
+    if (count == 0) return peri__fail(b, PERI_ERROR_EMPTY, "count", -1, 0.0);
     PERI_NEED(b, positions, "positions");
     PERI_NEED(b, volumes, "volumes");
+    if (!materials && b->material_count != 1)
+        return peri__fail(b, b->material_count ? PERI_ERROR_ID_NONE : PERI_ERROR_MATERIAL, "materials", -1, b->material_count);
     s = &b->setup;
     for (int64_t k = 0; k < count; ++k) {
         if (!peri__finite_vector(&positions[k * b->dim], b->dim)) return peri__fail(b, PERI_ERROR_POINT, "positions", k, 0.0);
         if (!(volumes[k] > 0.0 && peri__finite(volumes[k])))
             return peri__fail(b, PERI_ERROR_POINT, "volumes", k, volumes[k]);
-        int32_t material = materials ? materials[k] : 0;
-        if (material < 0 || material >= b->material_count)
-            return peri__fail(b, PERI_ERROR_MATERIAL, "materials", k, material);
+        const int64_t at = materials ? peri__find(b, PERI_KIND_MATERIAL, materials[k], "materials") : 0;
+        if (at < 0) return peri__fail(b, (int32_t)at, "materials", k, materials[k]);
     }
     int32_t status = peri__reserve_points(b, count);
     if (status < 0) return status;
@@ -294,7 +295,7 @@ PERI_API int64_t peri_add_points(peri_body *b, int64_t count, const double *posi
     piece->count = count;
     memcpy(&s->local[s->point_count * b->dim], positions, (size_t)(count * b->dim) * sizeof(double));
     memcpy(&s->volume[s->point_count], volumes, (size_t)count * sizeof(double));
-    for (int64_t k = 0; k < count; ++k) s->material[s->point_count + k] = (uint8_t)(materials ? materials[k] : 0);
+    for (int64_t k = 0; k < count; ++k) s->material[s->point_count + k] = (uint8_t)(materials ? PERI_ID_INDEX(materials[k]) - 1 : 0);
     s->point_count += count;
     return count;
 }
@@ -305,7 +306,7 @@ PERI_API int32_t peri_set_families(peri_body *b, int32_t width, const int32_t *i
     PERI_NEED(b, width > 0, "width");
     PERI_NEED(b, ibond, "ibond");
     s = &b->setup;
-    if (s->point_count == 0) return peri__fail(b, PERI_ERROR_NO_POINTS, "ibond", -1, 0.0);
+    if (s->point_count == 0) return peri__fail(b, PERI_ERROR_EMPTY, "ibond", -1, 0.0);
     int64_t entries = s->point_count * width;
     int32_t *copy = (int32_t *)peri__copy(&b->memory, ibond, entries, sizeof(int32_t));
     if (!copy) return peri__fail(b, PERI_ERROR_MEMORY, "ibond", -1, 0.0);

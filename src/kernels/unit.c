@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "src/base/compiler.h"
+#include "src/base/enums.h"
 #include "src/base/types.h"
 #include "src/base/inline.h"
 #include "src/laws/law.h"

@@ -16,7 +16,7 @@ PERI_INLINE int PERI_FN(over_bond_energy)(const peri__operands *s, int64_t i, co
     if (!s->work || !(bond->along > 0)) return 0;
     const double partial_volume = row->partial_volume ? (double)row->partial_volume[k] : s->model->volume[j];
     return (double)((const peri_r *)s->work)[peri__bond_slot(s->model, i, row, k)]
-         > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_BOND_ENERGY] * partial_volume;
+         > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_BOND_ENERGY - peri__first_criterion] * partial_volume;
 }
 #endif
 

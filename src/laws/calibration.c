@@ -83,7 +83,7 @@ typedef struct peri__calibration { /* see peri__constant                        
 static int peri__calibrate(const peri__law *law, int32_t dim, const peri__moments *sum, peri__calibration *r) {
     memset(r, 0, sizeof *r);
     if (!(sum->m > 0.0)) return 1;
-    switch (law->model) {
+    switch (law->kind) {
 #define PERI_CASE(name, number) case number: return peri__calibrate_##name(law, dim, sum, r);
     PERI_LAW_LIST(PERI_CASE)
 #undef PERI_CASE

@@ -10,6 +10,6 @@
 #include "criteria.inl"
 #undef PERI_CRITERION_ROLE_TRAITS
 
-PERI_SAME_COUNT(criterion, PERI_CRITERION_LIST, PERI_CRITERION_COUNT_ - 1);
+PERI_SAME_COUNT(criterion, PERI_CRITERION_LIST, peri__count_criterion);
 
 #endif

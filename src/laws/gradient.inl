@@ -27,7 +27,7 @@ static void PERI_S_FN(strain_change)(int dim, int linear, peri_s h[PERI_S_DIM][P
 /* P of the law of a point, of the strain e (lost) at H; laws without a gradient count as Saint Venant-Kirchhoff's. */
 static void PERI_S_FN(stress)(const peri__law *law, int dim, int linear, peri_s h[PERI_S_DIM][PERI_S_DIM],
                               peri_s e[PERI_S_DIM][PERI_S_DIM], peri_s p[PERI_S_DIM][PERI_S_DIM]) {
-    switch (law->model) {
+    switch (law->kind) {
 #define PERI_CASE(name, number) case number: PERI_S_FN(stress_##name)(law, dim, linear, h, e, p); break;
     PERI_GRADIENT_LAW_LIST(PERI_CASE)
 #undef PERI_CASE
@@ -39,7 +39,7 @@ static void PERI_S_FN(stress)(const peri__law *law, int dim, int linear, peri_s 
 static void PERI_S_FN(stress_change)(const peri__law *law, int dim, int linear, peri_s h[PERI_S_DIM][PERI_S_DIM],
                                      peri_s e[PERI_S_DIM][PERI_S_DIM], peri_s dh[PERI_S_DIM][PERI_S_DIM],
                                      peri_s dp[PERI_S_DIM][PERI_S_DIM]) {
-    switch (law->model) {
+    switch (law->kind) {
 #define PERI_CASE(name, number) case number: PERI_S_FN(stress_change_##name)(law, dim, linear, h, e, dh, dp); break;
     PERI_GRADIENT_LAW_LIST(PERI_CASE)
 #undef PERI_CASE
@@ -49,7 +49,7 @@ static void PERI_S_FN(stress_change)(const peri__law *law, int dim, int linear, 
 
 /* Energy density of the strain e. */
 PERI_INLINE double PERI_S_FN(strain_energy)(const peri__law *law, int dim, peri_s e[PERI_S_DIM][PERI_S_DIM]) {
-    switch (law->model) {
+    switch (law->kind) {
 #define PERI_CASE(name, number) case number: return PERI_S_FN(strain_energy_##name)(law, dim, e);
     PERI_GRADIENT_LAW_LIST(PERI_CASE)
 #undef PERI_CASE

@@ -16,6 +16,6 @@
 #include "laws.inl"
 #undef PERI_LAW_ROLE_TRAITS
 
-PERI_SAME_COUNT(law, PERI_LAW_LIST, PERI_MODEL_COUNT_ - 1);
+PERI_SAME_COUNT(law, PERI_LAW_LIST, peri__count_law);
 
 #endif

@@ -7,11 +7,11 @@
 #ifndef PERI_LAW_LIST
 /* X(name, number) for every law */
 #define PERI_LAW_LIST(X)            \
-    X(bond_based, PERI_BOND_BASED)  \
-    X(lps, PERI_LPS)                \
-    X(oterkus, PERI_OTERKUS)        \
+    X(bond_based, PERI_LAW_BOND_BASED)  \
+    X(lps, PERI_LAW_LPS)                \
+    X(oterkus, PERI_LAW_OTERKUS)        \
     PERI_GRADIENT_LAW_LIST(X)
 
 /* and for those with a gradient */
-#define PERI_GRADIENT_LAW_LIST(X) X(correspondence, PERI_CORRESPONDENCE)
+#define PERI_GRADIENT_LAW_LIST(X) X(correspondence, PERI_LAW_CORRESPONDENCE)
 #endif

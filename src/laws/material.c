@@ -3,11 +3,11 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_COOKIE_MATERIAL (UINT64_C(0x7065726900010000) + sizeof(peri_material))
+#define PERI_COOKIE_MATERIAL (UINT64_C(0x7065726900010000) + sizeof(peri_material_desc))
 
 /* What a law differs in. Where p is proportional to A and that vanishes nothing is gathered. */
 static void peri__set_traits(peri__law *law, int32_t model) {
-    law->model = model;
+    law->kind = model;
     law->gather = law->gauge = law->pairwise = 0;
     switch (model) {
 #define PERI_CASE(name, number)                                                                                        \
@@ -34,42 +34,42 @@ static int peri__is_pairwise(int32_t model) { return peri__traits_of(model).pair
 
 static int peri__has_gradient(int32_t model) { return (peri__traits_of(model).gather & PERI__GRADIENT) != 0; }
 
-PERI_API void peri_material_init(peri_material *m, int32_t model) {
+PERI_API void peri_material_desc_init(peri_material_desc *m, int32_t model) {
     if (!m) return;
     memset(m, 0, sizeof *m);
     m->cookie = PERI_COOKIE_MATERIAL;
-    m->model = model;
+    m->law = model;
     m->poisson = (double)NAN;
     m->criterion = PERI_CRITERION_STRETCH;
     m->stabilization = peri__has_gradient(model) ? 0.2 : 0.0;
 }
 
-static double peri__bond_poisson(int32_t space) { return space == PERI_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
+static double peri__bond_poisson(int32_t space) { return space == PERI_SPACE_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
 
-static double peri__poisson(const peri_material *m, int32_t space) {
-    return m->model == PERI_BOND_BASED ? peri__bond_poisson(space) : m->poisson;
+static double peri__poisson(const peri_material_desc *m, int32_t space) {
+    return m->law == PERI_LAW_BOND_BASED ? peri__bond_poisson(space) : m->poisson;
 }
 
-static double peri__young(const peri_material *m, int32_t space) {
+static double peri__young(const peri_material_desc *m, int32_t space) {
     return m->young > 0.0 ? m->young : 3.0 * (1.0 - 2.0 * peri__poisson(m, space)) * m->bulk;
 }
 
 /* The elasticity of a material in units of stress. A vanishes to the last bit at the Poisson ratio of a bond-based material. */
-static peri__law peri__law_of(const peri_material *m, int32_t space, double stress) {
+static peri__law peri__law_of(const peri_material_desc *m, int32_t space, double stress) {
     peri__law law;
-    int dim = space == PERI_SOLID ? 3 : 2;
+    int dim = space == PERI_SPACE_SOLID ? 3 : 2;
     double nu = peri__poisson(m, space);
     law.young = peri__young(m, space) / stress;
     law.mu = law.young / (2.0 * (1.0 + nu));
-    law.lambda = space == PERI_PLANE_STRESS ? law.young * nu / ((1.0 - nu) * (1.0 + nu)) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    law.lambda = space == PERI_SPACE_PLANE_STRESS ? law.young * nu / ((1.0 - nu) * (1.0 + nu)) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
     /* lambda + 2 mu/dim, by forms that cancel no digits near nu = -1 */
-    law.bulk = space == PERI_PLANE_STRESS ? law.young / (2.0 * (1.0 - nu))
-             : space == PERI_PLANE_STRAIN ? law.young / (2.0 * (1.0 + nu) * (1.0 - 2.0 * nu)) : law.young / (3.0 * (1.0 - 2.0 * nu));
+    law.bulk = space == PERI_SPACE_PLANE_STRESS ? law.young / (2.0 * (1.0 - nu))
+             : space == PERI_SPACE_PLANE_STRAIN ? law.young / (2.0 * (1.0 + nu) * (1.0 - 2.0 * nu)) : law.young / (3.0 * (1.0 - 2.0 * nu));
     law.a = dim * (law.lambda - law.mu);
     law.b = dim * (dim + 2) * law.mu;
     if (fabs(nu - peri__bond_poisson(space)) < 1e-9) law.a = 0.0;
     law.stabilization = m->stabilization;
-    peri__set_traits(&law, m->model);
+    peri__set_traits(&law, m->law);
     return law;
 }
 
@@ -77,7 +77,7 @@ static peri__law peri__law_of(const peri_material *m, int32_t space, double stre
 static int peri__is_soft(const peri_body *b, const peri__law *law, double edge) {
     const int dim = b->dim;
     double plain, length, m;
-    if (law->model != PERI_OTERKUS || !peri__moment(&b->desc, dim - 1, edge, &plain) || !peri__moment(&b->desc, dim, edge, &length)
+    if (law->kind != PERI_LAW_OTERKUS || !peri__moment(&b->desc, dim - 1, edge, &plain) || !peri__moment(&b->desc, dim, edge, &length)
         || !peri__moment(&b->desc, dim + 1, edge, &m))
         return 0;
     const double room = m * plain / (length * length) - 1.0;
@@ -100,13 +100,13 @@ static int32_t peri__fill_units(peri_body *b, peri__model *m) {
 }
 
 /* w0 of the energy criteria, see bond_energy.inl. Per unit thickness in 2D. */
-static double peri__critical_energy(const peri_material *m, int32_t space, double horizon) {
+static double peri__critical_energy(const peri_material_desc *m, int32_t space, double horizon) {
     double h3 = horizon * horizon * horizon;
-    return space == PERI_SOLID ? 4.0 * m->fracture_energy / (PERI_PI * h3 * horizon) : 1.5 * m->fracture_energy / h3;
+    return space == PERI_SPACE_SOLID ? 4.0 * m->fracture_energy / (PERI_PI * h3 * horizon) : 1.5 * m->fracture_energy / h3;
 }
 
 typedef struct peri__fracture { /* what limits follow from                                                                */
-    const peri_material *material;
+    const peri_material_desc *material;
     int32_t space;
     double  horizon; /* inner units                                                                                      */
     double  unit;    /* of energy per area                                                                               */
@@ -141,7 +141,8 @@ static int32_t peri__seen_by(int32_t criterion) {
 static void peri__set_stretch(peri__pair *pair) {
     pair->s0 = PERI_NEVER;
 #define PERI_CASE(name, number)                                                                                        \
-    if ((int)PERI__SEEN_##name == (int)PERI__BY_STRETCH && pair->limit[number] < pair->s0) pair->s0 = pair->limit[number];
+    if ((int)PERI__SEEN_##name == (int)PERI__BY_STRETCH && pair->limit[(number) - peri__first_criterion] < pair->s0)   \
+        pair->s0 = pair->limit[(number) - peri__first_criterion];
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
 }
@@ -149,29 +150,29 @@ static void peri__set_stretch(peri__pair *pair) {
 /* Can bonds of this pair break? */
 static int peri__is_breakable(const peri__pair *pair) {
     int breakable = 0;
-    for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) breakable |= pair->limit[k] < PERI_NEVER;
+    for (int32_t k = 0; k < peri__count_criterion; ++k) breakable |= pair->limit[k] < PERI_NEVER;
     return breakable;
 }
 
 /* What only some models can have. */
-static int32_t peri__check_model(peri_body *b, const peri_material *m) {
-    int32_t space = b->desc.space, bonds = m->model == PERI_BOND_BASED;
-    PERI_NEED(b, peri__one_of(m->model, PERI_MODEL_COUNT_), "model");
-    PERI_NEED(b, peri__one_of(m->criterion, PERI_CRITERION_COUNT_), "criterion");
+static int32_t peri__check_model(peri_body *b, const peri_material_desc *m) {
+    int32_t space = b->desc.space, bonds = m->law == PERI_LAW_BOND_BASED;
+    PERI_NEED_CHOICE(b, law, m->law);
+    PERI_NEED_CHOICE(b, criterion, m->criterion);
     PERI_NEED_NUMBER(b, m->stabilization >= 0.0, m->stabilization);
-    if (!peri__has_gradient(m->model) && m->stabilization != 0.0)
-        return peri__fail(b, PERI_ERROR_MODEL, "stabilization", -1, m->stabilization);
+    if (!peri__has_gradient(m->law) && m->stabilization != 0.0)
+        return peri__fail(b, PERI_ERROR_LAW, "stabilization", -1, m->stabilization);
     if (m->criterion != PERI_CRITERION_STRETCH && (bonds || !(m->fracture_energy > 0.0)))
         return peri__fail(b, PERI_ERROR_CRITERION, bonds ? "criterion" : "fracture_energy", -1, m->criterion);
     if (!bonds && peri__is_planar(b->desc.quadrature))
-        return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+        return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     if (!bonds) PERI_NEED_NUMBER(b, m->poisson > -1.0 && m->poisson < 0.5, m->poisson);
     if (bonds && m->poisson == m->poisson && fabs(m->poisson - peri__bond_poisson(space)) > 1e-9)
         return peri__fail(b, PERI_ERROR_POISSON, "poisson", -1, peri__bond_poisson(space));
     return PERI_OK;
 }
 
-static int32_t peri__check_material(peri_body *b, const peri_material *m, int need_density) {
+static int32_t peri__check_material(peri_body *b, const peri_material_desc *m, int need_density) {
     PERI_NEED(b, m, "material");
     if (m->cookie != PERI_COOKIE_MATERIAL) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
     PERI_NEED_NUMBER(b, m->young >= 0.0, m->young);
@@ -185,25 +186,35 @@ static int32_t peri__check_material(peri_body *b, const peri_material *m, int ne
     return peri__check_model(b, m);
 }
 
-PERI_API int32_t peri_add_material(peri_body *b, const peri_material *m) {
+PERI_API int32_t peri_add_material(peri_body *b, const peri_material_desc *m) {
     PERI_NEED_UNBUILT(b);
     int32_t status = peri__check_material(b, m, 1);
     if (status < 0) return status;
-    if (b->material_count == PERI_MATERIAL_LIMIT)
-        return peri__fail(b, PERI_ERROR_MATERIAL, "material", PERI_MATERIAL_LIMIT, 0.0);
+    status = peri__check_room(b, PERI_KIND_MATERIAL, PERI_MATERIAL_LIMIT, "peri_add_material");
+    if (status < 0) return status;
     b->materials[b->material_count] = *m;
-    return b->material_count++;
+    return peri__id(b, PERI_KIND_MATERIAL, b->material_count++);
 }
 
-PERI_API int32_t peri_set_interface(peri_body *b, int32_t i, int32_t j, const peri_material *material) {
+/* The indices of two materials. */
+static int32_t peri__find_materials(peri_body *b, int32_t i, int32_t j, int32_t *index) {
+    const int64_t p = peri__find(b, PERI_KIND_MATERIAL, i, "i"), q = p < 0 ? p : peri__find(b, PERI_KIND_MATERIAL, j, "j");
+    if (q < 0) return (int32_t)q;
+    index[0] = (int32_t)p;
+    index[1] = (int32_t)q;
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_set_interface(peri_body *b, int32_t first, int32_t second, const peri_material_desc *material) {
+    int32_t at[2] = { 0, 0 };
     PERI_NEED_UNBUILT(b);
-    int32_t status = peri__check_material_id(b, i);
-    if (status == PERI_OK) status = peri__check_material_id(b, j);
-    if (status == PERI_OK && i == j) status = peri__fail(b, PERI_ERROR_MATERIAL, "i, j", i, 0.0);
+    int32_t status = peri__find_materials(b, first, second, at);
+    if (status == PERI_OK && first == second) status = peri__fail(b, PERI_ERROR_MATERIAL, "j", second, 0.0);
     if (status == PERI_OK) status = peri__check_material(b, material, 0);
     if (status < 0) return status;
-    if (material->model != PERI_BOND_BASED || b->materials[i].model != PERI_BOND_BASED || b->materials[j].model != PERI_BOND_BASED)
-        return peri__fail(b, PERI_ERROR_MODEL, material->model != PERI_BOND_BASED ? "model" : "i, j", -1, 0.0);
+    const int32_t i = at[0], j = at[1];
+    if (material->law != PERI_LAW_BOND_BASED || b->materials[i].law != PERI_LAW_BOND_BASED || b->materials[j].law != PERI_LAW_BOND_BASED)
+        return peri__fail(b, PERI_ERROR_LAW, material->law != PERI_LAW_BOND_BASED ? "law" : "i, j", -1, 0.0);
     for (int64_t k = 0; k < b->interface_count; ++k) {
         peri__interface *face = &b->interfaces[k];
         if ((face->i == i && face->j == j) || (face->i == j && face->j == i)) {
@@ -226,13 +237,13 @@ PERI_API int32_t peri_set_interface(peri_body *b, int32_t i, int32_t j, const pe
      plane stress  c = 3E/(pi I2 h^3)     s0^2 = G0/(c I3 h^4)           [P] C.18, C.20
    The central bonds of a state-based law with w are those of a bond-based one with w |xi|, so its moments are one higher. It has no c
    of its own; this one serves s0. */
-static int32_t peri__constants(peri_body *b, const peri_material *m, double stress, double length, double edge,
+static int32_t peri__constants(peri_body *b, const peri_material_desc *m, double stress, double length, double edge,
                                peri__pair *pair) {
-    int32_t space = b->desc.space, states = m->model != PERI_BOND_BASED;
+    int32_t space = b->desc.space, states = m->law != PERI_LAW_BOND_BASED;
     /* the limits of energies need no c */
-    int solid = space == PERI_SOLID, stretch = !(peri__seen_by(m->criterion) & (PERI__BY_WORK | PERI__BY_NODE_ENERGY));
+    int solid = space == PERI_SPACE_SOLID, stretch = !(peri__seen_by(m->criterion) & (PERI__BY_WORK | PERI__BY_NODE_ENERGY));
     double h = b->desc.horizon / length, modulus = peri__young(m, space) / stress, ic = 1.0, is = 1.0;
-    for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = PERI_NEVER;
+    for (int32_t k = 0; k < peri__count_criterion; ++k) pair->limit[k] = PERI_NEVER;
     pair->c = 0.0;
     if (!states || (stretch && m->fracture_energy > 0.0)) {
         if (!peri__moment(&b->desc, (solid ? 3 : 2) + states, edge, &ic) || !peri__moment(&b->desc, (solid ? 4 : 3) + states, edge, &is))
@@ -241,12 +252,12 @@ static int32_t peri__constants(peri_body *b, const peri_material *m, double stre
             double bulk = modulus / 1.5; /* K = E/(3(1-2 nu)), nu = 1/4 */
             pair->c = 9.0 * bulk / (2.0 * PERI_PI * ic * h * h * h * h);
         } else {
-            pair->c = (space == PERI_PLANE_STRAIN ? 3.2 : 3.0) * modulus / (PERI_PI * ic * h * h * h);
+            pair->c = (space == PERI_SPACE_PLANE_STRAIN ? 3.2 : 3.0) * modulus / (PERI_PI * ic * h * h * h);
         }
     }
     const peri__fracture fracture = { m, space, h, stress * length, m->fracture_energy / (stress * length), pair->c, is };
-    if (m->fracture_energy > 0.0) pair->limit[m->criterion] = peri__limit_of(&fracture);
-    if (m->critical_stretch > 0.0) pair->limit[PERI_CRITERION_STRETCH] = m->critical_stretch;
+    if (m->fracture_energy > 0.0) pair->limit[m->criterion - peri__first_criterion] = peri__limit_of(&fracture);
+    if (m->critical_stretch > 0.0) pair->limit[PERI_CRITERION_STRETCH - peri__first_criterion] = m->critical_stretch;
     peri__set_stretch(pair);
     return PERI_OK;
 }
@@ -263,21 +274,22 @@ static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double s
             return peri__constants(b, &face->material, stress, length, edge, pair);
     }
     *pair = *p;
-    for (int32_t k = 0; k < PERI_CRITERION_COUNT_; ++k) pair->limit[k] = peri__lower(p->limit[k], q->limit[k]);
+    for (int32_t k = 0; k < peri__count_criterion; ++k) pair->limit[k] = peri__lower(p->limit[k], q->limit[k]);
     peri__set_stretch(pair);
-    if (i != j && b->materials[i].model == PERI_BOND_BASED && b->materials[j].model == PERI_BOND_BASED)
+    if (i != j && b->materials[i].law == PERI_LAW_BOND_BASED && b->materials[j].law == PERI_LAW_BOND_BASED)
         pair->c = 2.0 * p->c * q->c / (p->c + q->c);
     return PERI_OK;
 }
 
-PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, double *c, double *s0) {
+PERI_API int32_t peri_get_bond_constants(peri_body *b, int32_t first, int32_t second, double *c, double *s0) {
+    int32_t at[2] = { 0, 0 };
     PERI_NEED_BODY(b);
-    int32_t status = peri__check_material_id(b, i);
-    if (status == PERI_OK) status = peri__check_material_id(b, j);
+    int32_t status = peri__find_materials(b, first, second, at);
     if (status < 0) return status;
-    if (c && (b->materials[i].model != PERI_BOND_BASED || b->materials[j].model != PERI_BOND_BASED))
-        return peri__fail(b, PERI_ERROR_MODEL, "c", -1, 0.0);
-    int solid = b->desc.space == PERI_SOLID;
+    const int32_t i = at[0], j = at[1];
+    if (c && (b->materials[i].law != PERI_LAW_BOND_BASED || b->materials[j].law != PERI_LAW_BOND_BASED))
+        return peri__fail(b, PERI_ERROR_LAW, "c", -1, 0.0);
+    int solid = b->desc.space == PERI_SPACE_SOLID;
     double edge = 0.0, length = b->desc.horizon, stress = peri__young(&b->materials[i], b->desc.space);
     peri__pair pair, own[PERI_MATERIAL_LIMIT];
     if (b->desc.influence == PERI_INFLUENCE_POLE_EDGE) {
@@ -293,18 +305,18 @@ PERI_API int32_t peri_read_bond_constants(peri_body *b, int32_t i, int32_t j, do
     const double unit = stress / length / length / length / (solid ? length : b->desc.thickness), micromodulus = pair.c * unit;
     if (c && !(micromodulus >= DBL_MIN && peri__finite(micromodulus))) return peri__fail(b, PERI_ERROR_RANGE, "c", -1, micromodulus);
     if (c) *c = micromodulus;
-    const double stretch = pair.limit[PERI_CRITERION_STRETCH];
+    const double stretch = pair.limit[PERI_CRITERION_STRETCH - peri__first_criterion];
     if (s0) *s0 = stretch < PERI_NEVER ? stretch : HUGE_VAL;
     return PERI_OK;
 }
 
-PERI_API int32_t peri_read_critical_energy(peri_body *b, int32_t material, double *w0) {
+PERI_API int32_t peri_get_critical_energy(peri_body *b, int32_t material, double *w0) {
     PERI_NEED_BODY(b);
-    int32_t status = peri__check_material_id(b, material);
-    if (status < 0) return status;
+    const int64_t at = peri__find(b, PERI_KIND_MATERIAL, material, "material");
+    if (at < 0) return (int32_t)at;
     PERI_NEED(b, w0, "w0");
-    const peri_material *m = &b->materials[material];
-    const double h = b->desc.horizon, last = b->desc.space == PERI_SOLID ? h : b->desc.thickness;
+    const peri_material_desc *m = &b->materials[at];
+    const double h = b->desc.horizon, last = b->desc.space == PERI_SPACE_SOLID ? h : b->desc.thickness;
     const double critical = peri__critical_energy(m, b->desc.space, 1.0) / h / h / h / last;
     if (m->criterion != PERI_CRITERION_STRETCH && !(critical >= DBL_MIN && peri__finite(critical)))
         return peri__fail(b, PERI_ERROR_RANGE, "w0", -1, critical);

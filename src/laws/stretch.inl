@@ -7,7 +7,7 @@ enum { PERI__SEEN_stretch = PERI__BY_STRETCH };
 /* s0^2 = 2 G0/(pi c I4 h^5) in 3D, G0/(c I3 h^4) in the plane: the bonds across a unit of area then take G0. */
 static double peri__limit_stretch(const peri__fracture *g) {
     const double h = g->horizon;
-    return sqrt(g->space == PERI_SOLID ? 2.0 * g->energy / (PERI_PI * g->c * g->moment * h * h * h * h * h)
+    return sqrt(g->space == PERI_SPACE_SOLID ? 2.0 * g->energy / (PERI_PI * g->c * g->moment * h * h * h * h * h)
                                        : g->energy / (g->c * g->moment * h * h * h * h));
 }
 #endif
@@ -15,7 +15,7 @@ static double peri__limit_stretch(const peri__fracture *g) {
 #ifdef PERI_CRITERION_ROLE_OVER
 PERI_INLINE int PERI_FN(over_stretch)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k];
-    const peri_b s0 = (peri_b)PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_STRETCH];
+    const peri_b s0 = (peri_b)PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_STRETCH - peri__first_criterion];
     if (s->model->centroid && j < i) return PERI_FN(is_over_for_other)(s, i, j, s0);
     return bond->along > s0 * bond->length * bond->reach;
 }

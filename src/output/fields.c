@@ -7,31 +7,31 @@
 /* X(name, number, components, unit, way, what, forces). The way is `view`: peri__view_what points to what is stored, or `read`:
    peri__read_what computes all numbers; both leave the unit to the list. forces: 1 of what a write or a cut leaves out of date. */
 #define PERI_FIELD_LIST(X)                                                                                             \
-    X(POSITION, 1, dim, m->length, view, position, 0)                                                                  \
-    X(DISPLACEMENT, 2, dim, m->length, view, displacement, 0)                                                          \
-    X(VELOCITY, 3, dim, peri__velocity_unit(m), view, velocity, 0)                                                     \
-    X(FORCE_DENSITY, 4, dim, peri__force_unit(m), view, force_density, 1)                                              \
-    X(VOLUME, 5, 1, pow(m->length, m->dim), view, volume, 0)                                                           \
-    X(MATERIAL, 6, 1, 1.0, read, material, 0)                                                                          \
-    X(FAMILY_SIZE, 7, 1, 1.0, read, family_size, 0)                                                                    \
-    X(DAMAGE, 8, 1, 1.0, read, damage, 0)                                                                              \
-    X(DAMAGE_GROWN, 9, 1, 1.0, read, damage_grown, 0)                                                                  \
-    X(ENERGY_DENSITY, 10, 1, m->stress, read, energy_density, 0)                                                       \
-    X(CURRENT, 11, dim, 1.0, read, current, 0) /* the sum of two views, which have their units */                      \
-    X(DILATATION, 12, 1, 1.0, read, dilatation, 0)                                                                     \
-    X(STRAIN, 13, PERI_PACKED(dim), 1.0, read, strain, 0)                                                              \
-    X(STRESS, 14, PERI_PACKED(dim), m->stress, read, stress, 0)                                                        \
-    X(FORCE_STRESS, 15, PERI_PACKED(dim), m->stress, read, force_stress, 0)                                            \
-    X(REACTION, 16, dim, peri__force_unit(m), read, reaction, 1)
+    X(POSITION, 2001, dim, m->length, view, position, 0)                                                                  \
+    X(DISPLACEMENT, 2002, dim, m->length, view, displacement, 0)                                                          \
+    X(VELOCITY, 2003, dim, peri__velocity_unit(m), view, velocity, 0)                                                     \
+    X(FORCE_DENSITY, 2004, dim, peri__force_unit(m), view, force_density, 1)                                              \
+    X(VOLUME, 2005, 1, pow(m->length, m->dim), view, volume, 0)                                                           \
+    X(MATERIAL, 2006, 1, 1.0, read, material, 0)                                                                          \
+    X(FAMILY_SIZE, 2007, 1, 1.0, read, family_size, 0)                                                                    \
+    X(DAMAGE, 2008, 1, 1.0, read, damage, 0)                                                                              \
+    X(DAMAGE_GROWN, 2009, 1, 1.0, read, damage_grown, 0)                                                                  \
+    X(ENERGY_DENSITY, 2010, 1, m->stress, read, energy_density, 0)                                                       \
+    X(CURRENT_POSITION, 2011, dim, 1.0, read, current, 0) /* the sum of two views, which have their units */                      \
+    X(DILATATION, 2012, 1, 1.0, read, dilatation, 0)                                                                     \
+    X(STRAIN, 2013, PERI_PACKED(dim), 1.0, read, strain, 0)                                                              \
+    X(STRESS, 2014, PERI_PACKED(dim), m->stress, read, stress, 0)                                                        \
+    X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, 0)                                            \
+    X(REACTION, 2016, dim, peri__force_unit(m), read, reaction, 1)
 
-#define PERI_FIELD_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(name, PERI_##name == (number))
+#define PERI_FIELD_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(FIELD_##name, PERI_FIELD_##name == (number))
 PERI_FIELD_LIST(PERI_FIELD_NUMBER_)
-PERI_SAME_COUNT(field, PERI_FIELD_LIST, PERI_FIELD_COUNT_ - 1);
+PERI_SAME_COUNT(field, PERI_FIELD_LIST, peri__count_field);
 
 /* Numbers per point of a field, 0 where there is no such field. */
 static int32_t peri__components(int32_t field, int32_t dim) {
 #define PERI_COMPONENTS_CASE_(name, number, components, unit, way, what, forces)                                       \
-    case PERI_##name: return components;
+    case PERI_FIELD_##name: return components;
     switch (field) {
         PERI_FIELD_LIST(PERI_COMPONENTS_CASE_)
     default: return 0;
@@ -41,7 +41,7 @@ static int32_t peri__components(int32_t field, int32_t dim) {
 
 static double peri__unit_of(const peri__model *m, int32_t field) {
 #define PERI_UNIT_CASE_(name, number, components, unit, way, what, forces)                                             \
-    case PERI_##name: return unit;
+    case PERI_FIELD_##name: return unit;
     switch (field) {
         PERI_FIELD_LIST(PERI_UNIT_CASE_)
     default: return 1.0;
@@ -49,7 +49,7 @@ static double peri__unit_of(const peri__model *m, int32_t field) {
 #undef PERI_UNIT_CASE_
 }
 
-PERI_API int64_t peri_field_size(const peri_body *b, int32_t field) {
+PERI_API int64_t peri_size_of_field(const peri_body *b, int32_t field) {
     if (!b) return PERI_ERROR_ARGUMENT;
     if (!b->model) return PERI_ERROR_ORDER;
     int32_t components = peri__components(field, b->dim);
@@ -69,7 +69,7 @@ static void peri__view_force_density(const peri_body *b, peri_view *view) { view
 
 static void peri__view_volume(const peri_body *b, peri_view *view) {
     view->data = b->model->volume;
-    view->type = PERI_F64;
+    view->type = PERI_TYPE_F64;
 }
 
 /* All of a view but what it points to. */
@@ -79,14 +79,14 @@ static void peri__frame_view(const peri_body *b, int32_t field, peri_view *view)
     view->point_stride = 1;
     view->component_stride = m->stride;
     view->components = peri__components(field, b->dim);
-    view->type = b->f32 ? PERI_F32 : PERI_F64;
+    view->type = b->f32 ? PERI_TYPE_F32 : PERI_TYPE_F64;
     view->scale = peri__unit_of(m, field);
     view->offset[0] = view->offset[1] = view->offset[2] = 0.0;
 }
 
 static double peri__view_at(const peri_view *view, int64_t i, int32_t d) {
     int64_t at = i * view->point_stride + d * view->component_stride;
-    return view->offset[d] + view->scale * peri__get_real(view->data, view->type == PERI_F32, at);
+    return view->offset[d] + view->scale * peri__get_real(view->data, view->type == PERI_TYPE_F32, at);
 }
 
 /* ---- what is computed --------------------------------------------------------------------------------------------- */
@@ -127,9 +127,9 @@ static void peri__read_energy_density(peri_body *b, double *out) { (void)peri__e
 static void peri__read_current(peri_body *b, double *out) {
     const peri__model *m = b->model;
     peri_view at, moved;
-    peri__frame_view(b, PERI_POSITION, &at);
+    peri__frame_view(b, PERI_FIELD_POSITION, &at);
     peri__view_position(b, &at);
-    peri__frame_view(b, PERI_DISPLACEMENT, &moved);
+    peri__frame_view(b, PERI_FIELD_DISPLACEMENT, &moved);
     peri__view_displacement(b, &moved);
     for (int64_t i = 0; i < m->points; ++i)
         for (int32_t d = 0; d < m->dim; ++d) out[i * m->dim + d] = peri__view_at(&at, i, d) + peri__view_at(&moved, i, d);
@@ -162,21 +162,21 @@ typedef struct peri__field {
 } peri__field;
 
 #define PERI_FIELD_ENTRY_(name, number, components, unit, way, what, forces)                                           \
-    [number] = { #what, forces, .way = peri__##way##_##what },
-static const peri__field peri__fields[PERI_FIELD_COUNT_] = { PERI_FIELD_LIST(PERI_FIELD_ENTRY_) };
+    [(number) - peri__first_field] = { #what, forces, .way = peri__##way##_##what },
+static const peri__field peri__fields[peri__count_field] = { PERI_FIELD_LIST(PERI_FIELD_ENTRY_) };
 #undef PERI_FIELD_ENTRY_
 
 /* Fills a view of a stored field; 0 where the field is not stored. */
 static int peri__stored_view(const peri_body *b, int32_t field, peri_view *view) {
-    if (!peri__fields[field].view) return 0;
+    if (!peri__fields[field - peri__first_field].view) return 0;
     peri__frame_view(b, field, view);
-    peri__fields[field].view(b, view);
+    peri__fields[field - peri__first_field].view(b, view);
     return 1;
 }
 
-/* A field in the user's units and order; out is [peri_field_size]. */
+/* A field in the user's units and order; out is [peri_size_of_field]. */
 static void peri__compute(peri_body *b, int32_t field, double *out) {
-    const int64_t count = peri_field_size(b, field);
+    const int64_t count = peri_size_of_field(b, field);
     const double unit = peri__unit_of(b->model, field);
     peri_view view;
     if (peri__stored_view(b, field, &view)) {
@@ -184,22 +184,22 @@ static void peri__compute(peri_body *b, int32_t field, double *out) {
             for (int32_t d = 0; d < view.components; ++d) out[i * view.components + d] = peri__view_at(&view, i, d);
         return;
     }
-    peri__fields[field].read(b, out);
+    peri__fields[field - peri__first_field].read(b, out);
     for (int64_t k = 0; unit != 1.0 && k < count; ++k) out[k] *= unit;
 }
 
 /* Forces are what a write or a cut can leave out of date. */
 static int32_t peri__ready_field(peri_body *b, int32_t field) {
     if (peri__components(field, b->dim) == 0) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
-    return peri__fields[field].forces ? peri__ensure_force(b) : PERI_OK;
+    return peri__fields[field - peri__first_field].forces ? peri__ensure_force(b) : PERI_OK;
 }
 
-PERI_API int32_t peri_read(peri_body *b, int32_t field, double *out, int64_t capacity) {
+PERI_API int32_t peri_get_field(peri_body *b, int32_t field, double *out, int64_t capacity) {
     PERI_NEED_BUILT(b);
     int32_t status = peri__ready_field(b, field);
     if (status < 0) return status;
     PERI_NEED(b, out, "out");
-    int64_t need = peri_field_size(b, field);
+    int64_t need = peri_size_of_field(b, field);
     if (capacity < need) return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)need);
     peri__compute(b, field, out);
     return PERI_OK;
@@ -213,7 +213,7 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     memset(view, 0, sizeof *view);
     if (peri__stored_view(b, field, view)) return PERI_OK;
     int32_t components = peri__components(field, b->dim);
-    peri__derived *derived = &b->derived[field];
+    peri__derived *derived = &b->derived[field - peri__first_field];
     if (!derived->data) derived->data = (double *)peri__new(&b->memory, b->model->points * components, sizeof(double));
     if (!derived->data) return peri__fail(b, PERI_ERROR_MEMORY, "field", field, 0.0);
     derived->components = components;
@@ -223,20 +223,20 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     view->components = components;
     view->point_stride = components;
     view->component_stride = 1;
-    view->type = PERI_F64;
+    view->type = PERI_TYPE_F64;
     view->scale = 1.0;
     return PERI_OK;
 }
 
-PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64_t count) {
+PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, int64_t count) {
     PERI_NEED_IDLE(b);
-    if (field != PERI_DISPLACEMENT && field != PERI_VELOCITY) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
+    if (field != PERI_FIELD_DISPLACEMENT && field != PERI_FIELD_VELOCITY) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
     PERI_NEED(b, in, "in");
     const peri__model *m = b->model;
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
     peri_view view;
     (void)peri__stored_view(b, field, &view);
-    void *data = field == PERI_VELOCITY ? b->v : b->u;
+    void *data = field == PERI_FIELD_VELOCITY ? b->v : b->u;
     int32_t status = peri__check_state(b, data, in, count, view.scale, "in");
     if (status < 0) return status;
     peri__changed(b, PERI__MOTION);
@@ -246,7 +246,7 @@ PERI_API int32_t peri_write(peri_body *b, int32_t field, const double *in, int64
     return PERI_OK;
 }
 
-PERI_API int32_t peri_read_energy(peri_body *b, peri_energy *e) {
+PERI_API int32_t peri_get_energy(peri_body *b, peri_energy *e) {
     PERI_NEED_BUILT(b);
     PERI_NEED(b, e, "energy");
     const peri__ledger *l = &b->now.ledger;
@@ -265,15 +265,15 @@ PERI_API int32_t peri_read_energy(peri_body *b, peri_energy *e) {
     return PERI_OK;
 }
 
-PERI_API int32_t peri_read_momentum(peri_body *b, double *linear, double *angular) {
+PERI_API int32_t peri_get_momentum(peri_body *b, double *linear, double *angular) {
     PERI_NEED_BUILT(b);
     const peri__model *m = b->model;
     peri_view x, u, v;
     double total[3] = { 0.0, 0.0, 0.0 }, turn[3] = { 0.0, 0.0, 0.0 };
     double thickness = m->dim == 3 ? 1.0 : b->desc.thickness, unit = m->density * pow(m->length, m->dim) * thickness;
-    (void)peri__stored_view(b, PERI_POSITION, &x);
-    (void)peri__stored_view(b, PERI_DISPLACEMENT, &u);
-    (void)peri__stored_view(b, PERI_VELOCITY, &v);
+    (void)peri__stored_view(b, PERI_FIELD_POSITION, &x);
+    (void)peri__stored_view(b, PERI_FIELD_DISPLACEMENT, &u);
+    (void)peri__stored_view(b, PERI_FIELD_VELOCITY, &v);
     for (int64_t i = 0; i < m->points; ++i) {
         double y[3] = { 0.0, 0.0, 0.0 }, p[3] = { 0.0, 0.0, 0.0 }, mass = m->rho[m->material[i]] * m->volume[i] * unit, cross[3];
         for (int32_t d = 0; d < m->dim; ++d) {

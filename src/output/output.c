@@ -45,8 +45,8 @@ static int32_t peri__finish(peri_body *b, peri__writer *w) {
 
 /* ---- VTU ---------------------------------------------------------------------------------------------------------- */
 
-static const int32_t peri__vtu_fields[] = { PERI_DISPLACEMENT, PERI_VELOCITY, PERI_DAMAGE, PERI_ENERGY_DENSITY,
-                                            PERI_MATERIAL, PERI_VOLUME, PERI_STRESS };
+static const int32_t peri__vtu_fields[] = { PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_ENERGY_DENSITY,
+                                            PERI_FIELD_MATERIAL, PERI_FIELD_VOLUME, PERI_FIELD_STRESS };
 #define PERI_VTU_FIELDS (sizeof peri__vtu_fields / sizeof *peri__vtu_fields)
 
 /* As in 3D, whatever the space: vectors have z = 0 in 2D, tensors are xx yy zz xy yz xz. */
@@ -86,7 +86,7 @@ static void peri__emit_field(peri_body *b, peri__writer *w, int32_t field, doubl
         }
 }
 
-PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
+PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *user) {
     peri__writer w;
     const uint16_t endian = 1;
     int64_t n, offset = 0;
@@ -120,7 +120,7 @@ PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
     (void)peri__emit_array(&w, "UInt8", "types", 1, offset, n);
     peri__emit_text(&w, "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 
-    peri__emit_field(b, &w, PERI_POSITION, values);
+    peri__emit_field(b, &w, PERI_FIELD_POSITION, values);
     for (size_t k = 0; k < PERI_VTU_FIELDS; ++k) peri__emit_field(b, &w, peri__vtu_fields[k], values);
     for (int32_t ends = 0; ends < 2; ++ends) { /* each point is a cell of its own: VTK_VERTEX */
         peri__emit_length(&w, n * 4);
@@ -141,12 +141,12 @@ PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
 
 /* ---- CSV ---------------------------------------------------------------------------------------------------------- */
 
-PERI_API int32_t peri_write_history(peri_body *b, int32_t header, peri_write_fn write, void *user) {
+PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write_fn write, void *user) {
     peri__writer w;
     peri_energy e;
     PERI_NEED_BUILT(b);
     PERI_NEED(b, write, "write");
-    int32_t status = peri_read_energy(b, &e);
+    int32_t status = peri_get_energy(b, &e);
     if (status < 0) return status;
     w.body = b;
     w.write = write;
@@ -182,15 +182,15 @@ static int32_t peri__save(peri_body *b, const char *path, const char *mode, int 
     PERI_NEED(b, path, "path");
     FILE *file = fopen(path, mode);
     if (!file) return peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
-    int32_t status = history ? peri_write_history(b, mode[0] == 'w', peri__to_file, file)
-                             : peri_write_vtu(b, peri__to_file, file);
+    int32_t status = history ? peri_export_history_to(b, mode[0] == 'w', peri__to_file, file)
+                             : peri_export_vtu_to(b, peri__to_file, file);
     if (fclose(file) != 0 && status == PERI_OK) status = peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
     return status;
 }
 
-PERI_API int32_t peri_save_vtu(peri_body *b, const char *path) { return peri__save(b, path, "wb", 0); }
+PERI_API int32_t peri_export_vtu(peri_body *b, const char *path) { return peri__save(b, path, "wb", 0); }
 
-PERI_API int32_t peri_save_history(peri_body *b, const char *path, int32_t append) {
+PERI_API int32_t peri_export_history(peri_body *b, const char *path, int32_t append) {
     return peri__save(b, path, append ? "ab" : "wb", 1);
 }
 #endif

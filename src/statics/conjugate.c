@@ -11,7 +11,7 @@
 static int peri__is_linear(const peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) return 0;
-    return b->desc.geometry == PERI_LINEAR;
+    return b->desc.geometry == PERI_GEOMETRY_LINEAR;
 }
 
 static double peri__rounding(const peri_body *b) { return b->b32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
@@ -68,7 +68,7 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
 
 /* z = preconditioner times r; returns r.z. */
 static double peri__precondition(peri__solver *s) {
-    s->k.blocks = s->settings->preconditioner == PERI_NO_PRECONDITIONER ? NULL : s->blocks;
+    s->k.blocks = s->settings->preconditioner == PERI_PRECONDITIONER_NONE ? NULL : s->blocks;
     (void)peri__krylov_pass(s, &s->k, s->body->ops->krylov_blocks);
     if (s->levels) peri__correct_coarsely(s);
     peri__balance(s, s->k.z, 0);
@@ -97,7 +97,7 @@ static int peri__is_nothing(const peri__solver *s, double residual, double loads
 
 /* One more iteration, told to the callback. */
 static int32_t peri__count_iteration(peri__solver *s, double residual) {
-    const peri_statics *st = s->settings;
+    const peri_solve_desc *st = s->settings;
     s->report.iterations++;
     s->left--;
     return st->on_iteration && st->on_iteration(st->user, s->report.iterations, residual) ? PERI_STOPPED : PERI_OK;

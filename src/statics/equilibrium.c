@@ -60,7 +60,7 @@ static double peri__static_forces(peri__solver *s) {
             int64_t at = d * m->stride + i;
             peri__put_real(s->k.r, b->f32, at, m->volume[i] * peri__get_real(b->f, b->f32, at));
         }
-    if (b->desc.geometry != PERI_LINEAR) peri__weigh_modes(s);
+    if (b->desc.geometry != PERI_GEOMETRY_LINEAR) peri__weigh_modes(s);
     peri__balance(s, s->k.r, 1);
     peri__drop_singular(s, s->k.r);
     return sqrt(square);
@@ -76,7 +76,7 @@ static double peri__static_residual(peri__solver *s, double loads) {
 static void peri__note_floor(peri__solver *s) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
-    const int inverted = s->settings->method != PERI_RELAXATION;
+    const int inverted = s->settings->method != PERI_METHOD_RELAXATION;
     double square = 0.0, rounding;
     for (int64_t i = 0; i < m->points; ++i) {
         double moved = 0.0, trace = 0.0, stiff = s->stiff;
@@ -157,11 +157,11 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
     int32_t status = peri__find_floating_parts(s);
     if (status < 0) return status;
     s->stiff = peri__fill_diagonal(b, s->blocks);
-    if (s->settings->method == PERI_RELAXATION) {
+    if (s->settings->method == PERI_METHOD_RELAXATION) {
         peri__weigh_modes(s);
         return PERI_OK;
     }
-    if (!s->levels && s->settings->preconditioner == PERI_MULTILEVEL && s->settings->method == PERI_NEWTON) {
+    if (!s->levels && s->settings->preconditioner == PERI_PRECONDITIONER_MULTILEVEL && s->settings->method == PERI_METHOD_NEWTON) {
         s->levels = peri__build_levels(s);
         if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
         s->bytes += s->levels->bytes;
@@ -304,7 +304,7 @@ static int32_t peri__newton(peri__solver *s) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;
         double residual = peri__static_residual(s, loads), told = s->report.residual;
-        int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_LINEAR && peri__at_rest(b);
+        int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_GEOMETRY_LINEAR && peri__at_rest(b);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))
@@ -320,7 +320,7 @@ static int32_t peri__newton(peri__solver *s) {
         last = residual;
         s->report.newton++;
         s->negative = s->energy_done = 0;
-        if (s->settings->method == PERI_BICGSTAB) status = peri__solve_assembled(s, reach, loads);
+        if (s->settings->method == PERI_METHOD_BICGSTAB) status = peri__solve_assembled(s, reach, loads);
         else status = peri__conjugate(s, reach, loads, at_rest);
         s->negative = status == PERI_ERROR_INDEFINITE;
         if (status == PERI_ERROR_MEMORY) return status;

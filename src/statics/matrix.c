@@ -60,7 +60,7 @@ static void peri__change_of_stress(const peri_body *b, int64_t i, const peri__de
     double e[3][3], h[3][3];
     memcpy(h, f->h, sizeof h);
     peri__strain_of(b, f, e);
-    peri__stress_change(law, b->dim, b->desc.geometry == PERI_LINEAR, h, e, d, out);
+    peri__stress_change(law, b->dim, b->desc.geometry == PERI_GEOMETRY_LINEAR, h, e, d, out);
 }
 
 typedef struct peri__element { /* the stiffness of the energy of one point: of its live family and itself, ascending      */
@@ -73,7 +73,7 @@ typedef struct peri__element { /* the stiffness of the energy of one point: of i
 /* Fills the element of point o; returns what multiplies pull x pull of theta. tensor[a][d][c][e]: V dP_ad/dH_ce less the stabilisation. */
 static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e, double tensor[3][3][3][3], int *tensors) {
     const peri__model *m = b->model;
-    const int dim = m->dim, linear = b->desc.geometry == PERI_LINEAR;
+    const int dim = m->dim, linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     const peri__law *law = &m->laws[m->material[o]];
     const double volume = m->volume[o];
     double stabilization = 0.0, pressure_factor = 0.0, theta_factor = 0.0, p = 0.0, self[3] = { 0.0 }, springs[9] = { 0.0 };
@@ -186,12 +186,12 @@ static int32_t peri__couple(peri_body *b, peri_matrix *a, int32_t *mark, int32_t
     return PERI_OK;
 }
 
-PERI_API int32_t peri_assemble(peri_body *b, peri_matrix **matrix) {
+PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
     if (matrix) *matrix = NULL;
     PERI_NEED_BUILT(b);
     PERI_NEED(b, matrix, "matrix");
     const peri__model *m = b->model;
-    if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    if (m->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     peri__element e;
     peri_matrix *a = (peri_matrix *)peri__new(&b->memory, 1, sizeof *a);
     int32_t *mark = (int32_t *)peri__new(&b->memory, m->points, sizeof *mark), status = PERI_ERROR_MEMORY;
@@ -230,7 +230,7 @@ PERI_API int64_t peri_matrix_rows(const peri_matrix *a) { return a ? a->points *
 
 PERI_API int64_t peri_matrix_entries(const peri_matrix *a) { return a ? a->pairs * a->dim * a->dim : PERI_ERROR_ARGUMENT; }
 
-PERI_API int32_t peri_read_matrix(const peri_matrix *a, int64_t *start, int32_t *column, double *value) {
+PERI_API int32_t peri_get_matrix(const peri_matrix *a, int64_t *start, int32_t *column, double *value) {
     int64_t at = 0;
     if (!a) return PERI_ERROR_ARGUMENT;
     for (int64_t row = 0; row < a->points * a->dim; ++row) {
@@ -245,7 +245,7 @@ PERI_API int32_t peri_read_matrix(const peri_matrix *a, int64_t *start, int32_t 
     return PERI_OK;
 }
 
-PERI_API int32_t peri_write_matrix(const peri_matrix *a, peri_write_fn write, void *user) {
+PERI_API int32_t peri_export_matrix_to(const peri_matrix *a, peri_write_fn write, void *user) {
     char line[160], *end;
     const int64_t rows = peri_matrix_rows(a);
     static const char head[] = "%%MatrixMarket matrix coordinate real symmetric\n";
@@ -362,7 +362,7 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
     const peri__model *m = b->model;
     const int64_t n = m->points * m->dim;
     peri_matrix *a = NULL;
-    int32_t status = peri_assemble(b, &a);
+    int32_t status = peri_matrix_create(b, &a);
     if (status < 0) return status;
     peri__add_contact(a, b);
     double *work = (double *)peri__new(&b->memory, 9 * n, sizeof *work);

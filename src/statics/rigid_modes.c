@@ -14,7 +14,7 @@
 
 static double peri__place(const peri_body *b, int64_t i, int32_t d) {
     int64_t at = d * b->model->stride + i;
-    return peri__get_real(b->model->x, b->f32, at) + (b->desc.geometry == PERI_LINEAR ? 0.0 : peri__get_real(b->u, b->f32, at));
+    return peri__get_real(b->model->x, b->f32, at) + (b->desc.geometry == PERI_GEOMETRY_LINEAR ? 0.0 : peri__get_real(b->u, b->f32, at));
 }
 
 /* Component d of rigid motion r of a part at point i. */

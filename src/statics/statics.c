@@ -4,14 +4,14 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_COOKIE_STATICS (UINT64_C(0x7065726900040000) + sizeof(peri_statics))
+#define PERI_COOKIE_STATICS (UINT64_C(0x7065726900040000) + sizeof(peri_solve_desc))
 
-PERI_API void peri_statics_init(peri_statics *st) {
+PERI_API void peri_solve_desc_init(peri_solve_desc *st) {
     if (!st) return;
     memset(st, 0, sizeof *st);
     st->cookie = PERI_COOKIE_STATICS;
-    st->method = PERI_NEWTON;
-    st->preconditioner = PERI_MULTILEVEL;
+    st->method = PERI_METHOD_NEWTON;
+    st->preconditioner = PERI_PRECONDITIONER_MULTILEVEL;
     st->loose = PERI_LOOSE_REFUSED;
     st->fracture = 1;
     st->iterations = 20000;
@@ -20,20 +20,20 @@ PERI_API void peri_statics_init(peri_statics *st) {
     st->load_to = 1.0;
     st->steps = 1;
     st->halvings = 8;
-    st->curve_load = -1;
+    st->load_from = (double)NAN;
 }
 
-static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
-    PERI_NEED(b, st, "statics");
-    if (st->cookie != PERI_COOKIE_STATICS) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "statics", -1, 0.0);
-    PERI_NEED(b, peri__one_of(st->method, PERI_METHOD_COUNT_), "method");
-    PERI_NEED(b, peri__one_of(st->preconditioner, PERI_PRECONDITIONER_COUNT_), "preconditioner");
-    PERI_NEED(b, peri__one_of(st->loose, PERI_LOOSE_COUNT_), "loose");
-    PERI_NEED(b, st->fracture == 0 || st->fracture == 1, "fracture");
+static int32_t peri__check_statics(peri_body *b, const peri_solve_desc *st) {
+    PERI_NEED(b, st, "desc");
+    if (st->cookie != PERI_COOKIE_STATICS) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
+    PERI_NEED_CHOICE(b, method, st->method);
+    PERI_NEED_CHOICE(b, preconditioner, st->preconditioner);
+    PERI_NEED_CHOICE(b, loose, st->loose);
+    PERI_NEED_FLAG(b, st->fracture);
     PERI_NEED_NUMBER(b, st->criticality >= 0.0 && st->criticality <= 1.0, st->criticality);
     PERI_NEED_NUMBER(b, st->tolerance >= 0.0 && st->tolerance < 1.0, st->tolerance);
     PERI_NEED_NUMBER(b, st->energy_tolerance >= 0.0 && st->energy_tolerance < 1.0, st->energy_tolerance);
-    PERI_NEED_NUMBER(b, 1, st->load_from);
+    if (!peri__is_nan(st->load_from)) PERI_NEED_NUMBER(b, 1, st->load_from);
     PERI_NEED_NUMBER(b, 1, st->load_to);
     PERI_NEED(b, st->iterations > 0, "iterations");
     PERI_NEED(b, st->newton > 0, "newton");
@@ -41,9 +41,9 @@ static int32_t peri__check_statics(peri_body *b, const peri_statics *st) {
     PERI_NEED(b, st->steps > 0, "steps");
     PERI_NEED(b, st->halvings >= 0 && st->halvings <= 60, "halvings");
     PERI_NEED(b, st->curve_rows >= 0 && (st->curve || st->curve_rows == 0), "curve");
-    if ((st->curve_load != -1 || st->curve_rows > 0) && peri__check_load(b, st->curve_load) < 0)
-        return peri__fail(b, PERI_ERROR_ID, "curve_load", st->curve_load, 0.0);
-    if (b->model->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    const int64_t curve = st->curve_load != 0 || st->curve_rows > 0 ? peri__find_load(b, st->curve_load, "curve_load") : 0;
+    if (curve < 0) return (int32_t)curve;
+    if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     return PERI_OK;
 }
 
@@ -60,7 +60,7 @@ static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, 
     double excess = 0.0;
     if (!(peri__stretch(b, i, row, k) > 0.0)) return 0.0;
 #define PERI_CASE(name, number) \
-    if (pair->limit[number] < PERI_NEVER) excess = fmax(excess, peri__excess_##name(b, i, row, k, pair->limit[number]));
+    if (pair->limit[(number) - peri__first_criterion] < PERI_NEVER) excess = fmax(excess, peri__excess_##name(b, i, row, k, pair->limit[number - peri__first_criterion]));
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
     return excess;
@@ -184,7 +184,7 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
         s->left = s->settings->iterations;
         s->energy0 = 0.0;
         if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
-        if (status == PERI_OK) status = s->settings->method == PERI_RELAXATION ? peri__relax(s) : peri__newton(s);
+        if (status == PERI_OK) status = s->settings->method == PERI_METHOD_RELAXATION ? peri__relax(s) : peri__newton(s);
         if (status != PERI_OK) break;
         if (m->seen_by & PERI__BY_WORK) {
             peri__operands operands = peri__operands_of(b);
@@ -207,15 +207,16 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
 
 static int32_t peri__record(peri__solver *s) {
     peri_body *b = s->body;
-    const peri_statics *st = s->settings;
+    const peri_solve_desc *st = s->settings;
     const int32_t dim = b->dim;
     double force[3];
-    if (st->curve_load < 0 || b->loads[st->curve_load].kind == PERI__FREE) return PERI_OK;
-    int32_t status = peri_read_reaction(b, st->curve_load, force);
+    const int64_t curve = PERI_ID_INDEX(st->curve_load) - 1;
+    if (st->curve_load == 0 || b->loads[curve].kind == PERI__FREE) return PERI_OK;
+    int32_t status = peri__read_reaction_of(b, curve, force);
     if (status < 0) return status;
     if (s->report.curve_rows < st->curve_rows) {
         double *row = &st->curve[s->report.curve_rows * (2 + 2 * dim)];
-        const peri__load *load = &b->loads[st->curve_load];
+        const peri__load *load = &b->loads[curve];
         row[0] = b->now.load_factor;
         for (int32_t d = 0; d < dim; ++d) {
             row[1 + d] = 0.0;
@@ -278,10 +279,10 @@ static int32_t peri__load_step(peri__solver *s, double from, double to) {
 
 static int32_t peri__load_steps(peri__solver *s) {
     peri_body *b = s->body;
-    const peri_statics *st = s->settings;
+    const peri_solve_desc *st = s->settings;
     int32_t status = peri__take_solver(s);
     if (status < 0) return status;
-    double from = st->load_from;
+    double from = s->load_from;
     (void)peri__ensure(b, PERI__STALE_LEDGER);
     b->now.still = 1;
     peri__changed(b, PERI__ACTION);
@@ -289,7 +290,7 @@ static int32_t peri__load_steps(peri__solver *s) {
     if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
     if (s->load) status = peri__note_forces(s);
     for (int64_t k = 1; k <= st->steps && status == PERI_OK; ++k) {
-        double to = k < st->steps ? st->load_from + (st->load_to - st->load_from) * (double)k / (double)st->steps : st->load_to;
+        double to = k < st->steps ? s->load_from + (st->load_to - s->load_from) * (double)k / (double)st->steps : st->load_to;
         status = peri__load_step(s, from, to);
         from = to;
     }
@@ -302,7 +303,7 @@ static void peri__count_stray(peri__solver *s) {
     b->now.ledger.initial += peri__elastic_energy(b, NULL) - peri__energy_under(b, s->from, NULL);
 }
 
-PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_report *report) {
+PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_report *report) {
     PERI_NEED_IDLE(b);
     peri__solver s;
     int32_t status = peri__check_statics(b, st);
@@ -313,12 +314,14 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_r
     s.settings = st;
     const double factor = b->now.load_factor;
     const int32_t still = b->now.still;
+    s.load_from = !peri__is_nan(st->load_from) ? st->load_from : b->now.loaded ? factor : 0.0;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     status = peri__load_steps(&s);
     peri__leave(b, former);
     if (status < 0 && status == s.failure.code) b->error = s.failure;
+    if (status >= 0 || s.begun) b->now.loaded = 1;
     if (status < 0) {
-        b->now.load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? st->load_from : factor;
+        b->now.load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? s.load_from : factor;
         b->now.still = s.begun ? 1 : still;
         peri__changed(b, PERI__ACTION);
     }

@@ -73,7 +73,7 @@ static int32_t peri__fill_traction(peri_body *b, peri__surface *f, const peri__l
         }
         double felt = total / f->area; /* of uncorrected laws up to twice too much */
         if (!(felt > (exact ? 0.5 : 0.25) && felt < (exact ? 1.5 : 4.0)))
-            return peri__fail(b, PERI_ERROR_SET, "set, area, normal", f->set, total * pow(m->length, dim - 1));
+            return peri__fail(b, PERI_ERROR_AREA, "area", -1, total * pow(m->length, dim - 1));
         scale = exact ? -1.0 : -f->area / total;
         for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
             double share = 0.0;
@@ -115,9 +115,9 @@ static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double 
     int32_t status = PERI_OK, material = m->material[peri__set_point(b, f->set, 0)];
     for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
         int32_t i = peri__set_point(b, f->set, k);
-        if (m->material[i] != material) return peri__fail(b, PERI_ERROR_MODEL, "set", i, 0.0);
+        if (m->material[i] != material) return peri__fail(b, PERI_ERROR_LAW, "set", i, 0.0);
     }
-    if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    if (m->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
     void *p = peri__new_vector(b);
     f->t.body = b;
@@ -131,12 +131,12 @@ static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double 
     peri__delete_vector(b, p);
     peri__delete_vector(b, f->t.q);
     peri__delete(&b->memory, f->t.change, peri__response_reals(m), peri__bond_real(b));
-    if (status == PERI_OK) return peri__add_spread(b, f->set, f->spread, value, fn, user);
+    if (status == PERI_OK) return peri__load_id(b, peri__add_spread(b, f->set, f->spread, value, fn, user));
     peri__delete(&b->memory, f->spread, count, sizeof *f->spread);
     return status;
 }
 
-PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double area, const double *normal, const double *value,
+PERI_API int32_t peri_apply_traction(peri_body *b, int32_t id, double area, const double *normal, const double *value,
                                              peri_load_fn fn, void *user) {
     peri__surface f;
     double unit[3];
@@ -144,8 +144,8 @@ PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double a
     PERI_NEED_NUMBER(b, area > 0.0, area);
     PERI_NEED_VECTOR(b, normal);
     PERI_NEED(b, value || fn, "value");
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
     if (!peri__direction(normal, b->dim, unit)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
     memset(&f, 0, sizeof f);
     f.set = set;
@@ -154,24 +154,25 @@ PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double a
     return peri__apply_surface(b, &f, value, fn, user);
 }
 
-PERI_API int32_t peri_apply_pressure(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
+PERI_API int32_t peri_apply_pressure(peri_body *b, int32_t id, double pressure, peri_load_fn fn, void *user) {
     peri__surface f;
     const double value[3] = { pressure, 0.0, 0.0 };
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_NUMBER(b, 1, pressure);
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
     memset(&f, 0, sizeof f);
     f.set = set;
     return peri__apply_surface(b, &f, value, fn, user);
 }
 
-PERI_API int32_t peri_apply_bond_pressure(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
+PERI_API int32_t peri_apply_bond_pressure_for_comparison(peri_body *b, int32_t id, double pressure, peri_load_fn fn, void *user) {
     const double value[3] = { pressure, 0.0, 0.0 };
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_NUMBER(b, 1, pressure);
-    int32_t status = peri__check_set(b, set);
-    if (status < 0) return status;
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
+    int32_t status = PERI_OK;
     const peri__model *m = b->model;
     const int64_t count = peri__set_count(b, set), entries = count * m->dim * m->dim;
     int64_t pairs = 0;
@@ -192,8 +193,8 @@ PERI_API int32_t peri_apply_bond_pressure(peri_body *b, int32_t set, double pres
         }
     }
     peri__delete(&b->memory, inside, m->points, 1);
-    if (status == PERI_OK && pairs == 0) status = peri__fail(b, PERI_ERROR_SET, "set", set, 0.0);
-    if (status == PERI_OK) return peri__add_spread(b, set, spread, value, fn, user);
+    if (status == PERI_OK && pairs == 0) status = peri__fail(b, PERI_ERROR_EMPTY, "set", id, 0.0);
+    if (status == PERI_OK) return peri__load_id(b, peri__add_spread(b, set, spread, value, fn, user));
     peri__delete(&b->memory, spread, entries, sizeof *spread);
     return status;
 }

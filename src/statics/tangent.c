@@ -11,7 +11,7 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     const peri__model *m = b->model;
     peri__operands operands = peri__operands_of(b);
     void *change = t->change ? (char *)t->change + (size_t)m->margin * peri__bond_real(b) : NULL;
-    if (at_rest || b->desc.geometry == PERI_LINEAR) {
+    if (at_rest || b->desc.geometry == PERI_GEOMETRY_LINEAR) {
         operands.u = t->p; /* the same bonds with other displacements */
         operands.f = t->q;
         operands.response = change;
@@ -76,7 +76,7 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const peri__model *m = b->model;
     const int32_t dim = m->dim;
     const peri__law *own_law = &m->laws[m->material[i]];
-    const int linear = b->desc.geometry == PERI_LINEAR;
+    const int linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     double gather_diagonal[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
     peri__row row;
     peri__read_row(b, i, &row);
@@ -239,7 +239,7 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     PERI_NEED(b, in, "in");
     PERI_NEED(b, out, "out");
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
-    if (m->centroid) return peri__fail(b, PERI_ERROR_MODEL, "quadrature", -1, b->desc.quadrature);
+    if (m->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     const double largest = peri__largest(in, count, &wrong);
     if (wrong >= 0) return peri__fail(b, PERI_ERROR_RANGE, "in", wrong, in[wrong]);
     if (largest > 0.0) (void)frexp(largest, &exponent);

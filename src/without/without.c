@@ -10,17 +10,17 @@ static int32_t peri__without(peri_body *b, const char *name) {
 #endif
 
 #ifdef PERI_NO_STATICS
-PERI_API void peri_statics_init(peri_statics *st) {
+PERI_API void peri_solve_desc_init(peri_solve_desc *st) {
     if (st) memset(st, 0, sizeof *st);
 }
 
-PERI_API int32_t peri_solve(peri_body *b, const peri_statics *st, peri_statics_report *report) {
+PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_report *report) {
     (void)st;
     if (report) memset(report, 0, sizeof *report);
     return peri__without(b, "PERI_NO_STATICS");
 }
 
-PERI_API int32_t peri_apply_surface_traction(peri_body *b, int32_t set, double area, const double *normal, const double *value,
+PERI_API int32_t peri_apply_traction(peri_body *b, int32_t set, double area, const double *normal, const double *value,
                                              peri_load_fn fn, void *user) {
     (void)set, (void)area, (void)normal, (void)value, (void)fn, (void)user;
     return peri__without(b, "PERI_NO_STATICS");
@@ -31,7 +31,7 @@ PERI_API int32_t peri_apply_pressure(peri_body *b, int32_t set, double pressure,
     return peri__without(b, "PERI_NO_STATICS");
 }
 
-PERI_API int32_t peri_apply_bond_pressure(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
+PERI_API int32_t peri_apply_bond_pressure_for_comparison(peri_body *b, int32_t set, double pressure, peri_load_fn fn, void *user) {
     (void)set, (void)pressure, (void)fn, (void)user;
     return peri__without(b, "PERI_NO_STATICS");
 }
@@ -41,7 +41,7 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     return peri__without(b, "PERI_NO_STATICS");
 }
 
-PERI_API int32_t peri_assemble(peri_body *b, peri_matrix **matrix) {
+PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
     if (matrix) *matrix = NULL;
     return peri__without(b, "PERI_NO_STATICS");
 }
@@ -52,35 +52,35 @@ PERI_API int64_t peri_matrix_rows(const peri_matrix *a) { return a ? PERI_ERROR_
 
 PERI_API int64_t peri_matrix_entries(const peri_matrix *a) { return a ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT; }
 
-PERI_API int32_t peri_read_matrix(const peri_matrix *a, int64_t *start, int32_t *column, double *value) {
+PERI_API int32_t peri_get_matrix(const peri_matrix *a, int64_t *start, int32_t *column, double *value) {
     (void)start, (void)column, (void)value;
     return a ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT;
 }
 
-PERI_API int32_t peri_write_matrix(const peri_matrix *a, peri_write_fn write, void *user) {
+PERI_API int32_t peri_export_matrix_to(const peri_matrix *a, peri_write_fn write, void *user) {
     (void)write, (void)user;
     return a ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT;
 }
 #endif
 
 #ifdef PERI_NO_OUTPUT
-PERI_API int32_t peri_write_vtu(peri_body *b, peri_write_fn write, void *user) {
+PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *user) {
     (void)write, (void)user;
     return peri__without(b, "PERI_NO_OUTPUT");
 }
 
-PERI_API int32_t peri_write_history(peri_body *b, int32_t header, peri_write_fn write, void *user) {
+PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write_fn write, void *user) {
     (void)header, (void)write, (void)user;
     return peri__without(b, "PERI_NO_OUTPUT");
 }
 
 #ifndef PERI_NO_STDIO
-PERI_API int32_t peri_save_vtu(peri_body *b, const char *path) {
+PERI_API int32_t peri_export_vtu(peri_body *b, const char *path) {
     (void)path;
     return peri__without(b, "PERI_NO_OUTPUT");
 }
 
-PERI_API int32_t peri_save_history(peri_body *b, const char *path, int32_t append) {
+PERI_API int32_t peri_export_history(peri_body *b, const char *path, int32_t append) {
     (void)path, (void)append;
     return peri__without(b, "PERI_NO_OUTPUT");
 }
@@ -92,7 +92,7 @@ PERI_API void peri_plan_desc_init(peri_plan_desc *plan) {
     if (plan) memset(plan, 0, sizeof *plan);
 }
 
-PERI_API void peri_goal_init(peri_goal *goal) {
+PERI_API void peri_choose_desc_init(peri_choose_desc *goal) {
     if (goal) memset(goal, 0, sizeof *goal);
 }
 
@@ -102,7 +102,7 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
     return peri__set_error(error, PERI_ERROR_LEFT_OUT, "PERI_NO_ADVICE", -1, 0.0);
 }
 
-PERI_API int32_t peri_choose(const peri_goal *goal, peri_body_desc *body, peri_material *material, peri_choice *choice, peri_error *error) {
+PERI_API int32_t peri_choose(const peri_choose_desc *goal, peri_body_desc *body, peri_material_desc *material, peri_choose_report *choice, peri_error *error) {
     (void)goal, (void)body, (void)material, (void)choice;
     return peri__set_error(error, PERI_ERROR_LEFT_OUT, "PERI_NO_ADVICE", -1, 0.0);
 }

@@ -29,19 +29,19 @@ static void read_all(meddler *c) {
     peri_view view;
     peri_memory held;
     peri_error record;
-    for (int32_t field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) {
-        const int64_t n = peri_field_size(b, field);
+    for (int32_t field = PERI_FIELD_POSITION; field < peri__end_field; ++field) {
+        const int64_t n = peri_size_of_field(b, field);
         x = (double *)malloc((size_t)n * sizeof *x);
-        c->wrong += peri_read(b, field, x, n) != PERI_OK;
+        c->wrong += peri_get_field(b, field, x, n) != PERI_OK;
         c->wrong += peri_view_field(b, field, &view) != PERI_OK;
         free(x);
     }
-    c->wrong += peri_read_energy(b, &e) != PERI_OK || peri_read_momentum(b, v, q) != PERI_OK;
-    c->wrong += peri_read_reaction(b, 0, v) != PERI_OK || peri_read_memory(b, &held) != PERI_OK;
-    c->wrong += peri_read_families(b, 0, 1, rows, 64) != PERI_OK || peri_bond_is_intact(b, 0, rows[0]) < 0;
-    c->wrong += !(peri_stable_step(b) > 0) || peri_read_bond_constants(b, 0, 0, NULL, v) != PERI_OK;
-    c->wrong += peri_write_history(b, 1, scene_swallow, &hash) != PERI_OK || peri_write_vtu(b, scene_swallow, &hash) != PERI_OK;
-    c->wrong += peri_last_error(b, &record) != PERI_OK;
+    c->wrong += peri_get_energy(b, &e) != PERI_OK || peri_get_momentum(b, v, q) != PERI_OK;
+    c->wrong += peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, 1), v) != PERI_OK || peri_get_memory(b, &held) != PERI_OK;
+    c->wrong += peri_get_families(b, 0, 1, rows, 64) != PERI_OK || peri_bond_is_intact(b, 0, rows[0]) < 0;
+    c->wrong += !(peri_stable_step(b) > 0) || peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), NULL, v) != PERI_OK;
+    c->wrong += peri_export_history_to(b, 1, scene_swallow, &hash) != PERI_OK || peri_export_vtu_to(b, scene_swallow, &hash) != PERI_OK;
+    c->wrong += peri_get_error(b, &record) != PERI_OK;
 }
 
 #define NOT_NOW(call) c->wrong += (call) != PERI_ERROR_ORDER
@@ -50,24 +50,24 @@ static void read_all(meddler *c) {
 static void change_all(meddler *c) {
     peri_body *b = c->body, *copy = NULL;
     const double v[3] = {1, 2, 3}, far_[3] = {9, 9, 9}, zero[3] = {0, 0, 0}, volume = 1;
-    const int64_t n = peri_field_size(b, PERI_VELOCITY);
+    const int64_t n = peri_size_of_field(b, PERI_FIELD_VELOCITY);
     double *x = (double *)calloc((size_t)n, sizeof *x);
     const int32_t ids[2] = {0, 1};
-    peri_material m;
-    peri_run run;
-    peri_statics s;
-    peri_run_init(&run);
+    peri_material_desc m;
+    peri_advance_desc run;
+    peri_solve_desc s;
+    peri_advance_desc_init(&run);
     run.steps = 1;
-    peri_statics_init(&s);
-    extreme_material(&m, PERI_BOND_BASED, 0, 0);
+    peri_solve_desc_init(&s);
+    extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     NOT_NOW(peri_add_material(b, &m));
-    NOT_NOW(peri_set_interface(b, 0, 0, &m));
-    NOT_NOW(peri_add_box(b, 0, zero, far_, 1));
+    NOT_NOW(peri_set_interface(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), &m));
+    NOT_NOW(peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), zero, far_, 1));
     NOT_NOW(peri_add_points(b, 1, v, &volume, NULL));
     NOT_NOW(peri_set_families(b, 1, ids));
     NOT_NOW(peri_build(b));
     NOT_NOW(peri_reset(b));
-    NOT_NOW(peri_write(b, PERI_VELOCITY, x, n));
+    NOT_NOW(peri_set_field(b, PERI_FIELD_VELOCITY, x, n));
     NOT_NOW(peri_add_displacement(b, PERI_ALL, v));
     NOT_NOW(peri_add_velocity(b, PERI_ALL, v));
     NOT_NOW(peri_advance(b, &run));
@@ -77,26 +77,26 @@ static void change_all(meddler *c) {
         NOT_NOW(peri_select_ball(b, "meddled", zero, 99));
         NOT_NOW(peri_select_if(b, "meddled", take_all, NULL));
         NOT_NOW(peri_select_points(b, "meddled", 2, ids));
-        NOT_NOW(peri_cut_pairs(b, 1, ids));
-        NOT_NOW(peri_cut_if(b, cut_all, NULL));
-        NOT_NOW(peri_dimension(b) == 2 ? peri_cut_segment(b, zero, far_) : peri_cut_disc(b, v, v, 9));
+        NOT_NOW(peri_cut_pairs(b, PERI_CUT_INITIAL, 1, ids));
+        NOT_NOW(peri_cut_if(b, PERI_CUT_INITIAL, cut_all, NULL));
+        NOT_NOW(peri_dimension(b) == 2 ? peri_cut_segment(b, PERI_CUT_INITIAL, zero, far_) : peri_cut_disc(b, PERI_CUT_INITIAL, v, v, 9));
         NOT_NOW(peri_set_no_fail(b, PERI_ALL, 1));
         NOT_NOW(peri_on_break(b, NULL, NULL));
-        NOT_NOW(peri_prescribe_displacement(b, PERI_ALL, PERI_X, v, NULL, NULL));
-        NOT_NOW(peri_prescribe_velocity(b, PERI_ALL, PERI_X, v, NULL, NULL));
+        NOT_NOW(peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_X, v, NULL, NULL));
+        NOT_NOW(peri_prescribe_velocity(b, PERI_ALL, PERI_AXIS_X, v, NULL, NULL));
         NOT_NOW(peri_apply_body_force(b, PERI_ALL, v, NULL, NULL));
-        NOT_NOW(peri_apply_traction(b, PERI_ALL, 1, v, NULL, NULL));
-        NOT_NOW(peri_apply_surface_traction(b, PERI_ALL, 1, v, v, NULL, NULL));
+        NOT_NOW(peri_apply_layer_traction(b, PERI_ALL, 1, v, NULL, NULL));
+        NOT_NOW(peri_apply_traction(b, PERI_ALL, 1, v, v, NULL, NULL));
         NOT_NOW(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL));
-        NOT_NOW(peri_apply_bond_pressure(b, PERI_ALL, 1, NULL, NULL));
-        NOT_NOW(peri_remove_load(b, 0));
+        NOT_NOW(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL));
+        NOT_NOW(peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 1)));
         NOT_NOW(peri_add_plane_obstacle(b, zero, v, 0, NULL, NULL));
         NOT_NOW(peri_add_ball_obstacle(b, zero, 1, 0, NULL, NULL));
-        NOT_NOW(peri_remove_obstacle(b, 0));
-        NOT_NOW(peri_clone(b, &copy, NULL));
+        NOT_NOW(peri_remove_obstacle(b, peri_id(b, PERI_KIND_OBSTACLE, 1)));
+        NOT_NOW(peri_body_clone(b, &copy, NULL));
         c->wrong += copy != NULL;
     } else {
-        c->wrong += peri_clone(b, &copy, NULL) != PERI_OK || peri_advance(copy, &run) != PERI_OK;
+        c->wrong += peri_body_clone(b, &copy, NULL) != PERI_OK || peri_advance(copy, &run) != PERI_OK;
         peri_body_destroy(copy);
     }
     peri_body_destroy(b);
@@ -110,18 +110,21 @@ static void meddle(void *user) {
     change_all(c);
 }
 
-static void in_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t in_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
     (void)time, (void)count, (void)points, (void)value;
     meddle(user);
+    return 0;
 }
-static void in_motion(void *user, double time, double *place) {
+static int32_t in_motion(void *user, double time, double *place) {
     (void)time, (void)place;
     meddle(user);
+    return 0;
 }
-static void in_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+static int32_t in_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     meddler *c = (meddler *)user;
     c->wrong += !(i < j && time > 0 && stretch > 0 && stretch < 1);
     meddle(user);
+    return 0;
 }
 static int32_t in_frame(void *user, peri_body *b) {
     meddler *c = (meddler *)user;
@@ -164,15 +167,15 @@ static uint64_t meddled_life(outcome *o, int which, int32_t law, int32_t precisi
     meddler c = {NULL, 0, 0, 0, 0};
     const double hi[3] = {9, 6, 2}, still[3] = {0, 0, 0}, below[3] = {0, -1, 0}, up[3] = {0, 1, 0}, pull[3] = {0.03, 0.004, 0};
     const double edge[3] = {2, 6, 2}, half[3] = {4.5, -1, -1}, end[3] = {99, 99, 99}, nowhere[2] = {-5, -5}, gone[2] = {-5, -4};
-    const int32_t criterion = law == PERI_BOND_BASED ? PERI_CRITERION_STRETCH : law == PERI_OTERKUS ? PERI_CRITERION_NODE_ENERGY
-                            : law == PERI_LPS ? PERI_CRITERION_BOND_ENERGY : PERI_CRITERION_STRETCH;
+    const int32_t criterion = law == PERI_LAW_BOND_BASED ? PERI_CRITERION_STRETCH : law == PERI_LAW_OTERKUS ? PERI_CRITERION_NODE_ENERGY
+                            : law == PERI_LAW_LPS ? PERI_CRITERION_BOND_ENERGY : PERI_CRITERION_STRETCH;
     uint64_t hash = DIGEST_START;
     peri_body_desc d;
-    peri_material m;
-    peri_run run;
-    peri_statics s;
+    peri_material_desc m;
+    peri_advance_desc run;
+    peri_solve_desc s;
     peri_energy e;
-    extreme_desc(&d, law == PERI_OTERKUS ? PERI_SOLID : PERI_PLANE_STRAIN, precision, 2.1);
+    extreme_desc(&d, law == PERI_LAW_OTERKUS ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, precision, 2.1);
     if (which == LOG) {
         d.log = in_log;
         d.log_user = &c;
@@ -187,18 +190,18 @@ static uint64_t meddled_life(outcome *o, int which, int32_t law, int32_t precisi
         *o = extreme_end(*o, b);
         return 0;
     }
-    const int32_t axes = PERI_X | PERI_Y, set = peri_select_box(b, NULL, still, edge), right = peri_select_box(b, NULL, half, end);
+    const int32_t axes = PERI_AXIS_X | PERI_AXIS_Y, set = peri_select_box(b, NULL, still, edge), right = peri_select_box(b, NULL, half, end);
     (void)extreme_fails(o, b, peri_prescribe_velocity(b, set, axes, still, which == SUPPORT ? in_load : NULL, &c));
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, still, which == LOAD ? in_load : NULL, &c));
     (void)extreme_fails(o, b, peri_add_plane_obstacle(b, below, up, 1, which == MOTION ? in_motion : NULL, &c));
     (void)extreme_fails(o, b, peri_add_velocity(b, right, pull));
     if (which == BREAK) (void)extreme_fails(o, b, peri_on_break(b, in_break, &c));
-    if (which == LOG && peri_dimension(b) == 2) (void)extreme_fails(o, b, peri_cut_segment(b, nowhere, gone)); /* misses: a remark */
-    if (which == WRITE) (void)extreme_fails(o, b, peri_write_vtu(b, in_write, &c));
-    if (which == WRITE) (void)extreme_fails(o, b, peri_write_history(b, 1, in_write, &c));
+    if (which == LOG && peri_dimension(b) == 2) (void)extreme_fails(o, b, peri_cut_segment(b, PERI_CUT_INITIAL, nowhere, gone)); /* misses: a remark */
+    if (which == WRITE) (void)extreme_fails(o, b, peri_export_vtu_to(b, in_write, &c));
+    if (which == WRITE) (void)extreme_fails(o, b, peri_export_history_to(b, 1, in_write, &c));
     if (which == POINT) (void)extreme_fails(o, b, peri_select_if(b, NULL, in_point, &c));
-    if (which == PAIR) (void)extreme_fails(o, b, peri_cut_if(b, in_pair, &c));
-    peri_run_init(&run);
+    if (which == PAIR) (void)extreme_fails(o, b, peri_cut_if(b, PERI_CUT_INITIAL, in_pair, &c));
+    peri_advance_desc_init(&run);
     run.steps = 24;
     run.time_step = (which == LOG ? 1.01 : 0.5) * peri_stable_step(b);
     run.force_step = which == LOG; /* a remark, too */
@@ -208,12 +211,12 @@ static uint64_t meddled_life(outcome *o, int which, int32_t law, int32_t precisi
     if (which == LOG) run.steps = 3;
     (void)extreme_fails(o, b, peri_advance(b, &run));
     if (which == BREAK && c.calls != peri_broken_count(b)) *o = scene_spoiled(*o, "breaks told");
-    if (peri_read_energy(b, &e) == PERI_OK) scene_digest(&hash, &e.kinetic, 8);
-    peri_statics_init(&s);
+    if (peri_get_energy(b, &e) == PERI_OK) scene_digest(&hash, &e.kinetic, 8);
+    peri_solve_desc_init(&s);
     s.fracture = 0;
     s.loose = PERI_LOOSE_BALANCED;
     s.steps = 2;
-    s.tolerance = precision == PERI_F32 ? 1e-2 : 1e-4;
+    s.tolerance = precision == PERI_PRECISION_SINGLE ? 1e-2 : 1e-4;
     s.on_iteration = which == ITERATION ? in_iteration : NULL;
     s.on_step = which == STEP ? in_frame : NULL;
     s.user = &c;
@@ -222,14 +225,14 @@ static uint64_t meddled_life(outcome *o, int which, int32_t law, int32_t precisi
         (void)extreme_fails(o, b, peri_apply_body_force(b, right, up, NULL, NULL));
         (void)extreme_fails(o, b, peri_solve(b, &s, NULL));
     }
-    const int32_t fields[4] = {PERI_DISPLACEMENT, PERI_VELOCITY, PERI_DAMAGE, PERI_FORCE_DENSITY};
+    const int32_t fields[4] = {PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_FORCE_DENSITY};
     for (int k = 0; k < 4; ++k) {
         double *x = extreme_read(o, b, fields[k]);
-        scene_digest(&hash, x, peri_field_size(b, fields[k]));
+        scene_digest(&hash, x, peri_size_of_field(b, fields[k]));
         free(x);
     }
-    if (peri_read_energy(b, &e) == PERI_OK) scene_digest(&hash, &e.kinetic, 8);
-    if (peri_find_set(b, "meddled") != PERI_ERROR_SET) *o = scene_spoiled(*o, "a set of a call that was refused");
+    if (peri_get_energy(b, &e) == PERI_OK) scene_digest(&hash, &e.kinetic, 8);
+    if (peri_find_set(b, "meddled") != PERI_ERROR_NAME) *o = scene_spoiled(*o, "a set of a call that was refused");
     if (c.calls == 0) *o = scene_spoiled(*o, "never called");
     if (c.wrong) *o = scene_spoiled(*o, "a call within a callback");
     c.quiet = 1;
@@ -248,24 +251,25 @@ static outcome meddling(const extreme *row, int32_t precision) {
 
 /* ---- before the build --------------------------------------------------------------------------------------------- */
 
-static double in_influence(void *user, double q) {
+static int32_t in_influence(void *user, double q, double *w) {
     meddler *c = (meddler *)user;
     c->calls++;
-    if (c->quiet || !c->body) return 1 - 0.5 * q;
+    if (c->quiet || !c->body) { *w = 1 - 0.5 * q; return 0; }
     const double zero[3] = {0, 0, 0}, far_[3] = {9, 9, 9}, volume = 1;
     const int32_t ids[2] = {0, 1};
-    peri_material m;
-    extreme_material(&m, PERI_BOND_BASED, 0, 0);
+    peri_material_desc m;
+    extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     NOT_NOW(peri_add_material(c->body, &m));
-    NOT_NOW(peri_add_box(c->body, 0, zero, far_, 1));
+    NOT_NOW(peri_add_box(c->body, peri_id(c->body, PERI_KIND_MATERIAL, 1), zero, far_, 1));
     NOT_NOW(peri_add_points(c->body, 1, far_, &volume, NULL));
     NOT_NOW(peri_set_families(c->body, 1, ids));
     NOT_NOW(peri_build(c->body));
     peri_body_destroy(c->body);
-    return 1 - 0.5 * q;
+    *w = 1 - 0.5 * q;
+    return 0;
 }
 
-/* influence_fn that would change the body, asked by peri_read_bond_constants and by peri_build: the body is that of a quiet one. */
+/* influence_fn that would change the body, asked by peri_get_bond_constants and by peri_build: the body is that of a quiet one. */
 static outcome influence_meddles(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double lo[3] = {0, 0, 0}, hi[3] = {6, 5, 4};
@@ -274,7 +278,7 @@ static outcome influence_meddles(const extreme *row, int32_t precision) {
         for (int quiet = 0; quiet < 2; ++quiet) {
             meddler c = {NULL, 0, 0, quiet, 0};
             peri_body_desc d;
-            peri_material m;
+            peri_material_desc m;
             extreme_desc(&d, row->choice, precision, 2.1);
             d.influence = PERI_INFLUENCE_USER;
             d.influence_fn = in_influence;
@@ -283,11 +287,11 @@ static outcome influence_meddles(const extreme *row, int32_t precision) {
             m.fracture_energy = 1e-3;
             (void)extreme_fails(&o, NULL, peri_body_create(&d, &c.body, NULL));
             (void)extreme_fails(&o, c.body, peri_add_material(c.body, &m));
-            (void)extreme_fails(&o, c.body, peri_read_bond_constants(c.body, 0, 0, NULL, &s0[quiet]));
-            (void)extreme_fails(&o, c.body, peri_add_box(c.body, 0, lo, hi, 1));
+            (void)extreme_fails(&o, c.body, peri_get_bond_constants(c.body, peri_id(c.body, PERI_KIND_MATERIAL, 1), peri_id(c.body, PERI_KIND_MATERIAL, 1), NULL, &s0[quiet]));
+            (void)extreme_fails(&o, c.body, peri_add_box(c.body, peri_id(c.body, PERI_KIND_MATERIAL, 1), lo, hi, 1));
             (void)extreme_fails(&o, c.body, peri_build(c.body));
             step[quiet] = peri_stable_step(c.body);
-            HOLDS(c.wrong == 0 && c.calls > 10 && peri_point_count(c.body) == (row->choice == PERI_SOLID ? 120 : 30));
+            HOLDS(c.wrong == 0 && c.calls > 10 && peri_point_count(c.body) == (row->choice == PERI_SPACE_SOLID ? 120 : 30));
             c.quiet = 1;
             o = extreme_end(o, c.body);
         }
@@ -300,12 +304,13 @@ typedef struct wave { /* w(q) = factor, or `odd` in one call of so many         
     double  factor, odd;
     int64_t every, calls, odds;
 } wave;
-static double constant_wave(void *user, double q) {
+static int32_t constant_wave(void *user, double q, double *out) {
     wave *w = (wave *)user;
     const int is_odd = w->every && ++w->calls % w->every == 0;
     (void)q;
     w->odds += is_odd;
-    return is_odd ? w->odd : w->factor;
+    *out = is_odd ? w->odd : w->factor;
+    return 0;
 }
 
 /* Every call of influence_fn, or each other, or each hundredth where there are so many, returns `value`: refused, of each law. */
@@ -316,18 +321,18 @@ static outcome influence_writes(const extreme *row, int32_t precision) {
     for (int k = 0; k < 4 * 3 * 2; ++k) {
         wave w = {1, row->value, every[k / 4 % 3], 0, 0};
         peri_body_desc d;
-        peri_material m;
+        peri_material_desc m;
         one.status = PERI_OK;
         one.field = "";
         one.error = 0;
-        extreme_desc(&d, k / 12 ? PERI_SOLID : PERI_PLANE_STRESS, precision, 2.1);
+        extreme_desc(&d, k / 12 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, precision, 2.1);
         d.influence = PERI_INFLUENCE_USER;
         d.influence_fn = constant_wave;
         d.influence_user = &w;
         extreme_material(&m, scene_laws[k % 4], 0.2, 0);
         one = extreme_end(one, extreme_box(&one, &d, &m, hi, 1));
         if (w.odds == 0 && one.status == PERI_OK) continue;
-        if (scene_laws[k % 4] == PERI_OTERKUS && w.every == 100 && one.status == PERI_OK) continue; /* only a remark asked so often */
+        if (scene_laws[k % 4] == PERI_LAW_OTERKUS && w.every == 100 && one.status == PERI_OK) continue; /* only a remark asked so often */
         if (one.status != row->status) return one;
         o = one;
     }
@@ -342,14 +347,14 @@ static outcome influence_all(const extreme *row, int32_t precision) {
         wave w = {row->value, 0, 0, 0, 0};
         outcome one = {PERI_OK, "", 0};
         peri_body_desc d;
-        peri_material m;
-        extreme_desc(&d, k / 4 ? PERI_SOLID : PERI_PLANE_STRESS, precision, 2.1);
+        peri_material_desc m;
+        extreme_desc(&d, k / 4 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, precision, 2.1);
         d.influence = PERI_INFLUENCE_USER;
         d.influence_fn = constant_wave;
         d.influence_user = &w;
         extreme_material(&m, scene_laws[k % 4], 0.2, 0);
         one = extreme_end(one, extreme_box(&one, &d, &m, hi, 1));
-        if (row->choice && scene_laws[k % 4] != PERI_BOND_BASED && one.status == PERI_ERROR_FAMILY) one.status = PERI_ERROR_INFLUENCE;
+        if (row->choice && scene_laws[k % 4] != PERI_LAW_BOND_BASED && one.status == PERI_ERROR_FAMILY) one.status = PERI_ERROR_INFLUENCE;
         if (one.status != row->status) return one;
         o = one;
     }
@@ -369,8 +374,8 @@ static outcome influence_factor(const extreme *row, int32_t precision) {
             wave w = {scaled ? row->value : 1, 0, 0, 0, 0};
             outcome one = {PERI_OK, "", 0};
             peri_body_desc d;
-            peri_material m;
-            extreme_desc(&d, k / 4 ? PERI_SOLID : PERI_PLANE_STRESS, precision, 2.1);
+            peri_material_desc m;
+            extreme_desc(&d, k / 4 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, precision, 2.1);
             d.influence = PERI_INFLUENCE_USER;
             d.influence_fn = constant_wave;
             d.influence_user = &w;
@@ -380,8 +385,8 @@ static outcome influence_factor(const extreme *row, int32_t precision) {
             refused = one.status == PERI_ERROR_INFLUENCE && scaled;
             if (one.status == PERI_OK) {
                 extreme_affine(&one, b, k / 4 ? pull : flat, NULL);
-                f[scaled] = extreme_read(&one, b, PERI_FORCE_DENSITY);
-                n = peri_field_size(b, PERI_FORCE_DENSITY);
+                f[scaled] = extreme_read(&one, b, PERI_FIELD_FORCE_DENSITY);
+                n = peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY);
                 step[scaled] = peri_stable_step(b);
             }
             one = extreme_end(one, b);
@@ -390,7 +395,7 @@ static outcome influence_factor(const extreme *row, int32_t precision) {
                 return one;
             }
         }
-        HOLDS(!refused || precision != PERI_F64);
+        HOLDS(!refused || precision != PERI_PRECISION_DOUBLE);
         for (int64_t i = 0; f[0] && i < n; ++i) largest = fmax(largest, fabs(f[0][i]));
         for (int64_t i = 0; f[0] && f[1] && i < n; ++i) o.error = extreme_worst(o.error, fabs(f[1][i] - f[0][i]) / largest);
         if (!refused) o.error = extreme_worst(o.error, fabs(step[1] / step[0] - 1));
@@ -407,14 +412,16 @@ typedef struct writer { /* writes `value` into one component once `time` is reac
     int    dim, silent;
 } writer;
 
-static void write_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t write_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const writer *w = (const writer *)user;
     (void)points;
     if (!w->silent && time >= w->time) value[count * w->dim - 1] = w->value;
+    return 0;
 }
-static void write_place(void *user, double time, double *place) {
+static int32_t write_place(void *user, double time, double *place) {
     const writer *w = (const writer *)user;
     if (!w->silent && time >= w->time) place[w->dim - 1] = w->value;
+    return 0;
 }
 
 enum { SURFACE, BODY_FORCE, TRACTION, DISPLACEMENT, VELOCITY, PLANE, BALL, KINDS };
@@ -427,8 +434,8 @@ static void add_written(outcome *o, peri_body *b, int kind, writer *w) {
     const int32_t set = kind == PLANE || kind == BALL ? 0 : peri_select_box(b, NULL, left, edge);
     switch (kind) {
     case BODY_FORCE: (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, v, write_load, w)); break;
-    case TRACTION: (void)extreme_fails(o, b, peri_apply_traction(b, set, 5, v, write_load, w)); break;
-    case SURFACE: (void)extreme_fails(o, b, peri_apply_surface_traction(b, set, dim == 3 ? 15 : 5, normal, v, write_load, w)); break;
+    case TRACTION: (void)extreme_fails(o, b, peri_apply_layer_traction(b, set, 5, v, write_load, w)); break;
+    case SURFACE: (void)extreme_fails(o, b, peri_apply_traction(b, set, dim == 3 ? 15 : 5, normal, v, write_load, w)); break;
     case DISPLACEMENT: (void)extreme_fails(o, b, peri_prescribe_displacement(b, set, axes, v, write_load, w)); break;
     case VELOCITY: (void)extreme_fails(o, b, peri_prescribe_velocity(b, set, axes, v, write_load, w)); break;
     case PLANE: (void)extreme_fails(o, b, peri_add_plane_obstacle(b, below, up, 1, write_place, w)); break;
@@ -439,8 +446,8 @@ static void add_written(outcome *o, peri_body *b, int kind, writer *w) {
 static peri_body *written_body(outcome *o, int32_t law, int32_t precision) {
     const double hi[3] = {9, 5, 3};
     peri_body_desc d;
-    peri_material m;
-    extreme_desc(&d, law == PERI_LPS ? PERI_SOLID : PERI_PLANE_STRESS, precision, 2.1);
+    peri_material_desc m;
+    extreme_desc(&d, law == PERI_LAW_LPS ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, precision, 2.1);
     extreme_material(&m, law, 0.2, 0);
     return extreme_box(o, &d, &m, hi, 1);
 }
@@ -448,10 +455,10 @@ static peri_body *written_body(outcome *o, int32_t law, int32_t precision) {
 static uint64_t state_of(outcome *o, peri_body *b) {
     uint64_t hash = DIGEST_START;
     peri_energy e;
-    double *u = extreme_read(o, b, PERI_DISPLACEMENT), *v = extreme_read(o, b, PERI_VELOCITY);
-    scene_digest(&hash, u, peri_field_size(b, PERI_DISPLACEMENT));
-    scene_digest(&hash, v, peri_field_size(b, PERI_VELOCITY));
-    if (!extreme_fails(o, b, peri_read_energy(b, &e))) scene_digest(&hash, &e.kinetic, 8);
+    double *u = extreme_read(o, b, PERI_FIELD_DISPLACEMENT), *v = extreme_read(o, b, PERI_FIELD_VELOCITY);
+    scene_digest(&hash, u, peri_size_of_field(b, PERI_FIELD_DISPLACEMENT));
+    scene_digest(&hash, v, peri_size_of_field(b, PERI_FIELD_VELOCITY));
+    if (!extreme_fails(o, b, peri_get_energy(b, &e))) scene_digest(&hash, &e.kinetic, 8);
     free(u);
     free(v);
     return hash;
@@ -473,9 +480,9 @@ static outcome writes_value(const extreme *row, int32_t precision) {
             writer w = {row->value, 0, 0, fresh};
             outcome after = {PERI_OK, "", 0};
             peri_body *b = written_body(&after, scene_laws[k % 4], precision);
-            peri_run run;
+            peri_advance_desc run;
             w.dim = peri_dimension(b);
-            peri_run_init(&run);
+            peri_advance_desc_init(&run);
             run.steps = 12;
             run.time_step = 0.5 * peri_stable_step(b);
             w.time = 3.7 * run.time_step;
@@ -509,16 +516,16 @@ static outcome writes_nothing(const extreme *row, int32_t precision) {
         for (int silent = 0; silent < 2; ++silent) {
             writer w = {row->value, 0, 0, silent};
             peri_body *b = written_body(&o, scene_laws[k % 4], precision);
-            peri_run run;
+            peri_advance_desc run;
             w.dim = peri_dimension(b);
             if (w.dim == 2 && k / 4 != PLANE && k / 4 != BALL) w.silent = 1; /* the last component is not 0 there */
             if (k / 4 == PLANE || k / 4 == BALL) w.time = 1e300;
             add_written(&o, b, k / 4, &w);
-            peri_run_init(&run);
+            peri_advance_desc_init(&run);
             run.steps = 12;
             (void)extreme_fails(&o, b, peri_advance(b, &run));
-            u[silent] = extreme_read(&o, b, PERI_DISPLACEMENT);
-            n = peri_field_size(b, PERI_DISPLACEMENT);
+            u[silent] = extreme_read(&o, b, PERI_FIELD_DISPLACEMENT);
+            n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
             o = extreme_end(o, b);
         }
         for (int64_t i = 0; u[0] && u[1] && i < n; ++i) largest = fmax(largest, fabs(u[1][i]));
@@ -549,8 +556,8 @@ static const extreme rows[] = {
     {"a writer meddles", order, meddling, 0, 0, WRITE, PERI_OK, NULL, {0, 0, 0}},
     {"a selection meddles", order, meddling, 0, 0, POINT, PERI_OK, NULL, {0, 0, 0}},
     {"a cut meddles", order, meddling, 0, 0, PAIR, PERI_OK, NULL, {0, 0, 0}},
-    {"influence_fn meddles, 2D", order, influence_meddles, 0, 0, PERI_PLANE_STRESS, PERI_OK, NULL, {0, 0, 0}},
-    {"influence_fn meddles, 3D", order, influence_meddles, 0, 0, PERI_SOLID, PERI_OK, NULL, {0, 0, 0}},
+    {"influence_fn meddles, 2D", order, influence_meddles, 0, 0, PERI_SPACE_PLANE_STRESS, PERI_OK, NULL, {0, 0, 0}},
+    {"influence_fn meddles, 3D", order, influence_meddles, 0, 0, PERI_SPACE_SOLID, PERI_OK, NULL, {0, 0, 0}},
     {"influence_fn writes NaN, always or now and then", weight, influence_writes, NAN, 0, 0, PERI_ERROR_INFLUENCE, "influence", {0, 0, 0}},
     {"influence_fn writes infinity", weight, influence_writes, HUGE_VAL, 0, 0, PERI_ERROR_INFLUENCE, "influence", {0, 0, 0}},
     {"influence_fn writes -infinity", weight, influence_writes, -HUGE_VAL, 0, 0, PERI_ERROR_INFLUENCE, "influence", {0, 0, 0}},

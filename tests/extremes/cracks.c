@@ -5,11 +5,11 @@
 /* An LPS box of 64 unit cells with a corner at the origin. */
 static peri_body *make(outcome *o, int32_t space, int32_t precision, int32_t kernel) {
     peri_body_desc d;
-    peri_material m;
-    extreme_desc(&d, space, precision, space == PERI_SOLID ? 2 : 3);
+    peri_material_desc m;
+    extreme_desc(&d, space, precision, space == PERI_SPACE_SOLID ? 2 : 3);
     d.kernel = kernel;
-    extreme_material(&m, PERI_LPS, 0.3, 0);
-    return dense_box(o, &d, &m, space == PERI_SOLID ? 4 : 8);
+    extreme_material(&m, PERI_LAW_LPS, 0.3, 0);
+    return dense_box(o, &d, &m, space == PERI_SPACE_SOLID ? 4 : 8);
 }
 
 /* Cracks have corners at multiples of 1/4, points lie at odd multiples of 1/2: in quarters all is whole numbers, and these are exact. */
@@ -82,7 +82,7 @@ static void quarters(const double *x, int dim, int64_t *out) {
 static double crack_error(outcome *o, peri_body *body, int which, int triangles) {
     const int dim = peri_dimension(body);
     const int64_t n = peri_point_count(body), width = peri_family_width(body);
-    double from[3], to[3], edge[2][3] = {{0, 0, 0}, {0, 0, 0}}, corner[2][3], *x = extreme_read(o, body, PERI_POSITION), wrong = 0;
+    double from[3], to[3], edge[2][3] = {{0, 0, 0}, {0, 0, 0}}, corner[2][3], *x = extreme_read(o, body, PERI_FIELD_POSITION), wrong = 0;
     const int64_t *lo = dim == 2 ? segments[which][0] : rectangles[which][0], *hi = dim == 2 ? segments[which][1] : rectangles[which][1];
     int64_t cut, count = 0, i, k;
     int32_t row[64];
@@ -95,12 +95,12 @@ static double crack_error(outcome *o, peri_body *body, int which, int triangles)
     }
     edge[0][0] = to[0] - from[0];
     edge[1][1] = to[1] - from[1];
-    if (dim == 2) cut = peri_cut_segment(body, from, to);
-    else if (!triangles) cut = peri_cut_rectangle(body, from, edge[0], edge[1]);
-    else cut = peri_cut_triangle(body, from, corner[0], to) + peri_cut_triangle(body, to, corner[1], from);
+    if (dim == 2) cut = peri_cut_segment(body, PERI_CUT_INITIAL, from, to);
+    else if (!triangles) cut = peri_cut_rectangle(body, PERI_CUT_INITIAL, from, edge[0], edge[1]);
+    else cut = peri_cut_triangle(body, PERI_CUT_INITIAL, from, corner[0], to) + peri_cut_triangle(body, PERI_CUT_INITIAL, to, corner[1], from);
     for (i = 0; x && i < n; ++i) {
         place a;
-        if (extreme_fails(o, body, peri_read_families(body, (int32_t)i, 1, row, width))) break;
+        if (extreme_fails(o, body, peri_get_families(body, (int32_t)i, 1, row, width))) break;
         quarters(&x[i * dim], dim, a);
         for (k = 0; k < width; ++k) {
             place b;
@@ -120,11 +120,11 @@ static outcome cracks(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const int32_t space = row->choice;
     int which, triangles, kernel;
-    for (which = 0; which < (space == PERI_SOLID ? 6 : 11); ++which)
-        for (triangles = 0; triangles < (space == PERI_SOLID ? 2 : 1); ++triangles)
+    for (which = 0; which < (space == PERI_SPACE_SOLID ? 6 : 11); ++which)
+        for (triangles = 0; triangles < (space == PERI_SPACE_SOLID ? 2 : 1); ++triangles)
             for (kernel = PERI_KERNEL_BEST; kernel <= PERI_KERNEL_LIST && o.status >= 0; kernel += 2) {
                 peri_body *b = make(&o, space, precision, kernel);
-                if (b) dense_note(&o, crack_error(&o, b, which, triangles), space, PERI_LPS);
+                if (b) dense_note(&o, crack_error(&o, b, which, triangles), space, PERI_LAW_LPS);
                 o = extreme_end(o, b);
             }
     return o;
@@ -137,9 +137,9 @@ static outcome disc(const extreme *row, int32_t precision) {
     const int64_t n = 64;
     int64_t count = 0, cut, i, j;
     double *x;
-    peri_body *body = make(&o, PERI_SOLID, precision, PERI_KERNEL_BEST);
+    peri_body *body = make(&o, PERI_SPACE_SOLID, precision, PERI_KERNEL_BEST);
     if (!body) return o;
-    x = extreme_read(&o, body, PERI_POSITION);
+    x = extreme_read(&o, body, PERI_FIELD_POSITION);
     for (i = 0; x && i < n; ++i)
         for (j = i + 1; j < n; ++j) {
             double a[3], b[3], square = 0, along = 0, length = 0, t;
@@ -159,8 +159,8 @@ static outcome disc(const extreme *row, int32_t precision) {
             count += hypot(a[0] + t * b[0], a[1] + t * b[1]) <= 1.2;
         }
     free(x);
-    cut = peri_cut_disc(body, centre, normal, 1.2);
-    if (!extreme_fails(&o, body, cut)) dense_note(&o, count > 0 ? fabs((double)(cut - count)) : 1, PERI_SOLID, PERI_BOND_BASED);
+    cut = peri_cut_disc(body, PERI_CUT_INITIAL, centre, normal, 1.2);
+    if (!extreme_fails(&o, body, cut)) dense_note(&o, count > 0 ? fabs((double)(cut - count)) : 1, PERI_SPACE_SOLID, PERI_LAW_BOND_BASED);
     return extreme_end(o, body);
 }
 
@@ -174,22 +174,22 @@ static outcome no_crack(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const int plane = row->choice <= DISC_2D;
     int64_t cut = 0;
-    peri_body *body = make(&o, plane ? PERI_PLANE_STRESS : PERI_SOLID, precision, PERI_KERNEL_BEST);
+    peri_body *body = make(&o, plane ? PERI_SPACE_PLANE_STRESS : PERI_SPACE_SOLID, precision, PERI_KERNEL_BEST);
     if (!body) return o;
     switch (row->choice) {
-    case POINT_2D: cut = peri_cut_segment(body, here, here); break;
-    case TOO_SHORT: cut = peri_cut_segment(body, zero, near_); break;
-    case TOO_FAR: cut = peri_cut_segment(body, far_off, far_); break;
-    case NOT_A_NUMBER: cut = peri_cut_segment(body, here, odd); break;
-    case IN_3D: cut = peri_cut_segment(body, here, up); break;
-    case LINE_3D: cut = peri_cut_triangle(body, zero, here, third); break;
-    case NO_EDGE: cut = peri_cut_rectangle(body, here, up, zero); break;
-    case NO_NORMAL: cut = peri_cut_disc(body, here, zero, 1); break;
-    case NO_RADIUS: cut = peri_cut_disc(body, here, up, 0); break;
-    case LESS_RADIUS: cut = peri_cut_disc(body, here, up, -1); break;
-    case ENDLESS_RADIUS: cut = peri_cut_disc(body, here, up, HUGE_VAL); break;
-    case DISC_2D: cut = peri_cut_disc(body, here, up, 1); break;
-    default: cut = peri_cut_polyline(body, 3, bend);
+    case POINT_2D: cut = peri_cut_segment(body, PERI_CUT_INITIAL, here, here); break;
+    case TOO_SHORT: cut = peri_cut_segment(body, PERI_CUT_INITIAL, zero, near_); break;
+    case TOO_FAR: cut = peri_cut_segment(body, PERI_CUT_INITIAL, far_off, far_); break;
+    case NOT_A_NUMBER: cut = peri_cut_segment(body, PERI_CUT_INITIAL, here, odd); break;
+    case IN_3D: cut = peri_cut_segment(body, PERI_CUT_INITIAL, here, up); break;
+    case LINE_3D: cut = peri_cut_triangle(body, PERI_CUT_INITIAL, zero, here, third); break;
+    case NO_EDGE: cut = peri_cut_rectangle(body, PERI_CUT_INITIAL, here, up, zero); break;
+    case NO_NORMAL: cut = peri_cut_disc(body, PERI_CUT_INITIAL, here, zero, 1); break;
+    case NO_RADIUS: cut = peri_cut_disc(body, PERI_CUT_INITIAL, here, up, 0); break;
+    case LESS_RADIUS: cut = peri_cut_disc(body, PERI_CUT_INITIAL, here, up, -1); break;
+    case ENDLESS_RADIUS: cut = peri_cut_disc(body, PERI_CUT_INITIAL, here, up, HUGE_VAL); break;
+    case DISC_2D: cut = peri_cut_disc(body, PERI_CUT_INITIAL, here, up, 1); break;
+    default: cut = peri_cut_polyline(body, PERI_CUT_INITIAL, 3, bend);
     }
     (void)extreme_fails(&o, body, cut);
     if (peri_cut_count(body) != 0) o.error = 1;
@@ -202,7 +202,7 @@ static double cutting(outcome *o, peri_body *body, int count) {
     int k;
     for (k = 0; k < count; ++k) {
         const double from[2] = {8 * test_random(&seed), 8 * test_random(&seed)}, to[2] = {from[0] + 0.01, from[1] + 0.01};
-        if (extreme_fails(o, body, peri_cut_segment(body, from, to))) break;
+        if (extreme_fails(o, body, peri_cut_segment(body, PERI_CUT_INITIAL, from, to))) break;
     }
     return (double)(clock() - begin);
 }
@@ -210,7 +210,7 @@ static double cutting(outcome *o, peri_body *body, int count) {
 /* 10,000 cracks take 10 times as long as 1,000, and 100 times if time were quadratic. */
 static outcome many_cracks(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    peri_body *body = make(&o, PERI_PLANE_STRESS, precision, PERI_KERNEL_BEST);
+    peri_body *body = make(&o, PERI_SPACE_PLANE_STRESS, precision, PERI_KERNEL_BEST);
     if (body) {
         const double few = cutting(&o, body, (int)row->value), many = cutting(&o, body, 10 * (int)row->value);
         o.error = many / few;
@@ -227,13 +227,13 @@ static outcome directions(const extreme *row, int32_t precision) {
     int k;
     for (k = 0; k < 2; ++k) {
         const double length = k ? row->value : 1, normal[3] = {0, 0.6 * length, 0.8 * length};
-        peri_body *b = make(&o, PERI_SOLID, precision, PERI_KERNEL_BEST);
+        peri_body *b = make(&o, PERI_SPACE_SOLID, precision, PERI_KERNEL_BEST);
         if (b) {
             const int32_t top = peri_select_box(b, NULL, lo, hi);
-            n = peri_field_size(b, PERI_FORCE_DENSITY);
+            n = peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY);
             (void)(extreme_fails(&o, b, peri_add_plane_obstacle(b, at, normal, 1, NULL, NULL))
-                   || extreme_fails(&o, b, peri_apply_surface_traction(b, top, 16, normal, value, NULL, NULL)));
-            f[k] = extreme_read(&o, b, PERI_FORCE_DENSITY);
+                   || extreme_fails(&o, b, peri_apply_traction(b, top, 16, normal, value, NULL, NULL)));
+            f[k] = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         }
         o = extreme_end(o, b);
     }
@@ -245,8 +245,8 @@ static outcome directions(const extreme *row, int32_t precision) {
 #define REFUSED {0, 0, 0}
 #define EXACT {0, 0, 0}
 static const extreme rows[] = {
-    {"cracks in the plane", "whole-number geometry; touching counts", cracks, 0, 0, PERI_PLANE_STRAIN, PERI_OK, NULL, EXACT},
-    {"cracks in space", "whole-number geometry; touching counts", cracks, 0, 0, PERI_SOLID, PERI_OK, NULL, EXACT},
+    {"cracks in the plane", "whole-number geometry; touching counts", cracks, 0, 0, PERI_SPACE_PLANE_STRAIN, PERI_OK, NULL, EXACT},
+    {"cracks in space", "whole-number geometry; touching counts", cracks, 0, 0, PERI_SPACE_SOLID, PERI_OK, NULL, EXACT},
     {"a disc between layers", "geometry of the disc", disc, 2, 1, 0, PERI_OK, NULL, EXACT},
     {"a disc in a layer", "geometry of the disc", disc, 1.5, -1, 0, PERI_OK, NULL, EXACT},
     {"a disc with a normal of 1e200", "a direction has no length", disc, 2, 1e200, 0, PERI_OK, NULL, EXACT},

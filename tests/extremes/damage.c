@@ -6,7 +6,7 @@ typedef struct scene {
     outcome       *o;
     peri_body     *body;
     peri_body_desc desc;
-    peri_material  material;
+    peri_material_desc  material;
     int            cloud;
 } scene;
 
@@ -14,7 +14,7 @@ typedef double (*probe_fn)(scene *s);
 
 /* A unit lattice, or points moved off one. */
 static peri_body *make(scene *s) {
-    const int n = s->desc.space == PERI_SOLID ? 4 : 8, dim = s->desc.space == PERI_SOLID ? 3 : 2;
+    const int n = s->desc.space == PERI_SPACE_SOLID ? 4 : 8, dim = s->desc.space == PERI_SPACE_SOLID ? 3 : 2;
     double x[3 * 64], volume[64];
     uint64_t seed = 47;
     int i, d, at;
@@ -32,19 +32,19 @@ typedef struct setting {
 } setting;
 
 static setting plain(double limit) {
-    setting c = {PERI_NONLINEAR, PERI_CRITERION_STRETCH, PERI_BREAK_AT_STEP_END, 0, 0};
+    setting c = {PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, PERI_BREAK_AT_STEP_END, 0, 0};
     c.limit = limit;
     return c;
 }
 
-static void start(scene *s, const extreme *row, outcome *o, int32_t precision, const setting *c, int32_t space, int32_t model, int cloud) {
+static void start(scene *s, const extreme *row, outcome *o, int32_t precision, const setting *c, int32_t space, int32_t law, int cloud) {
     s->row = row;
     s->o = o;
     s->cloud = cloud;
-    extreme_desc(&s->desc, space, precision, space == PERI_SOLID ? 2 : 3);
+    extreme_desc(&s->desc, space, precision, space == PERI_SPACE_SOLID ? 2 : 3);
     s->desc.geometry = c->geometry;
     s->desc.break_timing = c->timing;
-    extreme_material(&s->material, model, 0.3, c->limit > 0 ? c->limit : 0);
+    extreme_material(&s->material, law, 0.3, c->limit > 0 ? c->limit : 0);
     s->material.criterion = c->criterion;
     if (c->limit < 0) s->material.fracture_energy = -c->limit;
     s->body = make(s);
@@ -52,15 +52,15 @@ static void start(scene *s, const extreme *row, outcome *o, int32_t precision, c
 
 /* The worst error of a probe over spaces, laws that can have the criterion, lattices and clouds. */
 static void each(outcome *o, const extreme *row, int32_t precision, const setting *c, probe_fn probe) {
-    int32_t space, model;
+    int32_t space, law;
     int cloud;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (model = c->criterion == PERI_CRITERION_STRETCH ? PERI_BOND_BASED : PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (law = c->criterion == PERI_CRITERION_STRETCH ? PERI_LAW_BOND_BASED : PERI_LAW_LPS; law < peri__end_law; ++law)
             for (cloud = 0; cloud < 2 && o->status >= 0; ++cloud) {
                 scene s;
-                if (model == c->except) continue;
-                start(&s, row, o, precision, c, space, model, cloud);
-                if (s.body) dense_note(o, probe(&s), space, model);
+                if (law == c->except) continue;
+                start(&s, row, o, precision, c, space, law, cloud);
+                if (s.body) dense_note(o, probe(&s), space, law);
                 *o = extreme_end(*o, s.body);
             }
 }
@@ -72,8 +72,8 @@ static outcome all(const extreme *row, int32_t precision, setting c, probe_fn pr
 }
 
 static double advance(scene *s, int64_t steps, double safety, double time_step) {
-    peri_run run;
-    peri_run_init(&run);
+    peri_advance_desc run;
+    peri_advance_desc_init(&run);
     run.steps = steps;
     run.safety = safety;
     run.time_step = time_step;
@@ -82,12 +82,12 @@ static double advance(scene *s, int64_t steps, double safety, double time_step) 
 
 static void expand(scene *s, double strain) {
     const double two[4] = {strain, 0, 0, strain}, three[9] = {strain, 0, 0, 0, strain, 0, 0, 0, strain};
-    extreme_affine(s->o, s->body, s->desc.space == PERI_SOLID ? three : two, NULL);
+    extreme_affine(s->o, s->body, s->desc.space == PERI_SPACE_SOLID ? three : two, NULL);
 }
 
 /* Largest size of a number of a field. */
 static double largest(scene *s, int32_t field) {
-    const int64_t n = peri_field_size(s->body, field);
+    const int64_t n = peri_size_of_field(s->body, field);
     double *x = extreme_read(s->o, s->body, field), most = 0;
     int64_t i;
     for (i = 0; x && i < n; ++i) most = extreme_worst(most, fabs(x[i]));
@@ -109,34 +109,34 @@ static int32_t any(void *user, int32_t i, int32_t j, const double *xi, const dou
 /* Every bond cut, at rest or (choice) after a step under strain: damage is 1, all that bonds carry is 0, points fly straight, and no part
    is held. */
 static double cut_all_probe(scene *s) {
-    static const int32_t nothing[4] = {PERI_ENERGY_DENSITY, PERI_FORCE_DENSITY, PERI_STRESS, PERI_FORCE_STRESS};
-    const int64_t n = peri_field_size(s->body, PERI_VELOCITY);
+    static const int32_t nothing[4] = {PERI_FIELD_ENERGY_DENSITY, PERI_FIELD_FORCE_DENSITY, PERI_FIELD_STRESS, PERI_FIELD_FORCE_STRESS};
+    const int64_t n = peri_size_of_field(s->body, PERI_FIELD_VELOCITY);
     const int late = s->row->choice;
     double worst, before[3 * 64], after[3 * 64], *v, time;
-    peri_statics p;
+    peri_solve_desc p;
     int64_t i;
     int k;
     dense_scatter(s->o, s->body, 0.1, 53);
     if (late) (void)advance(s, 3, 0.9, 0);
-    worst = fabs((double)peri_cut_if(s->body, any, NULL) - bonds_of(s));
+    worst = fabs((double)peri_cut_if(s->body, PERI_CUT_INITIAL, any, NULL) - bonds_of(s));
     worst += fabs((double)(late ? peri_broken_count(s->body) : peri_cut_count(s->body)) - bonds_of(s));
     for (k = 0; k < 4; ++k) worst = extreme_worst(worst, largest(s, nothing[k]));
-    worst = extreme_worst(worst, fabs(largest(s, PERI_DAMAGE) - 1));
-    worst = extreme_worst(worst, fabs(largest(s, PERI_DAMAGE_GROWN) - late));
+    worst = extreme_worst(worst, fabs(largest(s, PERI_FIELD_DAMAGE) - 1));
+    worst = extreme_worst(worst, fabs(largest(s, PERI_FIELD_DAMAGE_GROWN) - late));
     worst = extreme_worst(worst, dense_of(s));
     if (!late) dense_scatter(s->o, s->body, 0.1, 59);
-    if (extreme_fails(s->o, s->body, peri_read(s->body, PERI_DISPLACEMENT, before, n))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_field(s->body, PERI_FIELD_DISPLACEMENT, before, n))) return NAN;
     for (i = 0; i < n; ++i) after[i] = 0.5 - (double)(i % 5);
-    if (extreme_fails(s->o, s->body, peri_write(s->body, PERI_VELOCITY, after, n))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_set_field(s->body, PERI_FIELD_VELOCITY, after, n))) return NAN;
     time = peri_time(s->body);
     (void)advance(s, 20, 0.9, 0);
     time = peri_time(s->body) - time;
-    if (!(time > 0) || s->o->status < 0 || extreme_fails(s->o, s->body, peri_read(s->body, PERI_DISPLACEMENT, after, n))) return NAN;
+    if (!(time > 0) || s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_field(s->body, PERI_FIELD_DISPLACEMENT, after, n))) return NAN;
     for (i = 0; i < n; ++i) worst = extreme_worst(worst, fabs((after[i] - before[i]) / ((0.5 - (double)(i % 5)) * time) - 1));
-    v = extreme_read(s->o, s->body, PERI_VELOCITY);
+    v = extreme_read(s->o, s->body, PERI_FIELD_VELOCITY);
     for (i = 0; v && i < n; ++i) worst = extreme_worst(worst, fabs(v[i] / (0.5 - (double)(i % 5)) - 1));
     free(v);
-    peri_statics_init(&p);
+    peri_solve_desc_init(&p);
     if (peri_solve(s->body, &p, NULL) != PERI_ERROR_LOOSE) return 1;
     return worst;
 }
@@ -148,7 +148,7 @@ static outcome cut_all(const extreme *row, int32_t precision) { return all(row, 
 /* Point 0 keeps its bonds with 1 and (row->value 2) with 2, or (3) with 1 and the one above it; the rest is whole. */
 static int32_t loosen(void *user, int32_t i, int32_t j, const double *xi, const double *xj) {
     const scene *s = (const scene *)user;
-    const int32_t kept = (int32_t)s->row->value, above = s->desc.space == PERI_SOLID ? 4 : 8;
+    const int32_t kept = (int32_t)s->row->value, above = s->desc.space == PERI_SPACE_SOLID ? 4 : 8;
     (void)xi, (void)xj;
     return i == 0 && !(j == 1 || (kept == 2 && j == 2) || (kept == 3 && j == above));
 }
@@ -157,15 +157,15 @@ static int32_t loosen(void *user, int32_t i, int32_t j, const double *xi, const 
 static double hanging_probe(scene *s) {
     double worst, stored;
     peri_energy e;
-    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, loosen, s))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, PERI_CUT_INITIAL, loosen, s))) return NAN;
     dense_scatter(s->o, s->body, 0.3, 61);
     worst = dense_of(s);
     if (extreme_fails(s->o, s->body, peri_reset(s->body))) return NAN;
     dense_scatter(s->o, s->body, 0.001, 67);
-    if (extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     stored = e.initial;
     (void)advance(s, 100, 0.2, 0);
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     return fabs(e.error) <= s->row->other * stored ? worst : 1;
 }
 
@@ -185,7 +185,7 @@ static int32_t is_left(void *user, int64_t index, const double *x) {
 /* Halves that fly apart with +-value: their centres go straight. Elastic energy: rounding of displacements u makes extensions of up to
    4 roundings of u, and W is at most D (D+2)/2 times their square. */
 static double flying_probe(scene *s) {
-    double middle = s->desc.space == PERI_SOLID ? 2 : 4, speed[3] = {0, 0, 0}, way[2] = {0, 0}, mass[2] = {0, 0};
+    double middle = s->desc.space == PERI_SPACE_SOLID ? 2 : 4, speed[3] = {0, 0, 0}, way[2] = {0, 0}, mass[2] = {0, 0};
     double worst = 0, rounding, stray;
     double *x, *u, *volume;
     const int dim = peri_dimension(s->body);
@@ -193,18 +193,18 @@ static double flying_probe(scene *s) {
     int64_t i;
     int k;
     int32_t left;
-    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, apart, &middle))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, PERI_CUT_INITIAL, apart, &middle))) return NAN;
     left = peri_select_if(s->body, NULL, is_left, &middle);
     speed[0] = s->row->value;
     (void)extreme_fails(s->o, s->body, peri_add_velocity(s->body, PERI_ALL, speed));
     speed[0] *= -2;
     (void)extreme_fails(s->o, s->body, peri_add_velocity(s->body, left, speed));
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &start_))) return NAN;
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &start_))) return NAN;
     (void)advance(s, 100, 0.9, 0);
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
-    x = extreme_read(s->o, s->body, PERI_POSITION);
-    u = extreme_read(s->o, s->body, PERI_DISPLACEMENT);
-    volume = extreme_read(s->o, s->body, PERI_VOLUME);
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
+    x = extreme_read(s->o, s->body, PERI_FIELD_POSITION);
+    u = extreme_read(s->o, s->body, PERI_FIELD_DISPLACEMENT);
+    volume = extreme_read(s->o, s->body, PERI_FIELD_VOLUME);
     for (i = 0; x && u && volume && i < peri_point_count(s->body); ++i) {
         k = x[i * dim] < middle;
         way[k] += u[i * dim] * volume[i];
@@ -212,7 +212,7 @@ static double flying_probe(scene *s) {
     }
     for (k = 0; k < 2; ++k) worst = extreme_worst(worst, fabs(way[k] / mass[k] / (s->row->value * peri_time(s->body)) * (k ? -1 : 1) - 1));
     free(x), free(u), free(volume);
-    rounding = s->desc.precision == PERI_F32 ? 5.96e-8 : 1.11e-16;
+    rounding = s->desc.precision == PERI_PRECISION_SINGLE ? 5.96e-8 : 1.11e-16;
     stray = 4 * rounding * s->row->value * peri_time(s->body);
     if (!(e.elastic <= 0.5 * dim * (dim + 2) * stray * stray * (mass[0] + mass[1]))) return 1;
     return extreme_worst(worst, fabs(e.kinetic / start_.kinetic - 1));
@@ -228,10 +228,10 @@ static double limit_probe(scene *s) {
     double broken, stored;
     peri_energy e;
     expand(s, s->row->other);
-    if (extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     stored = e.elastic;
     (void)advance(s, 1, 0.9, 1e-9 * peri_stable_step(s->body));
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     broken = (double)peri_broken_count(s->body);
     if (broken != (s->row->choice ? bonds_of(s) : 0)) return 1;
     if (!(stored > 0)) return broken + e.fracture;
@@ -243,9 +243,9 @@ static outcome limits_of(const extreme *row, int32_t precision, int32_t criterio
     outcome o = {PERI_OK, "", 0};
     setting c = plain(row->value);
     c.criterion = criterion;
-    if (criterion == PERI_CRITERION_BOND_ENERGY) c.except = PERI_OTERKUS;
-    for (c.geometry = PERI_NONLINEAR; c.geometry < PERI_GEOMETRY_COUNT_; ++c.geometry)
-        for (c.timing = PERI_BREAK_AT_STEP_END; c.timing < PERI_BREAK_TIMING_COUNT_; ++c.timing) each(&o, row, precision, &c, limit_probe);
+    if (criterion == PERI_CRITERION_BOND_ENERGY) c.except = PERI_LAW_OTERKUS;
+    for (c.geometry = PERI_GEOMETRY_NONLINEAR; c.geometry < peri__end_geometry; ++c.geometry)
+        for (c.timing = PERI_BREAK_AT_STEP_END; c.timing < peri__end_break_timing; ++c.timing) each(&o, row, precision, &c, limit_probe);
     return o;
 }
 
@@ -261,16 +261,16 @@ static int32_t is_right(void *user, int64_t index, const double *x) {
 /* Ends held and drawn apart by 1 %, with a critical stretch of 1e-12: what is between comes loose. Not of clouds: there a crack may run
    along one grip, and the rest stay whole on the other. */
 static double torn_probe(scene *s) {
-    double left = 1, right = s->desc.space == PERI_SOLID ? 3 : 7;
+    double left = 1, right = s->desc.space == PERI_SPACE_SOLID ? 3 : 7;
     const double away[3] = {0.01 * (right + 1), 0, 0};
-    const int32_t axes = s->desc.space == PERI_SOLID ? 7 : 3;
-    peri_statics p;
+    const int32_t axes = s->desc.space == PERI_SPACE_SOLID ? 7 : 3;
+    peri_solve_desc p;
     int32_t load[2];
     if (s->cloud) return 0;
     load[0] = peri_prescribe_displacement(s->body, peri_select_if(s->body, NULL, is_left, &left), axes, NULL, NULL, NULL);
     load[1] = peri_prescribe_displacement(s->body, peri_select_if(s->body, NULL, is_right, &right), axes, away, NULL, NULL);
     if (extreme_fails(s->o, s->body, load[0]) || extreme_fails(s->o, s->body, load[1])) return NAN;
-    peri_statics_init(&p);
+    peri_solve_desc_init(&p);
     return peri_solve(s->body, &p, NULL) == PERI_ERROR_LOOSE && peri_broken_count(s->body) > 0 ? 0 : 1;
 }
 
@@ -280,10 +280,10 @@ static outcome torn(const extreme *row, int32_t precision) { return all(row, pre
 static outcome refused(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
-    extreme_desc(&d, PERI_SOLID, precision, 3);
-    extreme_material(&m, PERI_LPS, 0.3, row->choice == 0 ? row->value : 0);
+    extreme_desc(&d, PERI_SPACE_SOLID, precision, 3);
+    extreme_material(&m, PERI_LAW_LPS, 0.3, row->choice == 0 ? row->value : 0);
     if (row->choice == 1) m.fracture_energy = row->value;
     if (row->choice == 2) m.fracture_energy = m.critical_stretch = row->value;
     if (row->choice >= 10) m.criterion = row->choice - 10;
@@ -296,25 +296,25 @@ static outcome refused(const extreme *row, int32_t precision) {
 static outcome threshold(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double v[2] = {0.5, 1.5}, pi = 3.14159265358979323846, h = 2;
-    int32_t space, model, side;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (model = row->choice == PERI_CRITERION_STRETCH ? PERI_BOND_BASED : PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
+    int32_t space, law, side;
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (law = row->choice == PERI_CRITERION_STRETCH ? PERI_LAW_BOND_BASED : PERI_LAW_LPS; law < peri__end_law; ++law)
             for (side = 0; side < 2 && o.status >= 0; ++side) {
-                const int dim = space == PERI_SOLID ? 3 : 2;
+                const int dim = space == PERI_SPACE_SOLID ? 3 : 2;
                 double x[6] = {0, 0, 0, 0, 0, 0}, u[6] = {0, 0, 0, 0, 0, 0}, stiff, w0, s = 0.01;
-                dense_moduli law;
+                dense_moduli moduli;
                 peri_body_desc d;
-                peri_material m;
+                peri_material_desc m;
                 peri_body *b;
                 scene t;
                 extreme_desc(&d, space, precision, h);
-                extreme_material(&m, model, 0.3, 0);
-                law = dense_moduli_of(&m, space);
+                extreme_material(&m, law, 0.3, 0);
+                moduli = dense_moduli_of(&m, space);
                 m.criterion = row->choice;
                 if (row->choice == PERI_CRITERION_STRETCH) m.critical_stretch = s;
                 else {
                     m.fracture_energy = row->value;
-                    stiff = model == PERI_CORRESPONDENCE ? dim * (dim + 2) * law.mu : dim * dim * law.bulk;
+                    stiff = law == PERI_LAW_CORRESPONDENCE ? dim * (dim + 2) * moduli.mu : dim * dim * moduli.bulk;
                     w0 = (dim == 3 ? 4 / (pi * h) : 1.5) * row->value / (h * h * h);
                     s = sqrt(2 * w0 / (stiff * (1 / v[0] + 1 / v[1])));
                 }
@@ -322,9 +322,9 @@ static outcome threshold(const extreme *row, int32_t precision) {
                 u[dim] = 0.9 * s * (side ? 1 + 1e-4 : 1 - 1e-4);
                 t.o = &o;
                 t.body = b = dense_cloud(&o, &d, &m, 2, x, v);
-                if (b && !extreme_fails(&o, b, peri_write(b, PERI_DISPLACEMENT, u, 2 * dim))) {
+                if (b && !extreme_fails(&o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 2 * dim))) {
                     (void)advance(&t, 1, 0.9, 1e-9 * peri_stable_step(b));
-                    dense_note(&o, peri_broken_count(b) == side ? 0 : 1, space, model);
+                    dense_note(&o, peri_broken_count(b) == side ? 0 : 1, space, law);
                 }
                 o = extreme_end(o, b);
             }
@@ -344,7 +344,7 @@ static double no_fail_probe(scene *s) {
         if (extreme_fails(s->o, s->body, peri_set_no_fail(s->body, rest, 0))) return NAN;
     }
     for (i = 0; i < n; ++i) {
-        if (extreme_fails(s->o, s->body, peri_read_families(s->body, i, 1, row, width))) return NAN;
+        if (extreme_fails(s->o, s->body, peri_get_families(s->body, i, 1, row, width))) return NAN;
         for (k = 0; k < width; ++k) want += row[k] > i && i >= (int32_t)s->row->value;
     }
     expand(s, 0.5);
@@ -355,8 +355,8 @@ static double no_fail_probe(scene *s) {
 static outcome no_fail(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(0.1);
-    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < PERI_CRITERION_COUNT_; ++c.criterion) {
-        c.except = c.criterion == PERI_CRITERION_BOND_ENERGY ? PERI_OTERKUS : 0; /* see limits_of */
+    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < peri__end_criterion; ++c.criterion) {
+        c.except = c.criterion == PERI_CRITERION_BOND_ENERGY ? PERI_LAW_OTERKUS : 0; /* see limits_of */
         each(&o, row, precision, &c, no_fail_probe);
         c.limit = -1e-12;
     }
@@ -378,19 +378,19 @@ static double reset_probe(scene *s) {
     int32_t field;
     (void)set_going(s);
     if (peri_broken_count(s->body) < 1) worst = 1;
-    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, any, NULL)) || extreme_fails(s->o, s->body, peri_reset(s->body))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, PERI_CUT_INITIAL, any, NULL)) || extreme_fails(s->o, s->body, peri_reset(s->body))) return NAN;
     if (peri_broken_count(s->body) + peri_step_count(s->body) != 0 || peri_time(s->body) != 0) worst = 1;
     (void)set_going(s);
     fresh.body = make(&fresh);
     if (!fresh.body) return NAN;
     (void)set_going(&fresh);
-    for (field = PERI_POSITION; field < PERI_FIELD_COUNT_ && s->o->status >= 0; ++field) {
-        const int64_t n = peri_field_size(s->body, field);
+    for (field = PERI_FIELD_POSITION; field < peri__end_field && s->o->status >= 0; ++field) {
+        const int64_t n = peri_size_of_field(s->body, field);
         double *x = extreme_read(s->o, s->body, field), *y = extreme_read(s->o, fresh.body, field);
         if (!x || !y || memcmp(x, y, (size_t)n * sizeof *x) != 0) worst = extreme_worst(worst, field);
         free(x), free(y);
     }
-    if (!extreme_fails(s->o, s->body, peri_read_energy(s->body, &a)) && !extreme_fails(s->o, fresh.body, peri_read_energy(fresh.body, &b))
+    if (!extreme_fails(s->o, s->body, peri_get_energy(s->body, &a)) && !extreme_fails(s->o, fresh.body, peri_get_energy(fresh.body, &b))
         && memcmp(&a, &b, sizeof a) != 0) worst = extreme_worst(worst, 100);
     if (peri_broken_count(s->body) != peri_broken_count(fresh.body)) worst = extreme_worst(worst, 101);
     *s->o = extreme_end(*s->o, fresh.body);
@@ -400,7 +400,7 @@ static double reset_probe(scene *s) {
 static outcome reset(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(0.03);
-    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < PERI_CRITERION_COUNT_; ++c.criterion) {
+    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < peri__end_criterion; ++c.criterion) {
         each(&o, row, precision, &c, reset_probe);
         c.limit = -2e-3;
     }

@@ -1,4 +1,4 @@
-/* dense.c - see dense.h. Formulas are those at peri_model in peri.h; e = (2 xi + eta).eta/(|xi+eta| + |xi|), without cancellation.
+/* dense.c - see dense.h. Formulas are those at peri_law in peri.h; e = (2 xi + eta).eta/(|xi+eta| + |xi|), without cancellation.
 
    Rounding. The sum (2 xi + eta).eta is uncertain by roundings of its terms, so e by roundings of reach = (2 |xi| + |eta|) |eta|/(|xi+eta|
    + |xi|); the direction of a force by roundings of (|xi| + |eta|)/|xi+eta|. Sizes are carried along each formula with these in place of e,
@@ -8,8 +8,8 @@
 #define PI 3.14159265358979323846
 
 typedef struct node { /* what a point makes of its family; big_: the sizes of the terms                                   */
-    int32_t      model;
-    dense_moduli law;
+    int32_t      law;
+    dense_moduli moduli;
     double       press, big_press, spring; /* w (press g + spring e) along the bond, g = |xi|, Oterkus 1                  */
     double       q[3][3], big_q, k;        /* w (q xi + k eta) more                                                       */
     double       energy, big_energy;
@@ -31,18 +31,18 @@ typedef struct bond {
     double xi[3], eta[3], y[3], length, now, e, reach, twist;
 } bond;
 
-dense_moduli dense_moduli_of(const peri_material *m, int32_t space) {
-    dense_moduli law;
-    const double nu = m->model == PERI_BOND_BASED ? (space == PERI_PLANE_STRESS ? 1.0 / 3 : 0.25) : m->poisson, young = m->young;
-    law.mu = young / (2 * (1 + nu));
-    law.lambda = space == PERI_PLANE_STRESS ? young * nu / (1 - nu * nu) : young * nu / ((1 + nu) * (1 - 2 * nu));
-    law.bulk = law.lambda + 2 * law.mu / (space == PERI_SOLID ? 3 : 2);
-    return law;
+dense_moduli dense_moduli_of(const peri_material_desc *m, int32_t space) {
+    dense_moduli moduli;
+    const double nu = m->law == PERI_LAW_BOND_BASED ? (space == PERI_SPACE_PLANE_STRESS ? 1.0 / 3 : 0.25) : m->poisson, young = m->young;
+    moduli.mu = young / (2 * (1 + nu));
+    moduli.lambda = space == PERI_SPACE_PLANE_STRESS ? young * nu / (1 - nu * nu) : young * nu / ((1 + nu) * (1 - 2 * nu));
+    moduli.bulk = moduli.lambda + 2 * moduli.mu / (space == PERI_SPACE_SOLID ? 3 : 2);
+    return moduli;
 }
 
 double dense_micromodulus(int32_t space, double h) {
-    if (space == PERI_SOLID) return 18 * (1 / 1.5) / (PI * h * h * h * h); /* K = E/(3 (1 - 2 nu)), nu = 1/4 */
-    return (space == PERI_PLANE_STRAIN ? 48.0 / 5 : 9.0) / (PI * h * h * h);
+    if (space == PERI_SPACE_SOLID) return 18 * (1 / 1.5) / (PI * h * h * h * h); /* K = E/(3 (1 - 2 nu)), nu = 1/4 */
+    return (space == PERI_SPACE_PLANE_STRAIN ? 48.0 / 5 : 9.0) / (PI * h * h * h);
 }
 
 static double size_of(const double *a, int dim) {
@@ -133,7 +133,7 @@ static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], 
     int a, c, d;
     invert(dim, shape, inverse);
     condition = norm(dim, shape) * norm(dim, inverse);
-    n->k = stabilization * dim * (dim + 2) * n->law.mu / stiff;
+    n->k = stabilization * dim * (dim + 2) * n->moduli.mu / stiff;
     for (k = 0; k < s->width; ++k) {
         if ((j = read_bond(s, i, k, &g)) < 0) continue;
         pulled += size_of(g.eta, dim) * g.length * s->volume[j];
@@ -152,10 +152,10 @@ static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], 
     for (a = 0; a < dim; ++a) trace += e[a][a];
     for (a = 0; a < dim; ++a)
         for (d = 0; d < dim; ++d) { /* P = F S; F = 1 in linear geometry */
-            p[a][d] = 2 * n->law.mu * e[a][d] + (a == d ? n->law.lambda * trace : 0);
-            for (c = 0; !s->linear && c < dim; ++c) p[a][d] += h[a][c] * (2 * n->law.mu * e[c][d] + (c == d ? n->law.lambda * trace : 0));
+            p[a][d] = 2 * n->moduli.mu * e[a][d] + (a == d ? n->moduli.lambda * trace : 0);
+            for (c = 0; !s->linear && c < dim; ++c) p[a][d] += h[a][c] * (2 * n->moduli.mu * e[c][d] + (c == d ? n->moduli.lambda * trace : 0));
         }
-    big_s = (2 * n->law.mu + dim * fabs(n->law.lambda)) * big_e;
+    big_s = (2 * n->moduli.mu + dim * fabs(n->moduli.lambda)) * big_e;
     big_p = big_s * (1 + (s->linear ? 0 : big_h));
     for (a = 0; a < dim; ++a)
         for (d = 0; d < dim; ++d) {
@@ -173,12 +173,12 @@ static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], 
         apart += far_ * far_ * s->volume[j];
         big_apart += big * big * s->volume[j];
     }
-    n->energy = 0.5 * n->law.lambda * trace * trace + n->law.mu * square + 0.5 * n->k * apart;
-    n->big_energy = 0.5 * fabs(n->law.lambda) * dim * big_e * big_e + n->law.mu * big_e * big_e + 0.5 * n->k * big_apart;
+    n->energy = 0.5 * n->moduli.lambda * trace * trace + n->moduli.mu * square + 0.5 * n->k * apart;
+    n->big_energy = 0.5 * fabs(n->moduli.lambda) * dim * big_e * big_e + n->moduli.mu * big_e * big_e + 0.5 * n->k * big_apart;
 }
 
-/* Moments of the family of i, and what its law makes of them. */
-static void respond(const dense *s, int64_t i, const peri_material *m) {
+/* Moments of the family of i, and what its moduli makes of them. */
+static void respond(const dense *s, int64_t i, const peri_material_desc *m) {
     node *n = &s->node[i];
     const int dim = s->dim;
     double stiff = 0, length = 0, plain = 0, shear = 0, shape[3][3] = {{0}}, theta = 0, big_theta = 0, square = 0, big_square = 0;
@@ -187,10 +187,10 @@ static void respond(const dense *s, int64_t i, const peri_material *m) {
     int64_t k, j;
     int a, c, bonded = 0;
     memset(n, 0, sizeof *n);
-    n->model = m->model;
-    n->law = dense_moduli_of(m, s->desc->space);
+    n->law = m->law;
+    n->moduli = dense_moduli_of(m, s->desc->space);
     for (k = 0; k < s->width; ++k) {
-        const double gauge_lps = m->model == PERI_OTERKUS ? 0 : 1;
+        const double gauge_lps = m->law == PERI_LAW_OTERKUS ? 0 : 1;
         j = s->rows[i * s->width + k];
         if (j != i) {
             double square_ = 0;
@@ -215,13 +215,13 @@ static void respond(const dense *s, int64_t i, const peri_material *m) {
         big_bonds += 0.25 * s->micromodulus * g.reach * g.reach / g.length * s->volume[j];
     }
     if (!bonded) return;
-    switch (m->model) {
-    case PERI_BOND_BASED:
+    switch (m->law) {
+    case PERI_LAW_BOND_BASED:
         n->energy = bonds;
         n->big_energy = big_bonds;
         return;
-    case PERI_LPS: { /* W = A/(2 D) theta^2 + B/(2 m) sum w e^2 V */
-        const double big_a = dim * (n->law.lambda - n->law.mu), big_b = dim * (dim + 2) * n->law.mu;
+    case PERI_LAW_LPS: { /* W = A/(2 D) theta^2 + B/(2 m) sum w e^2 V */
+        const double big_a = dim * (n->moduli.lambda - n->moduli.mu), big_b = dim * (dim + 2) * n->moduli.mu;
         n->spring = big_b / stiff;
         n->press = big_a / stiff * (dim / stiff) * theta;
         n->big_press = fabs(big_a) / stiff * (dim / stiff) * big_theta;
@@ -229,23 +229,23 @@ static void respond(const dense *s, int64_t i, const peri_material *m) {
         n->big_energy = fabs(big_a) / (2 * dim) * pow(dim / stiff * big_theta, 2) + 0.5 * n->spring * big_square;
         return;
     }
-    case PERI_OTERKUS: /* W = a theta^2 + b sum w e^2 V; spring = 2 b, from simple shear; a from isotropic strain */
+    case PERI_LAW_OTERKUS: /* W = a theta^2 + b sum w e^2 V; spring = 2 b, from simple shear; a from isotropic strain */
         d_ = dim / length;
-        n->spring = dim * (dim + 2) * shear > 0.2 * stiff ? n->law.mu / shear : dim * (dim + 2) * n->law.mu / stiff;
+        n->spring = dim * (dim + 2) * shear > 0.2 * stiff ? n->moduli.mu / shear : dim * (dim + 2) * n->moduli.mu / stiff;
         room = stiff * plain / (length * length) - 1; /* q (1 - m sum(w V)/(sum w |xi| V)^2) + D^2 bulk sum(w V)/(...)^2 >= 0 */
-        if (n->spring * room > n->law.bulk * dim * dim * plain / (length * length))
-            n->spring = n->law.bulk * dim * dim * plain / (length * length) / room;
-        n->press = (n->law.bulk - n->spring * stiff / (dim * dim)) * d_ * d_ * theta;
-        n->big_press = (n->law.bulk + n->spring * stiff / (dim * dim)) * d_ * d_ * big_theta;
-        n->energy = 0.5 * (n->law.bulk - n->spring * stiff / (dim * dim)) * pow(d_ * theta, 2) + 0.5 * n->spring * square;
-        n->big_energy = 0.5 * (n->law.bulk + n->spring * stiff / (dim * dim)) * pow(d_ * big_theta, 2) + 0.5 * n->spring * big_square;
+        if (n->spring * room > n->moduli.bulk * dim * dim * plain / (length * length))
+            n->spring = n->moduli.bulk * dim * dim * plain / (length * length) / room;
+        n->press = (n->moduli.bulk - n->spring * stiff / (dim * dim)) * d_ * d_ * theta;
+        n->big_press = (n->moduli.bulk + n->spring * stiff / (dim * dim)) * d_ * d_ * big_theta;
+        n->energy = 0.5 * (n->moduli.bulk - n->spring * stiff / (dim * dim)) * pow(d_ * theta, 2) + 0.5 * n->spring * square;
+        n->big_energy = 0.5 * (n->moduli.bulk + n->spring * stiff / (dim * dim)) * pow(d_ * big_theta, 2) + 0.5 * n->spring * big_square;
         return;
     default:
         if (roundness(dim, shape) > 0.02) { /* what the library takes for spanning the space */
             deform(s, i, stiff, shape, m->stabilization);
             return;
         }
-        n->spring = dim * (dim + 2) * n->law.mu / whole;
+        n->spring = dim * (dim + 2) * n->moduli.mu / whole;
         n->energy = 0.5 * n->spring * square;
         n->big_energy = 0.5 * n->spring * big_square;
     }
@@ -256,11 +256,11 @@ static void half(const dense *s, int64_t i, const bond *g, double volume, double
     const node *n = &s->node[i];
     double central, size;
     int a, d;
-    if (n->model == PERI_BOND_BASED) {
+    if (n->law == PERI_LAW_BOND_BASED) {
         central = 0.5 * s->micromodulus * g->e / g->length;
         size = 0.5 * s->micromodulus * g->reach / g->length;
     } else {
-        const double gauge = n->model == PERI_OTERKUS ? 1 : g->length;
+        const double gauge = n->law == PERI_LAW_OTERKUS ? 1 : g->length;
         central = n->press * gauge + n->spring * g->e;
         size = n->big_press * gauge + n->spring * g->reach;
     }
@@ -305,11 +305,11 @@ static double compare(const dense *s) {
     for (a = 0; a < 3; ++a) size += turn[a] * turn[a];
     worst = extreme_worst(worst, ratio(size_of(net, s->dim), sum));
     worst = extreme_worst(worst, ratio(sqrt(size), arm));
-    if (extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     return extreme_worst(worst, ratio(fabs(e.elastic - stored), big_stored));
 }
 
-double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri_material *m) {
+double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri_material_desc *m) {
     dense s;
     double worst = NAN;
     int64_t i;
@@ -319,20 +319,20 @@ double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri
     s.body = b;
     s.desc = d;
     s.dim = peri_dimension(b);
-    s.linear = d->geometry == PERI_LINEAR;
+    s.linear = d->geometry == PERI_GEOMETRY_LINEAR;
     s.whole = peri_cut_count(b) + peri_broken_count(b) == 0;
     s.points = peri_point_count(b);
     s.width = peri_family_width(b);
     s.micromodulus = dense_micromodulus(d->space, d->horizon);
-    s.x = extreme_read(o, b, PERI_POSITION);
-    s.u = extreme_read(o, b, PERI_DISPLACEMENT);
-    s.volume = extreme_read(o, b, PERI_VOLUME);
-    s.material = extreme_read(o, b, PERI_MATERIAL);
-    s.force = extreme_read(o, b, PERI_FORCE_DENSITY);
-    s.energy = extreme_read(o, b, PERI_ENERGY_DENSITY);
+    s.x = extreme_read(o, b, PERI_FIELD_POSITION);
+    s.u = extreme_read(o, b, PERI_FIELD_DISPLACEMENT);
+    s.volume = extreme_read(o, b, PERI_FIELD_VOLUME);
+    s.material = extreme_read(o, b, PERI_FIELD_MATERIAL);
+    s.force = extreme_read(o, b, PERI_FIELD_FORCE_DENSITY);
+    s.energy = extreme_read(o, b, PERI_FIELD_ENERGY_DENSITY);
     s.rows = (int32_t *)malloc((size_t)(s.points * s.width) * sizeof *s.rows);
     s.node = (node *)malloc((size_t)s.points * sizeof *s.node);
-    if (s.rows) (void)extreme_fails(o, b, peri_read_families(b, 0, s.points, s.rows, s.points * s.width));
+    if (s.rows) (void)extreme_fails(o, b, peri_get_families(b, 0, s.points, s.rows, s.points * s.width));
     if (s.rows && s.node && o->status >= 0) {
         for (i = 0; i < s.points; ++i) respond(&s, i, &m[(int)s.material[i]]);
         worst = compare(&s);
@@ -350,7 +350,7 @@ static peri_body *built(outcome *o, peri_body *b) {
     return NULL;
 }
 
-peri_body *dense_box(outcome *o, const peri_body_desc *d, const peri_material *m, int n) {
+peri_body *dense_box(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int n) {
     const double lo[3] = {0, 0, 0}, hi[3] = {n, n, n};
     peri_body *b = NULL;
     (void)(extreme_fails(o, NULL, peri_body_create(d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, m))
@@ -358,7 +358,7 @@ peri_body *dense_box(outcome *o, const peri_body_desc *d, const peri_material *m
     return built(o, b);
 }
 
-peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material *m, int64_t count, const double *x, const double *volume) {
+peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int64_t count, const double *x, const double *volume) {
     peri_body *b = NULL;
     (void)(extreme_fails(o, NULL, peri_body_create(d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, m))
            || extreme_fails(o, b, peri_add_points(b, count, x, volume, NULL)));
@@ -366,15 +366,15 @@ peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material 
 }
 
 void dense_scatter(outcome *o, peri_body *b, double size, uint64_t seed) {
-    const int64_t n = b ? peri_field_size(b, PERI_DISPLACEMENT) : 0;
-    double *u = b ? extreme_read(o, b, PERI_DISPLACEMENT) : NULL;
+    const int64_t n = b ? peri_size_of_field(b, PERI_FIELD_DISPLACEMENT) : 0;
+    double *u = b ? extreme_read(o, b, PERI_FIELD_DISPLACEMENT) : NULL;
     int64_t i;
     for (i = 0; u && i < n; ++i) u[i] += size * (2 * test_random(&seed) - 1);
-    if (u) (void)extreme_fails(o, b, peri_write(b, PERI_DISPLACEMENT, u, n));
+    if (u) (void)extreme_fails(o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, n));
     free(u);
 }
 
-void dense_note(outcome *o, double error, int32_t space, int32_t model) {
+void dense_note(outcome *o, double error, int32_t space, int32_t law) {
     static const char *const names[4][5] = {
         {"", "", "", "", ""},
         {"", "bond-based in plane stress", "LPS in plane stress", "Oterkus in plane stress", "correspondence in plane stress"},
@@ -382,5 +382,5 @@ void dense_note(outcome *o, double error, int32_t space, int32_t model) {
         {"", "bond-based in 3D", "LPS in 3D", "Oterkus in 3D", "correspondence in 3D"}};
     if (o->status < 0 || error <= o->error || o->error != o->error) return;
     o->error = error;
-    o->field = names[space][model];
+    o->field = names[space % 100][law % 100];
 }

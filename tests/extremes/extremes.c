@@ -60,19 +60,19 @@ void extreme_desc(peri_body_desc *desc, int32_t space, int32_t precision, double
     desc->memory_user = &extreme_memory;
 }
 
-void extreme_material(peri_material *material, int32_t model, double poisson, double stretch) {
-    peri_material_init(material, model);
+void extreme_material(peri_material_desc *material, int32_t law, double poisson, double stretch) {
+    peri_material_desc_init(material, law);
     material->young = 1;
     material->density = 1;
-    if (model != PERI_BOND_BASED) material->poisson = poisson;
+    if (law != PERI_LAW_BOND_BASED) material->poisson = poisson;
     material->critical_stretch = stretch;
 }
 
-peri_body *extreme_box(outcome *o, const peri_body_desc *desc, const peri_material *material, const double *hi, double spacing) {
+peri_body *extreme_box(outcome *o, const peri_body_desc *desc, const peri_material_desc *material, const double *hi, double spacing) {
     const double lo[3] = {0, 0, 0};
     peri_body *b = NULL;
     if (extreme_fails(o, NULL, peri_body_create(desc, &b, NULL))) return NULL;
-    if (!extreme_fails(o, b, peri_add_material(b, material)) && !extreme_fails(o, b, peri_add_box(b, 0, lo, hi, spacing)))
+    if (!extreme_fails(o, b, peri_add_material(b, material)) && !extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, spacing)))
         (void)extreme_fails(o, b, peri_build(b));
     return b;
 }
@@ -83,14 +83,14 @@ int extreme_fails(outcome *o, const peri_body *b, int64_t result) {
     if (o->status >= 0) {
         o->status = (int32_t)result;
         o->field = "";
-        if (b && peri_last_error(b, &record) == PERI_OK && record.code == (int32_t)result && record.field) o->field = record.field;
+        if (b && peri_get_error(b, &record) == PERI_OK && record.code == (int32_t)result && record.field) o->field = record.field;
     }
     return 1;
 }
 
 double extreme_worst(double a, double b) { return a >= b ? a : b >= a ? b : NAN; }
 
-double extreme_roundoff(int32_t precision) { return precision == PERI_F64 ? 0x1p-53 : 0x1p-24; }
+double extreme_roundoff(int32_t precision) { return precision == PERI_PRECISION_DOUBLE ? 0x1p-53 : 0x1p-24; }
 
 void extreme_take(outcome *o, double error, const char *what, int a, int b, int c) {
     static char text[64];
@@ -101,7 +101,7 @@ void extreme_take(outcome *o, double error, const char *what, int a, int b, int 
 }
 
 void extreme_note(outcome *o, const extreme *row, int32_t precision, double error, const char *format, ...) {
-    const double bound = row->bound[precision == PERI_F64 ? 0 : precision == PERI_MIXED ? 1 : 2], before = o->error;
+    const double bound = row->bound[precision == PERI_PRECISION_DOUBLE ? 0 : precision == PERI_PRECISION_MIXED ? 1 : 2], before = o->error;
     o->error = extreme_worst(before, error);
     if (!(error <= bound) && !(error <= before)) {
         va_list arguments;
@@ -114,10 +114,10 @@ void extreme_note(outcome *o, const extreme *row, int32_t precision, double erro
 }
 
 double *extreme_read(outcome *o, peri_body *b, int32_t field) {
-    const int64_t n = peri_field_size(b, field);
+    const int64_t n = peri_size_of_field(b, field);
     double *x = n < 0 ? NULL : (double *)malloc((size_t)n * sizeof *x + 1);
     if (n < 0) (void)extreme_fails(o, b, n);
-    if (x && extreme_fails(o, b, peri_read(b, field, x, n))) {
+    if (x && extreme_fails(o, b, peri_get_field(b, field, x, n))) {
         free(x);
         x = NULL;
     }
@@ -125,9 +125,9 @@ double *extreme_read(outcome *o, peri_body *b, int32_t field) {
 }
 
 void extreme_affine(outcome *o, peri_body *b, const double *gradient, const double *origin) {
-    const int64_t n = peri_field_size(b, PERI_POSITION);
+    const int64_t n = peri_size_of_field(b, PERI_FIELD_POSITION);
     const int dim = peri_dimension(b);
-    double *x = extreme_read(o, b, PERI_POSITION), at[3];
+    double *x = extreme_read(o, b, PERI_FIELD_POSITION), at[3];
     int64_t i;
     int k, l;
     for (i = 0; x && i < n; i += dim) {
@@ -137,7 +137,7 @@ void extreme_affine(outcome *o, peri_body *b, const double *gradient, const doub
             for (l = 0; l < dim; ++l) x[i + k] += gradient[k * dim + l] * at[l];
         }
     }
-    if (x) (void)extreme_fails(o, b, peri_write(b, PERI_DISPLACEMENT, x, n));
+    if (x) (void)extreme_fails(o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, x, n));
     free(x);
 }
 
@@ -153,11 +153,11 @@ int32_t extreme_slab(outcome *o, peri_body *b, int axis, double from, double to)
 
 /* A field that cannot be had is named by its status, which is no wrong number. */
 static int is_finite_field(peri_body *b, int32_t field) {
-    const int64_t n = peri_field_size(b, field);
+    const int64_t n = peri_size_of_field(b, field);
     double *x = n < 0 ? NULL : (double *)malloc((size_t)n * sizeof *x + 1);
     int good = 1;
     int64_t i;
-    if (x && peri_read(b, field, x, n) == PERI_OK)
+    if (x && peri_get_field(b, field, x, n) == PERI_OK)
         for (i = 0; i < n; ++i) good &= x[i] - x[i] == 0.0;
     free(x);
     return good;
@@ -169,10 +169,10 @@ outcome extreme_end(outcome o, peri_body *b) {
         peri_energy e;
         double linear[3] = {0, 0, 0}, angular[3] = {0, 0, 0}, sum = 0;
         int good = 1, k;
-        for (field = PERI_POSITION; field < PERI_FIELD_COUNT_; ++field) good &= is_finite_field(b, field);
-        if (peri_read_energy(b, &e) == PERI_OK)
+        for (field = PERI_FIELD_POSITION; field < peri__end_field; ++field) good &= is_finite_field(b, field);
+        if (peri_get_energy(b, &e) == PERI_OK)
             sum = e.kinetic + e.elastic + e.external + e.obstacle + e.damping + e.fracture + e.initial + e.error;
-        if (peri_read_momentum(b, linear, angular) == PERI_OK)
+        if (peri_get_momentum(b, linear, angular) == PERI_OK)
             for (k = 0; k < 3; ++k) sum += linear[k] + angular[k];
         if (!good || sum - sum != 0.0) {
             o.status = NOT_FINITE;
@@ -194,7 +194,7 @@ static const char *status_name(int32_t status) {
 }
 
 static void play(const char *subject, const extreme *row) {
-    static const int32_t precisions[3] = {PERI_F64, PERI_MIXED, PERI_F32};
+    static const int32_t precisions[3] = {PERI_PRECISION_DOUBLE, PERI_PRECISION_MIXED, PERI_PRECISION_SINGLE};
     static const char *const names[3] = {"double", "mixed", "single"};
     char line[3][96];
     double spent = 0;

@@ -55,10 +55,10 @@ extern int extreme_long; /* 1: with --long, for scenes that then do more        
 void extreme_desc(peri_body_desc *desc, int32_t space, int32_t precision, double horizon);
 
 /* A material of unit modulus and density; poisson is of state-based models. Bonds break where stretch > 0. */
-void extreme_material(peri_material *material, int32_t model, double poisson, double stretch);
+void extreme_material(peri_material_desc *material, int32_t law, double poisson, double stretch);
 
 /* A built body of one material, in cells of `spacing` from the origin to hi; what fails is noted. NULL where there is none. */
-peri_body *extreme_box(outcome *o, const peri_body_desc *desc, const peri_material *material, const double *hi, double spacing);
+peri_body *extreme_box(outcome *o, const peri_body_desc *desc, const peri_material_desc *material, const double *hi, double spacing);
 
 /* Notes the first failure of a body, with the field that its record names. True where the result is one. b may be NULL. */
 int extreme_fails(outcome *o, const peri_body *b, int64_t result);

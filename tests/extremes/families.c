@@ -9,7 +9,7 @@ typedef struct scene {
     outcome       *o;
     peri_body     *body;
     peri_body_desc desc;
-    peri_material  material;
+    peri_material_desc  material;
     enum shape     shape;
 } scene;
 
@@ -22,8 +22,8 @@ static peri_body *lattice(scene *s, int nx, int ny, int nz) {
     peri_body *b = NULL;
     outcome *o = s->o;
     if (extreme_fails(o, NULL, peri_body_create(&s->desc, &b, NULL))) return NULL;
-    (void)(extreme_fails(o, b, peri_add_material(b, &s->material)) || extreme_fails(o, b, peri_add_box(b, 0, lo, hi, 1))
-           || (s->shape == GRADED && extreme_fails(o, b, peri_add_box(b, 0, fine_lo, fine_hi, s->desc.space == PERI_SOLID ? 0.5 : 0.25)))
+    (void)(extreme_fails(o, b, peri_add_material(b, &s->material)) || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1))
+           || (s->shape == GRADED && extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), fine_lo, fine_hi, s->desc.space == PERI_SPACE_SOLID ? 0.5 : 0.25)))
            || extreme_fails(o, b, peri_build(b)));
     if (o->status >= 0) return b;
     peri_body_destroy(b);
@@ -33,7 +33,7 @@ static peri_body *lattice(scene *s, int nx, int ny, int nz) {
 /* Unit cells, or points of the mean volume 1: a pair 0.9 apart; 20 points along x or (1, 2, 3); 8 x 8 points in the plane of x and y or 6 x
    6 across (1, 2, 3), about a spacing apart; a box; a cloud of volumes over six orders of magnitude; a box beside one of finer cells. */
 static peri_body *make(scene *s) {
-    const int dim = s->desc.space == PERI_SOLID ? 3 : 2;
+    const int dim = s->desc.space == PERI_SPACE_SOLID ? 3 : 2;
     const double along[3] = {1 / sqrt(14.0), 2 / sqrt(14.0), 3 / sqrt(14.0)}, across[3] = {2 / sqrt(5.0), -1 / sqrt(5.0), 0};
     const double third[3] = {3 / sqrt(70.0), 6 / sqrt(70.0), -5 / sqrt(70.0)};
     double x[3 * 64], volume[64];
@@ -69,7 +69,7 @@ typedef struct setting { /* of a loop                                           
 } setting;
 
 static setting plain(double horizon, enum shape first, enum shape last) {
-    setting c = {PERI_NONLINEAR, PERI_FULL_VOLUME, PERI_NO_CORRECTION, PERI_PLANE_STRESS, 0, LINE, LINE};
+    setting c = {PERI_GEOMETRY_NONLINEAR, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_SPACE_PLANE_STRESS, 0, LINE, LINE};
     c.horizon = horizon;
     c.first = first;
     c.last = last;
@@ -78,26 +78,26 @@ static setting plain(double horizon, enum shape first, enum shape last) {
 
 /* The worst error of a probe over spaces, laws and shapes; planes only in 3D, and corrections only of laws that have them. */
 static void each(outcome *o, const extreme *row, int32_t precision, const setting *c, probe_fn probe) {
-    int32_t space, model;
+    int32_t space, law;
     int shape;
-    for (space = c->space; space < PERI_SPACE_COUNT_; ++space)
-        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+    for (space = c->space; space < peri__end_space; ++space)
+        for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
             for (shape = (int)c->first; shape <= (int)c->last && o->status >= 0; ++shape) {
                 scene s;
                 double error;
                 s.row = row;
                 s.o = o;
                 s.shape = (enum shape)shape;
-                if (space != PERI_SOLID && (shape == PLANE || shape == TILTED)) continue;
-                if (model != PERI_BOND_BASED && c->correction != PERI_NO_CORRECTION && c->correction != PERI_MOMENT_CORRECTION) continue;
+                if (space != PERI_SPACE_SOLID && (shape == PLANE || shape == TILTED)) continue;
+                if (law != PERI_LAW_BOND_BASED && c->correction != PERI_CORRECTION_NONE && c->correction != PERI_CORRECTION_MOMENT) continue;
                 extreme_desc(&s.desc, space, precision, c->horizon);
                 s.desc.geometry = c->geometry;
                 s.desc.quadrature = c->quadrature;
                 s.desc.correction = c->correction;
-                extreme_material(&s.material, model, 0.3, 0);
+                extreme_material(&s.material, law, 0.3, 0);
                 s.body = make(&s);
                 error = s.body ? probe(&s) : NAN;
-                dense_note(o, error, space, model);
+                dense_note(o, error, space, law);
                 *o = extreme_end(*o, s.body);
             }
 }
@@ -109,12 +109,12 @@ static double strangers(scene *s) {
     const int64_t n = peri_point_count(s->body), width = peri_family_width(s->body);
     const int dim = peri_dimension(s->body);
     const double h = s->desc.horizon * (1 + 1e-8);
-    double *x = extreme_read(s->o, s->body, PERI_POSITION), wrong = 0;
+    double *x = extreme_read(s->o, s->body, PERI_FIELD_POSITION), wrong = 0;
     int32_t *row = (int32_t *)malloc((size_t)width * sizeof *row);
     int64_t i, j, k;
     int d;
     for (i = 0; x && row && i < n; ++i) {
-        if (extreme_fails(s->o, s->body, peri_read_families(s->body, i, 1, row, width))) break;
+        if (extreme_fails(s->o, s->body, peri_get_families(s->body, i, 1, row, width))) break;
         for (j = k = 0; j < n; ++j) {
             double square = 0;
             int bonded;
@@ -149,13 +149,13 @@ static outcome wide(const extreme *row, int32_t precision) {
     s.row = row;
     s.o = &o;
     s.shape = BOX;
-    extreme_desc(&s.desc, PERI_PLANE_STRESS, precision, row->value);
-    extreme_material(&s.material, PERI_LPS, 0.3, 0);
+    extreme_desc(&s.desc, PERI_SPACE_PLANE_STRESS, precision, row->value);
+    extreme_material(&s.material, PERI_LAW_LPS, 0.3, 0);
     s.body = lattice(&s, 37, 37, 1);
     dense_scatter(&o, s.body, 0.1, 23);
     if (s.body) {
-        dense_note(&o, peri_family_width(s.body) > 1024 ? 0 : 1, PERI_PLANE_STRESS, PERI_LPS);
-        dense_note(&o, dense_error(&o, s.body, &s.desc, &s.material), PERI_PLANE_STRESS, PERI_LPS);
+        dense_note(&o, peri_family_width(s.body) > 1024 ? 0 : 1, PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS);
+        dense_note(&o, dense_error(&o, s.body, &s.desc, &s.material), PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS);
     }
     return extreme_end(o, s.body);
 }
@@ -166,23 +166,23 @@ static outcome shell(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     int32_t space;
     int k, n, d;
-    for (space = PERI_PLANE_STRAIN; space < PERI_SPACE_COUNT_; ++space)
+    for (space = PERI_SPACE_PLANE_STRAIN; space < peri__end_space; ++space)
         for (k = 0; k < 5 && o.status >= 0; ++k) {
             const double h = spacings[k];
             double lo[3], hi[3];
             peri_body_desc desc;
-            peri_material m;
+            peri_material_desc m;
             peri_body *b = NULL;
             extreme_desc(&desc, space, precision, row->value * h);
-            extreme_material(&m, PERI_LPS, 0.3, 0);
-            for (d = 0, n = space == PERI_SOLID ? 8 : 20; d < 3; ++d) {
+            extreme_material(&m, PERI_LAW_LPS, 0.3, 0);
+            for (d = 0, n = space == PERI_SPACE_SOLID ? 8 : 20; d < 3; ++d) {
                 lo[d] = 1000 * h;
                 hi[d] = lo[d] + n * h;
             }
             (void)(extreme_fails(&o, NULL, peri_body_create(&desc, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))
-                   || extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, h)) || extreme_fails(&o, b, peri_build(b)));
+                   || extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, h)) || extreme_fails(&o, b, peri_build(b)));
             if (o.status >= 0)
-                dense_note(&o, fabs(peri_family_width(b) - (space == PERI_SOLID ? row->other : row->choice)), space, PERI_LPS);
+                dense_note(&o, fabs(peri_family_width(b) - (space == PERI_SPACE_SOLID ? row->other : row->choice)), space, PERI_LAW_LPS);
             o = extreme_end(o, b);
         }
     return o;
@@ -194,9 +194,9 @@ static outcome alone(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double x[3] = {1, 2, 3}, volume = 1;
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     extreme_desc(&d, row->choice, precision, row->value);
-    extreme_material(&m, PERI_LPS, 0.3, 0);
+    extreme_material(&m, PERI_LAW_LPS, 0.3, 0);
     return extreme_end(o, dense_cloud(&o, &d, &m, 1, x, &volume));
 }
 
@@ -207,13 +207,13 @@ static double swing_probe(scene *s) {
     const dense_moduli law = dense_moduli_of(&s->material, s->desc.space);
     const double length = 0.9, v = 0.5, w = 1.5, pi = 3.14159265358979323846, h = s->desc.horizon;
     const int dim = peri_dimension(s->body);
-    const double x = s->material.model == PERI_CORRESPONDENCE ? dim * (dim + 2) * law.mu : dim * dim * law.bulk;
+    const double x = s->material.law == PERI_LAW_CORRESPONDENCE ? dim * (dim + 2) * law.mu : dim * dim * law.bulk;
     double square = x / (length * length) * (2 + v / w + w / v), omega, velocity[6], u[6], apart = 0, step;
-    peri_run run;
+    peri_advance_desc run;
     int d;
-    if (s->material.model == PERI_BOND_BASED && s->desc.correction <= PERI_VOLUME_CORRECTION) {
+    if (s->material.law == PERI_LAW_BOND_BASED && s->desc.correction <= PERI_CORRECTION_VOLUME) {
         square = dense_micromodulus(s->desc.space, h) * (v + w) / length;
-        if (s->desc.correction == PERI_VOLUME_CORRECTION) square *= (dim == 3 ? 4.0 / 3 * pi * h * h * h : pi * h * h) / (v + w);
+        if (s->desc.correction == PERI_CORRECTION_VOLUME) square *= (dim == 3 ? 4.0 / 3 * pi * h * h * h : pi * h * h) / (v + w);
     }
     omega = sqrt(square);
     step = 0.5 * pi / omega / 500;
@@ -222,14 +222,14 @@ static double swing_probe(scene *s) {
         velocity[d] = -w / (v + w) * speed * along;
         velocity[dim + d] = v / (v + w) * speed * along;
     }
-    if (extreme_fails(s->o, s->body, peri_write(s->body, PERI_VELOCITY, velocity, 2 * dim))) return NAN;
-    peri_run_init(&run);
+    if (extreme_fails(s->o, s->body, peri_set_field(s->body, PERI_FIELD_VELOCITY, velocity, 2 * dim))) return NAN;
+    peri_advance_desc_init(&run);
     run.steps = 500;
     run.time_step = step;
     if (extreme_fails(s->o, s->body, peri_advance(s->body, &run))) return NAN;
-    if (extreme_fails(s->o, s->body, peri_read(s->body, PERI_DISPLACEMENT, u, 2 * dim))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_field(s->body, PERI_FIELD_DISPLACEMENT, u, 2 * dim))) return NAN;
     for (d = 0; d < dim; ++d) apart += (u[dim + d] - u[d]) * (dim == 3 ? (d + 1) / sqrt(14.0) : (d + 1) / sqrt(5.0));
-    if (extreme_fails(s->o, s->body, peri_read(s->body, PERI_VELOCITY, velocity, 2 * dim))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_field(s->body, PERI_FIELD_VELOCITY, velocity, 2 * dim))) return NAN;
     for (d = 0, square = 0; d < 2 * dim; ++d) square += velocity[d] * velocity[d];
     return extreme_worst(fabs(apart / 0.1 - 1), sqrt(square) / (0.1 * omega));
 }
@@ -237,7 +237,7 @@ static double swing_probe(scene *s) {
 static outcome swing(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(row->value, PAIR, PAIR);
-    for (c.correction = PERI_NO_CORRECTION; c.correction < PERI_CORRECTION_COUNT_; ++c.correction)
+    for (c.correction = PERI_CORRECTION_NONE; c.correction < peri__end_correction; ++c.correction)
         each(&o, row, precision, &c, swing_probe);
     return o;
 }
@@ -246,18 +246,18 @@ static outcome swing(const extreme *row, int32_t precision) {
 
 static outcome twins(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    int32_t space, model;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status >= 0; ++model) {
-            const int dim = space == PERI_SOLID ? 3 : 2;
+    int32_t space, law;
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (law = PERI_LAW_BOND_BASED; law < peri__end_law && o.status >= 0; ++law) {
+            const int dim = space == PERI_SPACE_SOLID ? 3 : 2;
             double x[3 * 65], volume[65];
             uint64_t seed = 29;
             peri_body_desc d;
-            peri_material m;
+            peri_material_desc m;
             peri_body *b;
             int i, a, at;
             extreme_desc(&d, space, precision, 2);
-            extreme_material(&m, model, 0.3, 0);
+            extreme_material(&m, law, 0.3, 0);
             for (i = 0; i < 64; ++i) {
                 for (a = 0, at = i; a < dim; ++a, at /= dim == 3 ? 4 : 8)
                     x[i * dim + a] = at % (dim == 3 ? 4 : 8) + (i ? 0.6 * test_random(&seed) : 0);
@@ -267,7 +267,7 @@ static outcome twins(const extreme *row, int32_t precision) {
             for (a = 0; a < dim; ++a) x[64 * dim + a] = a ? 0 : row->value;
             b = dense_cloud(&o, &d, &m, 65, x, volume);
             dense_scatter(&o, b, row->other, 31);
-            if (b) dense_note(&o, dense_error(&o, b, &d, &m), space, model);
+            if (b) dense_note(&o, dense_error(&o, b, &d, &m), space, law);
             o = extreme_end(o, b);
         }
     return o;
@@ -291,7 +291,7 @@ static double pulled_probe(scene *s) {
     int shape = (int)s->shape;
     double force[3] = {0, 0, 0}, back[3] = {0, 0, 0}, *f, *u, worst = 0, moved = 0;
     const int64_t n = peri_point_count(s->body);
-    peri_statics p;
+    peri_solve_desc p;
     int32_t pull, hold;
     int64_t i;
     int d;
@@ -300,12 +300,12 @@ static double pulled_probe(scene *s) {
     pull = peri_apply_body_force(s->body, peri_select_if(s->body, NULL, other_end, &shape), force, NULL, NULL);
     hold = peri_apply_body_force(s->body, peri_select_if(s->body, NULL, first_end, &shape), back, NULL, NULL);
     if (extreme_fails(s->o, s->body, pull) || extreme_fails(s->o, s->body, hold)) return NAN;
-    peri_statics_init(&p);
+    peri_solve_desc_init(&p);
     p.loose = s->row->choice / 10;
     if (extreme_fails(s->o, s->body, peri_solve(s->body, &p, NULL))) return NAN;
     (void)(extreme_fails(s->o, s->body, peri_remove_load(s->body, pull)) || extreme_fails(s->o, s->body, peri_remove_load(s->body, hold)));
-    f = extreme_read(s->o, s->body, PERI_FORCE_DENSITY);
-    u = extreme_read(s->o, s->body, PERI_DISPLACEMENT);
+    f = extreme_read(s->o, s->body, PERI_FIELD_FORCE_DENSITY);
+    u = extreme_read(s->o, s->body, PERI_FIELD_DISPLACEMENT);
     for (i = 0; f && u && i < n; ++i) {
         const double want = axis > 0 ? 0 : first_end(&shape, i, NULL) ? 1e-3 : other_end(&shape, i, NULL) ? -1e-3 : 0;
         for (d = 0; d < dim; ++d) worst = extreme_worst(worst, fabs(f[i * dim + d] - (d == axis ? want : 0)) / 1e-3);
@@ -320,7 +320,7 @@ static double pulled_probe(scene *s) {
 static outcome pulled(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(3, row->value > 1 ? PLANE : LINE, row->value > 1 ? PLANE : LINE);
-    for (c.geometry = row->choice % 10 ? PERI_LINEAR : PERI_NONLINEAR; c.geometry < PERI_GEOMETRY_COUNT_; ++c.geometry)
+    for (c.geometry = row->choice % 10 ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR; c.geometry < peri__end_geometry; ++c.geometry)
         each(&o, row, precision, &c, pulled_probe);
     return o;
 }
@@ -329,30 +329,30 @@ static outcome pulled(const extreme *row, int32_t precision) {
    (omega dt)^2/4 of what it was. */
 static double flat_probe(scene *s) {
     const int dim = peri_dimension(s->body), span = s->shape == LINE ? 1 : 2;
-    const int64_t n = peri_field_size(s->body, PERI_DISPLACEMENT);
+    const int64_t n = peri_size_of_field(s->body, PERI_FIELD_DISPLACEMENT);
     double *u, momentum[3] = {0, 0, 0}, worst = 0;
     peri_energy before, e;
-    peri_run run;
+    peri_advance_desc run;
     int64_t i;
     dense_scatter(s->o, s->body, 0.001, 83);
-    u = extreme_read(s->o, s->body, PERI_DISPLACEMENT);
+    u = extreme_read(s->o, s->body, PERI_FIELD_DISPLACEMENT);
     for (i = 0; u && i < n; ++i)
         if (i % dim >= span) u[i] = 0;
-    if (u) (void)extreme_fails(s->o, s->body, peri_write(s->body, PERI_DISPLACEMENT, u, n));
+    if (u) (void)extreme_fails(s->o, s->body, peri_set_field(s->body, PERI_FIELD_DISPLACEMENT, u, n));
     free(u);
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = 200;
     run.safety = 0.2;
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &before))) return NAN;
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &before))) return NAN;
     if (extreme_fails(s->o, s->body, peri_advance(s->body, &run))) return NAN;
-    if (extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
-    if (extreme_fails(s->o, s->body, peri_read_momentum(s->body, momentum, NULL))) return NAN;
-    u = extreme_read(s->o, s->body, PERI_DISPLACEMENT);
+    if (extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_momentum(s->body, momentum, NULL))) return NAN;
+    u = extreme_read(s->o, s->body, PERI_FIELD_DISPLACEMENT);
     for (i = 0; u && i < n; ++i)
         if (i % dim >= span && u[i] != 0) worst = 1;
     free(u);
     for (i = 0; i < dim; ++i) /* of points of up to 1e-3 speeds of sound each */
-        if (!(fabs(momentum[i]) <= 200 * (s->desc.precision == PERI_F64 ? 1.11e-16 : 5.96e-8) * 1e-3 * (double)n)) worst = 1;
+        if (!(fabs(momentum[i]) <= 200 * (s->desc.precision == PERI_PRECISION_DOUBLE ? 1.11e-16 : 5.96e-8) * 1e-3 * (double)n)) worst = 1;
     return extreme_worst(worst, fabs(e.error) / before.initial);
 }
 
@@ -371,7 +371,7 @@ enum given { HUB, CHAIN, ALL_PAIRS, ONE_SIDED, TWICE, NO_SUCH, LONELY, MORE_POIN
 static outcome given(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const int n = (int)row->value, kind = row->choice, width = kind == CHAIN ? 2 : kind == NO_WIDTH ? 0 : n - 1;
-    int32_t *rows_ = (int32_t *)malloc((size_t)n * (size_t)n * sizeof *rows_), space, model;
+    int32_t *rows_ = (int32_t *)malloc((size_t)n * (size_t)n * sizeof *rows_), space, law;
     double *x = (double *)malloc((size_t)n * 3 * sizeof *x), *volume = (double *)malloc((size_t)n * sizeof *volume);
     uint64_t seed = 37;
     int i, k;
@@ -387,14 +387,14 @@ static outcome given(const extreme *row, int32_t precision) {
     if (kind == TWICE) rows_[width * 2 + 1] = 0;
     if (kind == NO_SUCH) rows_[width * 2] = n;
     if (kind == LONELY) rows_[width * 3] = 3, rows_[2] = 0;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status >= 0; ++model) {
-            const int dim = space == PERI_SOLID ? 3 : 2;
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (law = PERI_LAW_BOND_BASED; law < peri__end_law && o.status >= 0; ++law) {
+            const int dim = space == PERI_SPACE_SOLID ? 3 : 2;
             peri_body_desc d;
-            peri_material m;
+            peri_material_desc m;
             peri_body *b = NULL;
             extreme_desc(&d, space, precision, row->other);
-            extreme_material(&m, model, 0.3, 0);
+            extreme_material(&m, law, 0.3, 0);
             if (kind == NO_WEIGHT) d.influence = PERI_INFLUENCE_LINEAR;
             for (i = 0; i < n; ++i) {
                 volume[i] = 1;
@@ -406,9 +406,9 @@ static outcome given(const extreme *row, int32_t precision) {
                    || (kind == MORE_POINTS && extreme_fails(&o, b, peri_add_points(b, 1, x, volume, NULL)))
                    || extreme_fails(&o, b, peri_build(b)));
             if (o.status >= 0) {
-                dense_note(&o, peri_family_width(b) == width ? 0 : 1, space, model);
+                dense_note(&o, peri_family_width(b) == width ? 0 : 1, space, law);
                 dense_scatter(&o, b, 0.2, 41);
-                dense_note(&o, dense_error(&o, b, &d, &m), space, model);
+                dense_note(&o, dense_error(&o, b, &d, &m), space, law);
             }
             o = extreme_end(o, b);
         }
@@ -421,25 +421,25 @@ static outcome given(const extreme *row, int32_t precision) {
 /* Whatever the weights: nothing moves at rest; nor under a shift; the law's closed form of W under e = 0.02 |xi| where it divides by the
    moments of its family; W is not negative and forces sum to 0 under any displacement. */
 static double weights_probe(scene *s) {
-    const int dim = peri_dimension(s->body), divides = s->material.model == PERI_LPS || s->material.model == PERI_OTERKUS;
+    const int dim = peri_dimension(s->body), divides = s->material.law == PERI_LAW_LPS || s->material.law == PERI_LAW_OTERKUS;
     const dense_moduli law = dense_moduli_of(&s->material, s->desc.space);
     const double gradient[9] = {0.02, 0, 0, 0, 0.02, 0, 0, 0, 0.02}, two[4] = {0.02, 0, 0, 0.02}, shift[3] = {2, -1, 0.5};
     const double closed = 0.5 * dim * dim * law.bulk * 0.02 * 0.02;
     const int64_t n = peri_point_count(s->body);
-    double worst = 0, sum[3] = {0, 0, 0}, size = 0, *f, *w, *volume = extreme_read(s->o, s->body, PERI_VOLUME);
+    double worst = 0, sum[3] = {0, 0, 0}, size = 0, *f, *w, *volume = extreme_read(s->o, s->body, PERI_FIELD_VOLUME);
     int64_t i;
     int d;
-    f = extreme_read(s->o, s->body, PERI_FORCE_DENSITY);
+    f = extreme_read(s->o, s->body, PERI_FIELD_FORCE_DENSITY);
     for (i = 0; f && i < n * dim; ++i) worst = extreme_worst(worst, fabs(f[i]));
     free(f);
     extreme_affine(s->o, s->body, dim == 3 ? gradient : two, NULL);
-    w = extreme_read(s->o, s->body, PERI_ENERGY_DENSITY);
+    w = extreme_read(s->o, s->body, PERI_FIELD_ENERGY_DENSITY);
     for (i = 0; w && divides && i < n; ++i) worst = extreme_worst(worst, fabs(w[i] / closed - 1));
     free(w);
     dense_scatter(s->o, s->body, 0.3, 43);
     if (extreme_fails(s->o, s->body, peri_add_displacement(s->body, PERI_ALL, shift))) return NAN;
-    f = extreme_read(s->o, s->body, PERI_FORCE_DENSITY);
-    w = extreme_read(s->o, s->body, PERI_ENERGY_DENSITY);
+    f = extreme_read(s->o, s->body, PERI_FIELD_FORCE_DENSITY);
+    w = extreme_read(s->o, s->body, PERI_FIELD_ENERGY_DENSITY);
     for (i = 0; f && w && volume && i < n; ++i) {
         if (w[i] < 0) worst = extreme_worst(worst, -w[i]);
         for (d = 0; d < dim; ++d) {
@@ -448,7 +448,7 @@ static double weights_probe(scene *s) {
         }
     }
     free(f), free(w), free(volume);
-    for (d = 0; d < dim && s->desc.quadrature != PERI_PARTIAL_CENTROID; ++d) worst = extreme_worst(worst, fabs(sum[d]) / size);
+    for (d = 0; d < dim && s->desc.quadrature != PERI_QUADRATURE_PARTIAL_CENTROID; ++d) worst = extreme_worst(worst, fabs(sum[d]) / size);
     return worst;
 }
 
@@ -456,10 +456,10 @@ static double weights_probe(scene *s) {
 static outcome weights(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(row->value, (enum shape)row->other, (enum shape)row->choice);
-    c.space = PERI_PLANE_STRAIN;
-    for (c.quadrature = PERI_FULL_VOLUME; c.quadrature <= PERI_PARTIAL_VOLUME; ++c.quadrature)
-        for (c.correction = PERI_NO_CORRECTION; c.correction < PERI_CORRECTION_COUNT_; ++c.correction)
-            if (c.quadrature != PERI_VOLUME_RAMP || c.correction == PERI_NO_CORRECTION) each(&o, row, precision, &c, weights_probe);
+    c.space = PERI_SPACE_PLANE_STRAIN;
+    for (c.quadrature = PERI_QUADRATURE_FULL; c.quadrature <= PERI_QUADRATURE_PARTIAL; ++c.quadrature)
+        for (c.correction = PERI_CORRECTION_NONE; c.correction < peri__end_correction; ++c.correction)
+            if (c.quadrature != PERI_QUADRATURE_RAMP || c.correction == PERI_CORRECTION_NONE) each(&o, row, precision, &c, weights_probe);
     return o;
 }
 
@@ -473,11 +473,11 @@ static outcome weights_in_2d(const extreme *row, int32_t precision) {
         s.row = row;
         s.o = &o;
         s.shape = (enum shape)shape;
-        extreme_desc(&s.desc, PERI_PLANE_STRAIN, precision, row->value);
+        extreme_desc(&s.desc, PERI_SPACE_PLANE_STRAIN, precision, row->value);
         s.desc.quadrature = row->choice;
-        extreme_material(&s.material, PERI_BOND_BASED, 0.25, 0);
+        extreme_material(&s.material, PERI_LAW_BOND_BASED, 0.25, 0);
         s.body = make(&s);
-        if (s.body) dense_note(&o, weights_probe(&s), PERI_PLANE_STRAIN, PERI_BOND_BASED);
+        if (s.body) dense_note(&o, weights_probe(&s), PERI_SPACE_PLANE_STRAIN, PERI_LAW_BOND_BASED);
         o = extreme_end(o, s.body);
     }
     return o;
@@ -486,8 +486,8 @@ static outcome weights_in_2d(const extreme *row, int32_t precision) {
 #define REFUSED {0, 0, 0}
 #define EXACT {0, 0, 0}
 static const extreme rows[] = {
-    {"one point", "peri.h: no neighbour within its horizon", alone, 3, 0, PERI_SOLID, PERI_ERROR_FAMILY, "horizon", REFUSED},
-    {"one point, a short horizon", "peri.h: smaller than the spacing", alone, 0.5, 0, PERI_PLANE_STRESS, PERI_ERROR_HORIZON, "horizon",
+    {"one point", "peri.h: no neighbour within its horizon", alone, 3, 0, PERI_SPACE_SOLID, PERI_ERROR_FAMILY, "horizon", REFUSED},
+    {"one point, a short horizon", "peri.h: smaller than the spacing", alone, 0.5, 0, PERI_SPACE_PLANE_STRESS, PERI_ERROR_HORIZON, "horizon",
      REFUSED},
     {"two points", "closed forms of omega; Verlet's amplitude is (omega dt)^2/8 larger; 500 steps of rounding", swing, 3, 0, 0, PERI_OK,
      NULL,
@@ -537,7 +537,7 @@ static const extreme rows[] = {
     {"weights of a tilted plane", "Newton's third law, closed forms, W >= 0", weights, 3, TILTED, TILTED, PERI_OK, NULL, ROUNDINGS(500)},
     {"weights at 8 spacings, thin bodies", "Newton's third law, closed forms, W >= 0", weights, 8, PAIR, OBLIQUE, PERI_OK, NULL,
      ROUNDINGS(500)},
-    {"centroid rule", "nothing moves at rest; W >= 0", weights_in_2d, 2, CLOUD, PERI_PARTIAL_CENTROID, PERI_OK, NULL, ROUNDINGS(500)},
-    {"moment rule", "Newton's third law, W >= 0", weights_in_2d, 2, -1, PERI_PARTIAL_MOMENT, PERI_OK, NULL, ROUNDINGS(500)},
+    {"centroid rule", "nothing moves at rest; W >= 0", weights_in_2d, 2, CLOUD, PERI_QUADRATURE_PARTIAL_CENTROID, PERI_OK, NULL, ROUNDINGS(500)},
+    {"moment rule", "Newton's third law, W >= 0", weights_in_2d, 2, -1, PERI_QUADRATURE_PARTIAL_MOMENT, PERI_OK, NULL, ROUNDINGS(500)},
 };
 const extreme_table extreme_families = EXTREME_TABLE("families", rows);

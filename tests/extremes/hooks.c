@@ -38,9 +38,9 @@ static outcome stopped_run(const extreme *row, int32_t precision) {
         int64_t n = 0;
         for (int stops = 0; stops < 2 && o.status >= 0; ++stops) {
             stopper s = {0, stops, (int32_t)row->value};
-            peri_body *b = scene_plate(&o, scene_laws[k], precision, k % 2 ? PERI_SOLID : PERI_PLANE_STRESS);
-            peri_run run;
-            peri_run_init(&run);
+            peri_body *b = scene_plate(&o, scene_laws[k], precision, k % 2 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS);
+            peri_advance_desc run;
+            peri_advance_desc_init(&run);
             run.integrator = row->choice;
             run.time_step = 0.8 * peri_stable_step(b);
             run.damping = 0.02;
@@ -52,8 +52,8 @@ static outcome stopped_run(const extreme *row, int32_t precision) {
                 HOLDS(peri_advance(b, &run) == (stops ? PERI_STOPPED : PERI_OK));
                 HOLDS(peri_step_count(b) == (stops ? step + 1 : 12));
             }
-            u[stops] = extreme_read(&o, b, PERI_DISPLACEMENT);
-            n = peri_field_size(b, PERI_DISPLACEMENT);
+            u[stops] = extreme_read(&o, b, PERI_FIELD_DISPLACEMENT);
+            n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
             o = extreme_end(o, b);
         }
         o.error = extreme_worst(o.error, apart(u[0], u[1], n));
@@ -69,14 +69,14 @@ static outcome stopped_solve(const extreme *row, int32_t precision) {
         int64_t n = 0;
         for (int stops = 0; stops < 2 && o.status >= 0; ++stops) {
             stopper at = {0, stops, (int32_t)row->value};
-            peri_body *b = scene_plate(&o, scene_laws[k % 4], precision, k % 2 ? PERI_PLANE_STRAIN : PERI_PLANE_STRESS);
-            peri_statics s;
-            peri_statics_report report;
-            peri_statics_init(&s);
-            s.method = PERI_NEWTON + k / 4;
+            peri_body *b = scene_plate(&o, scene_laws[k % 4], precision, k % 2 ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_PLANE_STRESS);
+            peri_solve_desc s;
+            peri_solve_report report;
+            peri_solve_desc_init(&s);
+            s.method = PERI_METHOD_NEWTON + k / 4;
             s.fracture = 0;
             s.steps = row->choice ? 3 : 1;
-            s.tolerance = precision == PERI_F64 ? 1e-10 : precision == PERI_MIXED ? 1e-5 : 1e-3;
+            s.tolerance = precision == PERI_PRECISION_DOUBLE ? 1e-10 : precision == PERI_PRECISION_MIXED ? 1e-5 : 1e-3;
             s.user = &at;
             if (row->choice) s.on_step = stop_frame;
             else s.on_iteration = stop_iteration;
@@ -92,8 +92,8 @@ static outcome stopped_solve(const extreme *row, int32_t precision) {
             s.on_iteration = NULL;
             s.on_step = NULL;
             if (!row->choice || !stops) (void)extreme_fails(&o, b, peri_solve(b, &s, NULL));
-            u[stops] = extreme_read(&o, b, PERI_DISPLACEMENT);
-            n = peri_field_size(b, PERI_DISPLACEMENT);
+            u[stops] = extreme_read(&o, b, PERI_FIELD_DISPLACEMENT);
+            n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
             o = extreme_end(o, b);
         }
         o.error = extreme_worst(o.error, apart(u[0], u[1], n));
@@ -120,10 +120,10 @@ static int32_t save(peri_body *b, const peri_matrix *matrix, int which, file *f)
     f->calls = f->bytes = 0;
     f->hash = DIGEST_START;
     switch (which) {
-    case 0: return peri_write_vtu(b, write_file, f);
-    case 1: return peri_write_history(b, 1, write_file, f);
-    case 2: return peri_write_history(b, 0, write_file, f);
-    default: return peri_write_matrix(matrix, write_file, f);
+    case 0: return peri_export_vtu_to(b, write_file, f);
+    case 1: return peri_export_history_to(b, 1, write_file, f);
+    case 2: return peri_export_history_to(b, 0, write_file, f);
+    default: return peri_export_matrix_to(matrix, write_file, f);
     }
 }
 
@@ -132,17 +132,17 @@ static int32_t save(peri_body *b, const peri_matrix *matrix, int which, file *f)
 static outcome failing_file(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     for (int k = 0; k < 4; ++k) {
-        peri_body *b = scene_plate(&o, scene_laws[k], precision, PERI_PLANE_STRAIN);
+        peri_body *b = scene_plate(&o, scene_laws[k], precision, PERI_SPACE_PLANE_STRAIN);
         peri_matrix *matrix = NULL;
         if (o.status < 0) return extreme_end(o, b);
-        (void)extreme_fails(&o, b, peri_assemble(b, &matrix));
+        (void)extreme_fails(&o, b, peri_matrix_create(b, &matrix));
         for (int which = 0; matrix && which < 4; ++which) {
             file whole = {0, 0, 0, 0, 0}, f = {0, 0, 0, (int32_t)row->value, 0};
             HOLDS(save(b, matrix, which, &whole) == PERI_OK && whole.calls > 0 && whole.bytes > 20);
             for (f.fail_at = 1; f.fail_at <= whole.calls; f.fail_at += f.fail_at < 50 ? 1 : 37) {
                 peri_error e;
                 HOLDS(save(b, matrix, which, &f) == PERI_ERROR_WRITE && f.calls == f.fail_at);
-                if (which < 3) HOLDS(peri_last_error(b, &e) == PERI_OK && e.code == PERI_ERROR_WRITE);
+                if (which < 3) HOLDS(peri_get_error(b, &e) == PERI_OK && e.code == PERI_ERROR_WRITE);
             }
             f.fail_at = 0;
             HOLDS(save(b, matrix, which, &f) == PERI_OK && f.hash == whole.hash && f.bytes == whole.bytes);
@@ -199,7 +199,7 @@ static void run_jobs(void *user, int64_t count, peri_task_fn task, void *context
         const double v[3] = {1, 1, 1};
         if (j->body) {
             j->wrong += peri_reset(j->body) != PERI_ERROR_ORDER || peri_add_velocity(j->body, PERI_ALL, v) != PERI_ERROR_ORDER;
-            j->wrong += peri_cut_if(j->body, NULL, NULL) != PERI_ERROR_ORDER || peri_build(j->body) != PERI_ERROR_ORDER;
+            j->wrong += peri_cut_if(j->body, PERI_CUT_INITIAL, NULL, NULL) != PERI_ERROR_ORDER || peri_build(j->body) != PERI_ERROR_ORDER;
             peri_body_destroy(j->body);
         }
         break;
@@ -213,7 +213,7 @@ static void run_jobs(void *user, int64_t count, peri_task_fn task, void *context
 static outcome odd_jobs(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double hi[3] = {17, 16, 16}, flat[2] = {100, 45};
-    const int32_t fields[4] = {PERI_DISPLACEMENT, PERI_VELOCITY, PERI_DAMAGE, PERI_FORCE_STRESS};
+    const int32_t fields[4] = {PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_FORCE_STRESS};
     for (int k = row->choice % 2; k < 4; k += 2) { /* every other law */
         uint64_t hash[2] = {DIGEST_START, DIGEST_START};
         for (int odd = 0; odd < 2 && o.status >= 0; ++odd) {
@@ -221,9 +221,9 @@ static outcome odd_jobs(const extreme *row, int32_t precision) {
             const int solid = k / 2 != row->choice / 2 % 2;
             const double pull[9] = {1.2e-2, 4e-4, 0, 0, -2e-3, 0, 1e-4, 0, 0}, plane[4] = {1.2e-2, 4e-4, 0, -2e-3};
             peri_body_desc d;
-            peri_material m;
-            peri_run run;
-            extreme_desc(&d, solid ? PERI_SOLID : PERI_PLANE_STRESS, precision, solid ? 2.1 : 3);
+            peri_material_desc m;
+            peri_advance_desc run;
+            extreme_desc(&d, solid ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, precision, solid ? 2.1 : 3);
             d.parallel_for = odd ? run_jobs : NULL;
             d.parallel_user = &j;
             if (k < 2) d.kernel = PERI_KERNEL_LIST;
@@ -231,12 +231,12 @@ static outcome odd_jobs(const extreme *row, int32_t precision) {
             peri_body *b = j.body = extreme_box(&o, &d, &m, solid ? hi : flat, 1);
             if (o.status < 0) return extreme_end(o, b);
             extreme_affine(&o, b, solid ? pull : plane, NULL);
-            peri_run_init(&run);
+            peri_advance_desc_init(&run);
             run.steps = 2;
             (void)extreme_fails(&o, b, peri_advance(b, &run));
             for (int f = 0; f < 4; ++f) {
                 double *x = extreme_read(&o, b, fields[f]);
-                scene_digest(&hash[odd], x, peri_field_size(b, fields[f]));
+                scene_digest(&hash[odd], x, peri_size_of_field(b, fields[f]));
                 free(x);
             }
             HOLDS(j.wrong == 0 && (odd ? j.calls > 5 && j.tasks > 20 * j.calls : j.calls == 0));
@@ -254,10 +254,10 @@ static const char *const fails = "peri.h: nonzero is a failure; a call that fail
 
 static const extreme rows[] = {
     /* the velocity is brought to the whole step and back at each stop: u each time, and damping and forces take the rest */
-    {"every frame stops, Verlet", stops, stopped_run, 1, 0, PERI_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
-    {"every frame stops, central difference", stops, stopped_run, 1, 0, PERI_CENTRAL_DIFFERENCE, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
-    {"every frame stops, by what reads as an error", stops, stopped_run, -3, 0, PERI_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
-    {"every frame stops, by INT32_MIN", stops, stopped_run, INT32_MIN, 0, PERI_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
+    {"every frame stops, Verlet", stops, stopped_run, 1, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
+    {"every frame stops, central difference", stops, stopped_run, 1, 0, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
+    {"every frame stops, by what reads as an error", stops, stopped_run, -3, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
+    {"every frame stops, by INT32_MIN", stops, stopped_run, INT32_MIN, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
     /* residuals of the tolerance times the condition number of a strip 9 x 6, some 1e2 */
     {"the first iteration stops", halts, stopped_solve, 1, 0, 0, PERI_OK, NULL, {1e-8, 1e-3, 1e-1}},
     {"the first iteration stops, by -30", halts, stopped_solve, -30, 0, 0, PERI_OK, NULL, {1e-8, 1e-3, 1e-1}},

@@ -11,20 +11,20 @@
 /* A pulled and sheared body, and the same carried away by value spacings (single: other). choice 1: a strain and a way that every precision
    holds to the last bit, 0: a strain of 1e-3. */
 static outcome carried(const extreme *row, int32_t precision) {
-    const double far_ = precision == PERI_F32 ? row->other : row->value, size = row->choice ? 1 : 1e-3;
+    const double far_ = precision == PERI_PRECISION_SINGLE ? row->other : row->value, size = row->choice ? 1 : 1e-3;
     const double solid[9] = {size, size, 0, 0, size, 0, 0, 0, -size / 2}, plane[4] = {size, size, 0, -size / 2};
     const double shift[3] = {far_, -far_, far_ / 2};
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space, geometry;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-            for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_ && o.status == PERI_OK; ++geometry) {
-                const scene s = scene_of(space, precision, model, geometry);
+    int32_t law, space, geometry;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+            for (geometry = PERI_GEOMETRY_NONLINEAR; geometry < peri__end_geometry && o.status == PERI_OK; ++geometry) {
+                const scene s = scene_of(space, precision, law, geometry);
                 shown home, away;
                 peri_body *b = small_body(&o, &s);
-                deform(&o, b, space == PERI_SOLID ? solid : plane, NULL, NULL);
+                deform(&o, b, space == PERI_SPACE_SOLID ? solid : plane, NULL, NULL);
                 show(&o, b, &home);
-                deform(&o, b, space == PERI_SOLID ? solid : plane, NULL, shift);
+                deform(&o, b, space == PERI_SPACE_SOLID ? solid : plane, NULL, shift);
                 show(&o, b, &away);
                 compare(&o, row, &s, &home, &away, 1, "carried");
                 forget(&home);
@@ -38,12 +38,12 @@ static outcome carried(const extreme *row, int32_t precision) {
 static outcome made_far(const extreme *row, int32_t precision) {
     const double solid[9] = {1e-3, 5e-4, 0, 0, 1e-3, 0, 0, 0, -5e-4}, plane[4] = {1e-3, 5e-4, 0, -5e-4};
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
+    int32_t law, space;
     int cloud;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
             for (cloud = 0; cloud < (row->choice ? 1 : 2) && o.status == PERI_OK; ++cloud) {
-                scene s = scene_of(space, precision, model, PERI_NONLINEAR);
+                scene s = scene_of(space, precision, law, PERI_GEOMETRY_NONLINEAR);
                 shown seen[2];
                 int k, way;
                 s.cloud = cloud;
@@ -53,7 +53,7 @@ static outcome made_far(const extreme *row, int32_t precision) {
                     for (k = 0; k < 3; ++k)
                         s.origin[k] = way * row->value * s.spacing * (row->choice ? 1.0 - 0.5 * k : k == 1 ? -1.0 / 3.0 : 1.0);
                     b = small_body(&o, &s);
-                    deform(&o, b, space == PERI_SOLID ? solid : plane, s.origin, NULL);
+                    deform(&o, b, space == PERI_SPACE_SOLID ? solid : plane, s.origin, NULL);
                     show(&o, b, &seen[way]);
                     o = extreme_end(o, b);
                 }
@@ -67,10 +67,10 @@ static outcome made_far(const extreme *row, int32_t precision) {
 /* Cut, selected, thrown at a plane and torn, at home and at 2^20 spacings from the origin: numbers that are differences are the same. */
 static outcome torn_far(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
-            scene s = scene_of(space, precision, model, PERI_NONLINEAR);
+    int32_t law, space;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space && o.status == PERI_OK; ++space) {
+            scene s = scene_of(space, precision, law, PERI_GEOMETRY_NONLINEAR);
             shown seen[2];
             double sum[2][6] = {{0}};
             int way, k;
@@ -81,18 +81,18 @@ static outcome torn_far(const extreme *row, int32_t precision) {
                 const double edge1[3] = {0, 9, 0}, edge2[3] = {0, 0, 9}, place[3] = {at, at + 0.25, at}, up[3] = {0, 1, 0};
                 const double right[3] = {0.3, -0.1, 0}, lo[3] = {at + 3, at - 1, at - 1}, hi[3] = {at + 9, at + 9, at + 9};
                 peri_body *b;
-                peri_run run;
+                peri_advance_desc run;
                 peri_energy e;
                 for (k = 0; k < 3; ++k) s.origin[k] = at;
                 b = small_body(&o, &s);
                 (void)extreme_fails(&o, b,
-                                    space == PERI_SOLID ? peri_cut_rectangle(b, corner, edge1, edge2) : peri_cut_segment(b, from, to));
+                                    space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
                 (void)extreme_fails(&o, b, peri_add_velocity(b, peri_select_box(b, NULL, lo, hi), right));
                 (void)extreme_fails(&o, b, peri_add_plane_obstacle(b, place, up, 0.5, NULL, NULL));
-                peri_run_init(&run);
+                peri_advance_desc_init(&run);
                 run.steps = 25;
                 if (o.status == PERI_OK) (void)extreme_fails(&o, b, peri_advance(b, &run));
-                if (!extreme_fails(&o, b, peri_read_energy(b, &e))) {
+                if (!extreme_fails(&o, b, peri_get_energy(b, &e))) {
                     sum[way][0] = e.kinetic;
                     sum[way][1] = e.fracture;
                     sum[way][2] = e.obstacle;
@@ -107,7 +107,7 @@ static outcome torn_far(const extreme *row, int32_t precision) {
                 extreme_note(&o, row, precision, NAN, "%g broken, %g cut", sum[0][3], sum[0][4]);
             compare(&o, row, &s, &seen[0], &seen[1], 1, "torn far away");
             for (k = 0; k < 6; ++k)
-                extreme_note(&o, row, precision, fabs(sum[0][k] - sum[1][k]), "sum %d: model %d, space %d", k, (int)model, (int)space);
+                extreme_note(&o, row, precision, fabs(sum[0][k] - sum[1][k]), "sum %d: law %d, space %d", k, (int)law, (int)space);
             forget(&seen[0]);
             forget(&seen[1]);
         }
@@ -151,7 +151,7 @@ static void turn_tensor(int dim, const double *r, const double *t, double *out) 
 static void turn_shown(const shown *s, int dim, const double *r, shown *out) {
     int k;
     for (k = 0; k < FIELDS; ++k) {
-        const int parts = fields[k] == PERI_FORCE_DENSITY ? dim : fields[k] >= PERI_STRESS ? dim * (dim + 1) / 2 : 1;
+        const int parts = fields[k] == PERI_FIELD_FORCE_DENSITY ? dim : fields[k] >= PERI_FIELD_STRESS ? dim * (dim + 1) / 2 : 1;
         int64_t i;
         int a, c;
         out->n[k] = s->n[k];
@@ -173,14 +173,14 @@ static const double angles[] = {1e-9, 1e-3, 0.7, PI / 2, 2, PI, -3, 2e4 * PI + 1
 static outcome turned(const extreme *row, int32_t precision) {
     const double pull[9] = {1.1, 0.05, 0, 0, 0.96, 0.03, 0, 0, 1}, flat[4] = {1.1, 0.05, 0, 0.96};
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
+    int32_t law, space;
     int way, cloud;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
             for (cloud = 0; cloud < 2 && o.status == PERI_OK; ++cloud) {
                 const int dim = dim_of(space);
                 const double *f = dim == 3 ? pull : flat;
-                scene s = scene_of(space, precision, model, PERI_NONLINEAR);
+                scene s = scene_of(space, precision, law, PERI_GEOMETRY_NONLINEAR);
                 shown home, want, got;
                 double g[9], r[9];
                 peri_body *b;
@@ -211,9 +211,9 @@ static outcome turned(const extreme *row, int32_t precision) {
                             double most = 0;
                             int64_t i;
                             for (i = 0; i < got.n[k]; ++i) most = extreme_worst(most, fabs(got.x[k][i]));
-                            if (fields[k] == PERI_ENERGY_DENSITY) most = sqrt(most);
-                            extreme_note(&o, row, precision, most, "turned by %g: %s, model %d, space %d, cloud %d", angles[way],
-                                         names[k], (int)model, (int)space, cloud);
+                            if (fields[k] == PERI_FIELD_ENERGY_DENSITY) most = sqrt(most);
+                            extreme_note(&o, row, precision, most, "turned by %g: %s, law %d, space %d, cloud %d", angles[way],
+                                         names[k], (int)law, (int)space, cloud);
                         }
                     forget(&got);
                 }
@@ -228,23 +228,23 @@ static outcome turned(const extreme *row, int32_t precision) {
 static outcome turned_linear(const extreme *row, int32_t precision) {
     static const double by[] = {0.1, 1, PI};
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
+    int32_t law, space;
     int k;
-    for (model = PERI_LPS; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
+    for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space && o.status == PERI_OK; ++space) {
             const double lo[3] = {0, 0, 0}, hi[3] = {5, 5, 5}, nu = 0.3, mu = 0.5 / (1 + nu);
-            const double lambda = space == PERI_PLANE_STRESS ? nu / (1 - nu * nu) : nu / ((1 + nu) * (1 - 2 * nu));
+            const double lambda = space == PERI_SPACE_PLANE_STRESS ? nu / (1 - nu * nu) : nu / ((1 + nu) * (1 - 2 * nu));
             const int dim = dim_of(space), parts = dim == 3 ? 6 : 3;
             peri_body_desc d;
-            peri_material m;
+            peri_material_desc m;
             peri_body *b = NULL;
             extreme_desc(&d, space, precision, 2);
-            d.geometry = PERI_LINEAR;
-            d.correction = PERI_MOMENT_CORRECTION;
-            extreme_material(&m, model, nu, 0);
+            d.geometry = PERI_GEOMETRY_LINEAR;
+            d.correction = PERI_CORRECTION_MOMENT;
+            extreme_material(&m, law, nu, 0);
             (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
             (void)extreme_fails(&o, b, peri_add_material(b, &m));
-            (void)extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
             (void)extreme_fails(&o, b, peri_build(b));
             for (k = 0; k < 3 && o.status == PERI_OK; ++k) {
                 const double c = cos(by[k]) - 1, s = sin(by[k]), solid[9] = {c, -s, 0, s, c, 0, 0, 0, 0}, plane[4] = {c, -s, s, c};
@@ -262,7 +262,7 @@ static outcome turned_linear(const extreme *row, int32_t precision) {
                     worst = extreme_worst(worst, fabs(got.x[5][i * parts + (dim == 3 ? 3 : 2)] / stress));
                     for (n = 0; n < got.n[1]; ++n) force = extreme_worst(force, fabs(got.x[1][n]));
                     if (!(force > 0.01 * fabs(stress))) worst = NAN;
-                    extreme_note(&o, row, precision, worst, "turned by %g: model %d, space %d", by[k], (int)model, (int)space);
+                    extreme_note(&o, row, precision, worst, "turned by %g: law %d, space %d", by[k], (int)law, (int)space);
                 }
                 forget(&got);
             }
@@ -275,9 +275,9 @@ static outcome turned_linear(const extreme *row, int32_t precision) {
 
 /* Velocities of a spin w about the centre (3D: about a skew axis), and a drift. */
 static void spin(outcome *o, peri_body *b, double w, double drift) {
-    const int64_t n = peri_field_size(b, PERI_POSITION);
+    const int64_t n = peri_size_of_field(b, PERI_FIELD_POSITION);
     const int dim = peri_dimension(b);
-    double *x = extreme_read(o, b, PERI_POSITION), centre[3] = {0}, r[9];
+    double *x = extreme_read(o, b, PERI_FIELD_POSITION), centre[3] = {0}, r[9];
     const double axis[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3};
     int64_t i;
     int k;
@@ -291,43 +291,43 @@ static void spin(outcome *o, peri_body *b, double w, double drift) {
             for (k = 0; k < 3; ++k)
                 x[i + k] = w * (axis[(k + 1) % 3] * r[(k + 2) % 3] - axis[(k + 2) % 3] * r[(k + 1) % 3]) + (k == 0 ? drift : 0);
     }
-    if (x) (void)extreme_fails(o, b, peri_write(b, PERI_VELOCITY, x, n));
+    if (x) (void)extreme_fails(o, b, peri_set_field(b, PERI_FIELD_VELOCITY, x, n));
     free(x);
 }
 
 /* Bodies of every law that spin, drift and fly to pieces: momentum and angular momentum stay. choice 1: bonds break. */
 static outcome spinning(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
+    int32_t law, space;
     int cloud;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
             for (cloud = 0; cloud < 2 && o.status == PERI_OK; ++cloud) {
-                scene s = scene_of(space, precision, model, PERI_NONLINEAR);
+                scene s = scene_of(space, precision, law, PERI_GEOMETRY_NONLINEAR);
                 const int dim = dim_of(space);
                 double linear[2][3] = {{0}}, angular[2][3] = {{0}}, size = 0;
                 peri_body *b;
-                peri_run run;
+                peri_advance_desc run;
                 int k;
                 s.cloud = cloud;
                 s.stretch = row->choice ? 0.05 : 0;
                 b = small_body(&o, &s);
                 spin(&o, b, row->choice ? 0.15 : 0.05, 0.02);
-                (void)extreme_fails(&o, b, peri_read_momentum(b, linear[0], angular[0]));
-                peri_run_init(&run);
+                (void)extreme_fails(&o, b, peri_get_momentum(b, linear[0], angular[0]));
+                peri_advance_desc_init(&run);
                 run.steps = (int64_t)row->value;
                 if (o.status == PERI_OK) (void)extreme_fails(&o, b, peri_advance(b, &run));
-                (void)extreme_fails(&o, b, peri_read_momentum(b, linear[1], angular[1]));
+                (void)extreme_fails(&o, b, peri_get_momentum(b, linear[1], angular[1]));
                 if (row->choice && o.status == PERI_OK && peri_broken_count(b) < 20)
                     extreme_note(&o, row, precision, NAN, "%d bonds broke", (int)peri_broken_count(b));
                 for (k = 0; k < dim; ++k) size = extreme_worst(size, fabs(linear[0][k]));
                 for (k = 0; k < dim; ++k)
                     extreme_note(&o, row, precision, fabs(linear[1][k] - linear[0][k]) / size,
-                                 "momentum %d: model %d, space %d, cloud %d", k, (int)model, (int)space, cloud);
+                                 "momentum %d: law %d, space %d, cloud %d", k, (int)law, (int)space, cloud);
                 for (size = 0, k = 0; k < 3; ++k) size = extreme_worst(size, fabs(angular[0][k]));
                 for (k = 0; k < (dim == 3 ? 3 : 1); ++k)
                     extreme_note(&o, row, precision, fabs(angular[1][k] - angular[0][k]) / size,
-                                 "angular momentum %d: model %d, space %d, cloud %d", k, (int)model, (int)space, cloud);
+                                 "angular momentum %d: law %d, space %d, cloud %d", k, (int)law, (int)space, cloud);
                 o = extreme_end(o, b);
             }
     return o;
@@ -338,11 +338,11 @@ static outcome spinning(const extreme *row, int32_t precision) {
 static outcome revolved(const extreme *row, int32_t precision) {
     const double lo[2] = {-1, -1}, hi[2] = {1, 1}, w = 0.3, pull[4] = {0.1, 0.05, 0, -0.04};
     outcome o = {PERI_OK, "", 0};
-    scene s = scene_of(PERI_PLANE_STRESS, precision, row->choice, PERI_NONLINEAR);
+    scene s = scene_of(PERI_SPACE_PLANE_STRESS, precision, row->choice, PERI_GEOMETRY_NONLINEAR);
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
-    peri_run run;
+    peri_advance_desc run;
     peri_energy e;
     shown home, want, got;
     double before = 0, after = 0, r[4], g[4], *x, angle;
@@ -351,21 +351,21 @@ static outcome revolved(const extreme *row, int32_t precision) {
     extreme_material(&m, row->choice, 0.3, 0);
     (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
     (void)extreme_fails(&o, b, peri_add_material(b, &m));
-    (void)extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, 1));
+    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
     if (extreme_fails(&o, b, peri_build(b))) return extreme_end(o, b);
     deform(&o, b, pull, NULL, NULL);
     show(&o, b, &home);
     (void)extreme_fails(&o, b, peri_reset(b));
     spin(&o, b, w, 0);
-    (void)extreme_fails(&o, b, peri_read_momentum(b, NULL, &before));
-    peri_run_init(&run);
+    (void)extreme_fails(&o, b, peri_get_momentum(b, NULL, &before));
+    peri_advance_desc_init(&run);
     run.duration = row->value * 2 * PI / w;
     (void)extreme_fails(&o, b, peri_advance(b, &run));
-    (void)extreme_fails(&o, b, peri_read_momentum(b, NULL, &after));
+    (void)extreme_fails(&o, b, peri_get_momentum(b, NULL, &after));
     extreme_note(&o, row, precision, fabs(after / before - 1), "angular momentum");
-    if (!extreme_fails(&o, b, peri_read_energy(b, &e)) && !(fabs(e.error) < 0.02 * e.initial))
+    if (!extreme_fails(&o, b, peri_get_energy(b, &e)) && !(fabs(e.error) < 0.02 * e.initial))
         extreme_note(&o, row, precision, NAN, "energy %g", e.error / e.initial);
-    x = extreme_read(&o, b, PERI_CURRENT);
+    x = extreme_read(&o, b, PERI_FIELD_CURRENT_POSITION);
     angle = x ? atan2(x[7] - x[1], x[6] - x[0]) - PI / 4 : 0;
     free(x);
     rotation(2, angle, r);
@@ -403,9 +403,9 @@ static const extreme rows[] = {
     {"spinning", "momentum and angular momentum are conserved", spinning, 200, 0, 0, PERI_OK, NULL, {2e-13, 1e-4, 1e-4}},
     {"spinning to pieces", "momentum and angular momentum are conserved", spinning, 200, 0, 1, PERI_OK, NULL, {2e-13, 1e-4, 1e-4}},
     /* 3e5 steps of rounding without bias, 600 units */
-    {"1e4 revolutions, then pulled, bond-based", OBJECTIVE, revolved, 1e4, 0, PERI_BOND_BASED, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
-    {"1e4 revolutions, then pulled, LPS", OBJECTIVE, revolved, 1e4, 0, PERI_LPS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
-    {"1e4 revolutions, then pulled, Oterkus", OBJECTIVE, revolved, 1e4, 0, PERI_OTERKUS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
-    {"1e4 revolutions, then pulled, correspondence", OBJECTIVE, revolved, 1e4, 0, PERI_CORRESPONDENCE, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, bond-based", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, LPS", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_LPS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, Oterkus", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_OTERKUS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, correspondence", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
 };
 const extreme_table extreme_motion = EXTREME_TABLE("motion", rows);

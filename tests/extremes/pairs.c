@@ -5,28 +5,28 @@
 
 static int32_t state_of(const peri_body *b, peri_error *e) {
     memset(e, 0, sizeof *e);
-    return peri_last_error(b, e);
+    return peri_get_error(b, e);
 }
 
 /* ---- two points --------------------------------------------------------------------------------------------------- */
 
 /* Two points of unit volume a unit apart, E = 1, Poisson's ratio 1/4. f = omega^2 e/2 on each of density 1. */
-static double omega2_of(int32_t model, double horizon) {
+static double omega2_of(int32_t law, double horizon) {
     const double bulk = 2.0 / 3.0, mu = 0.4;
-    if (model == PERI_BOND_BASED) return 2 * 12 / (PI * pow(horizon, 4)); /* c = 12 E/(pi h^4) */
-    if (model == PERI_CORRESPONDENCE) return 2 * 2 * 15 * mu;            /* the family is collinear: t = B e/m */
+    if (law == PERI_LAW_BOND_BASED) return 2 * 12 / (PI * pow(horizon, 4)); /* c = 12 E/(pi h^4) */
+    if (law == PERI_LAW_CORRESPONDENCE) return 2 * 2 * 15 * mu;            /* the family is collinear: t = B e/m */
     return 2 * 18 * bulk;                                                 /* theta = 3 e: W = 9 K e^2/2 */
 }
 
-static peri_body *pair_of(outcome *o, int32_t precision, int32_t model, int32_t geometry, double rho, double other) {
+static peri_body *pair_of(outcome *o, int32_t precision, int32_t law, int32_t geometry, double rho, double other) {
     const double x[6] = {0, 0, 0, 1, 0, 0}, v[2] = {1, 1};
     const int32_t materials[2] = {0, 1};
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
-    extreme_desc(&d, PERI_SOLID, precision, 1.5);
+    extreme_desc(&d, PERI_SPACE_SOLID, precision, 1.5);
     d.geometry = geometry;
-    extreme_material(&m, model, 0.25, 0);
+    extreme_material(&m, law, 0.25, 0);
     m.density = rho;
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m))) return b;
     m.density = other;
@@ -38,12 +38,12 @@ static peri_body *pair_of(outcome *o, int32_t precision, int32_t model, int32_t 
 /* Elongation e and its rate, with its centre of mass at rest. */
 static void pull(outcome *o, peri_body *b, double e, double rate, double share) {
     const double u[6] = {-e * share, 0, 0, e * (1 - share), 0, 0}, v[6] = {-rate * share, 0, 0, rate * (1 - share), 0, 0};
-    if (!extreme_fails(o, b, peri_write(b, PERI_DISPLACEMENT, u, 6))) (void)extreme_fails(o, b, peri_write(b, PERI_VELOCITY, v, 6));
+    if (!extreme_fails(o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 6))) (void)extreme_fails(o, b, peri_set_field(b, PERI_FIELD_VELOCITY, v, 6));
 }
 
 static void elongation(outcome *o, peri_body *b, double *e, double *rate) {
     double u[6] = {0}, v[6] = {0};
-    if (!extreme_fails(o, b, peri_read(b, PERI_DISPLACEMENT, u, 6))) (void)extreme_fails(o, b, peri_read(b, PERI_VELOCITY, v, 6));
+    if (!extreme_fails(o, b, peri_get_field(b, PERI_FIELD_DISPLACEMENT, u, 6))) (void)extreme_fails(o, b, peri_get_field(b, PERI_FIELD_VELOCITY, v, 6));
     *e = u[3] - u[0];
     *rate = v[3] - v[0];
 }
@@ -53,19 +53,19 @@ static void elongation(outcome *o, peri_body *b, double *e, double *rate) {
 static outcome oscillate(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double size = 1e-3;
-    int32_t model, geometry, integrator;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (geometry = PERI_NONLINEAR; geometry < PERI_GEOMETRY_COUNT_; ++geometry)
-            for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
-                const double omega = sqrt(omega2_of(model, 1.5)), s = row->value, theta = 2 * asin(s);
-                peri_body *b = pair_of(&o, precision, model, geometry, 1, 1);
-                peri_run run;
+    int32_t law, geometry, integrator;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (geometry = PERI_GEOMETRY_NONLINEAR; geometry < peri__end_geometry; ++geometry)
+            for (integrator = PERI_INTEGRATOR_VELOCITY_VERLET; integrator < peri__end_integrator; ++integrator) {
+                const double omega = sqrt(omega2_of(law, 1.5)), s = row->value, theta = 2 * asin(s);
+                peri_body *b = pair_of(&o, precision, law, geometry, 1, 1);
+                peri_advance_desc run;
                 int64_t n = 0;
                 int turn;
                 if (o.status >= 0 && peri_stable_step(b) > 2 / omega * (1 + 8 * extreme_roundoff(precision)))
-                    extreme_take(&o, HUGE_VAL, "limit", model, 0, 0);
+                    extreme_take(&o, HUGE_VAL, "limit", law, 0, 0);
                 pull(&o, b, size, 0, 0.5);
-                peri_run_init(&run);
+                peri_advance_desc_init(&run);
                 run.integrator = integrator;
                 run.time_step = s * 2 / omega;
                 run.force_step = 1; /* the limit named is below the true one for some */
@@ -78,7 +78,7 @@ static outcome oscillate(const extreme *row, int32_t precision) {
                     unit = (double)n * extreme_roundoff(precision) / sqrt(1 - s * s);
                     off = fabs(e - size * cos((double)n * theta)) / size;
                     off = extreme_worst(off, fabs(rate * run.time_step / size + sin(theta) * sin((double)n * theta)));
-                    extreme_take(&o, off / unit, "law, geometry, integrator", model, geometry, integrator);
+                    extreme_take(&o, off / unit, "law, geometry, integrator", law, geometry, integrator);
                 }
                 o = extreme_end(o, b);
                 if (o.status < 0) return o;
@@ -90,10 +90,10 @@ static outcome oscillate(const extreme *row, int32_t precision) {
    it by exp(2 acosh(s)) a step. */
 static outcome sharp(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, 1, 1);
-    peri_run run;
+    peri_body *b = pair_of(&o, precision, PERI_LAW_BOND_BASED, PERI_GEOMETRY_LINEAR, 1, 1);
+    peri_advance_desc run;
     double e = 0, rate = 0;
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     pull(&o, b, 1e-3, 0, 0.5);
     if (o.status >= 0) run.time_step = row->value * peri_stable_step(b);
     run.force_step = row->value > 1;
@@ -107,14 +107,14 @@ static outcome sharp(const extreme *row, int32_t precision) {
 /* Steps without end: the invariant, exact in exact arithmetic, wanders as sqrt(n) roundings at most; the phase drifts by n of them. */
 static outcome long_run(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    const double n = extreme_long ? 1e7 : precision == PERI_F64 ? 1e6 : row->value, size = 1e-3, s = 0.9;
-    const double omega = sqrt(omega2_of(PERI_BOND_BASED, 1.5));
+    const double n = extreme_long ? 1e7 : precision == PERI_PRECISION_DOUBLE ? 1e6 : row->value, size = 1e-3, s = 0.9;
+    const double omega = sqrt(omega2_of(PERI_LAW_BOND_BASED, 1.5));
     const double theta = 2 * asin(s), unit = extreme_roundoff(precision);
-    peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, 1, 1);
-    peri_run run;
+    peri_body *b = pair_of(&o, precision, PERI_LAW_BOND_BASED, PERI_GEOMETRY_LINEAR, 1, 1);
+    peri_advance_desc run;
     double e = 0, rate = 0, kept;
     pull(&o, b, size, 0, 0.5);
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.time_step = s * 2 / omega;
     run.steps = (int64_t)n;
     run.integrator = row->choice;
@@ -132,19 +132,19 @@ static outcome long_run(const extreme *row, int32_t precision) {
 static outcome light(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double rho = row->value, ratio = row->other, size = 1e-3;
-    const double omega = sqrt(omega2_of(PERI_BOND_BASED, 1.5) / 2 / rho * (1 + 1 / ratio));
-    peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, rho, rho * ratio);
-    peri_run run;
+    const double omega = sqrt(omega2_of(PERI_LAW_BOND_BASED, 1.5) / 2 / rho * (1 + 1 / ratio));
+    peri_body *b = pair_of(&o, precision, PERI_LAW_BOND_BASED, PERI_GEOMETRY_LINEAR, rho, rho * ratio);
+    peri_advance_desc run;
     double e = 0, rate = 0, s = 0, theta, momentum[3] = {0, 0, 0};
     pull(&o, b, size, 0, ratio / (1 + ratio));
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = 50;
     if (o.status >= 0) s = 0.9 * peri_stable_step(b) * omega / 2;
     if (!(s <= 0.9 + 1e-6 && s > 0.3)) extreme_take(&o, HUGE_VAL, "step", 0, 0, 0); /* safe, and sharp to a factor of 3 */
     if (o.status >= 0 && !extreme_fails(&o, b, peri_advance(b, &run))) elongation(&o, b, &e, &rate);
     theta = 2 * asin(s);
     extreme_take(&o, fabs(e / size - cos(50 * theta)), "elongation", 0, 0, 0);
-    if (o.status >= 0) (void)extreme_fails(&o, b, peri_read_momentum(b, momentum, NULL));
+    if (o.status >= 0) (void)extreme_fails(&o, b, peri_get_momentum(b, momentum, NULL));
     extreme_take(&o, fabs(momentum[0]) / (rho * ratio / (1 + ratio) * size * omega), "momentum", 0, 0, 0);
     return extreme_end(o, b);
 }
@@ -153,28 +153,28 @@ static outcome light(const extreme *row, int32_t precision) {
 static outcome overdamped(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double size = 1e-3, s = row->value;
-    int32_t model, integrator;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
+    int32_t law, integrator;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (integrator = PERI_INTEGRATOR_VELOCITY_VERLET; integrator < peri__end_integrator; ++integrator) {
             const double factor = 1 - 2 * s * s;
-            peri_body *b = pair_of(&o, precision, model, PERI_LINEAR, 1, 1);
-            peri_run run;
+            peri_body *b = pair_of(&o, precision, law, PERI_GEOMETRY_LINEAR, 1, 1);
+            peri_advance_desc run;
             double e = 0, rate = 0;
-            peri_run_init(&run);
+            peri_advance_desc_init(&run);
             pull(&o, b, size, 0.7, 0.5);
             run.integrator = integrator;
-            run.time_step = s * 2 / sqrt(omega2_of(model, 1.5));
+            run.time_step = s * 2 / sqrt(omega2_of(law, 1.5));
             run.force_step = 1;
             run.damping = 2 / run.time_step;
             run.steps = 20;
             if (o.status >= 0 && !extreme_fails(&o, b, peri_advance(b, &run))) elongation(&o, b, &e, &rate);
-            extreme_take(&o, fabs(e / size - pow(factor, 20)), "law, integrator", model, integrator, 0);
+            extreme_take(&o, fabs(e / size - pow(factor, 20)), "law, integrator", law, integrator, 0);
             if (o.status >= 0) { /* a hair more is refused */
                 peri_error record;
                 run.damping *= 1 + 1e-15;
                 run.damping = run.damping * run.time_step > 2 ? run.damping : 2.0000001 / run.time_step;
                 if (peri_advance(b, &run) != PERI_ERROR_RANGE || state_of(b, &record) != PERI_OK || strcmp(record.field, "damping") != 0)
-                    extreme_take(&o, HUGE_VAL, "beyond", model, integrator, 0);
+                    extreme_take(&o, HUGE_VAL, "beyond", law, integrator, 0);
             }
             o = extreme_end(o, b);
             if (o.status < 0) return o;
@@ -198,11 +198,11 @@ static int32_t count_call(void *user, peri_body *b) {
 typedef enum number { STEPS_OF, DURATION, TIME_STEP, SAFETY, DAMPING, FRAME_STEPS, BOTH, INTEGRATOR } number;
 static outcome wrong_number(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, row->other, row->other);
-    peri_run run;
+    peri_body *b = pair_of(&o, precision, PERI_LAW_BOND_BASED, PERI_GEOMETRY_LINEAR, row->other, row->other);
+    peri_advance_desc run;
     int64_t whole = fabs(row->value) < 9e18 ? (int64_t)row->value : row->value < 0 ? INT64_MIN : INT64_MAX;
     int32_t code;
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     run.steps = row->choice == DURATION ? 0 : 5;
     if (row->choice == STEPS_OF) run.steps = whole;
     if (row->choice == DURATION || row->choice == BOTH) run.duration = row->value;
@@ -225,11 +225,11 @@ static outcome brief(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const int timed = row->choice == DURATION || row->choice == BOTH;
     int32_t integrator;
-    for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
-        peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, row->other, row->other);
-        double e, rate, f[6] = {0}, want = 0.5 * omega2_of(PERI_BOND_BASED, 1.5) * 1e-3;
-        peri_run run;
-        peri_run_init(&run);
+    for (integrator = PERI_INTEGRATOR_VELOCITY_VERLET; integrator < peri__end_integrator; ++integrator) {
+        peri_body *b = pair_of(&o, precision, PERI_LAW_BOND_BASED, PERI_GEOMETRY_LINEAR, row->other, row->other);
+        double e, rate, f[6] = {0}, want = 0.5 * omega2_of(PERI_LAW_BOND_BASED, 1.5) * 1e-3;
+        peri_advance_desc run;
+        peri_advance_desc_init(&run);
         run.integrator = integrator;
         if (timed) run.duration = row->value;
         if (row->choice == BOTH) run.time_step = 100;
@@ -240,7 +240,7 @@ static outcome brief(const extreme *row, int32_t precision) {
         pull(&o, b, 1e-3, 1e-6, 0.5);
         if (o.status < 0 || extreme_fails(&o, b, peri_advance(b, &run))) return extreme_end(o, b);
         elongation(&o, b, &e, &rate);
-        (void)extreme_fails(&o, b, peri_read(b, PERI_FORCE_DENSITY, f, 6));
+        (void)extreme_fails(&o, b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 6));
         if (timed && peri_time(b) != row->value) extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
         if (row->choice == TIME_STEP && !(fabs(peri_time(b) / 7 / row->value - 1) < 1e-15))
             extreme_take(&o, HUGE_VAL, "time", integrator, 0, 0);
@@ -259,12 +259,12 @@ static outcome overloaded(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double force[3] = {row->value, 0, 0};
     int32_t integrator;
-    for (integrator = PERI_VELOCITY_VERLET; integrator < PERI_INTEGRATOR_COUNT_; ++integrator) {
-        peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_NONLINEAR, 1, 1);
+    for (integrator = PERI_INTEGRATOR_VELOCITY_VERLET; integrator < peri__end_integrator; ++integrator) {
+        peri_body *b = pair_of(&o, precision, PERI_LAW_BOND_BASED, PERI_GEOMETRY_NONLINEAR, 1, 1);
         double u[6] = {0};
-        peri_run run;
+        peri_advance_desc run;
         int32_t code, load, k;
-        peri_run_init(&run);
+        peri_advance_desc_init(&run);
         run.integrator = integrator;
         run.steps = 3;
         if (o.status < 0) return extreme_end(o, b);
@@ -275,7 +275,7 @@ static outcome overloaded(const extreme *row, int32_t precision) {
         (void)extreme_fails(&o, b, peri_remove_load(b, load));
         (void)extreme_fails(&o, b, peri_reset(b));
         (void)extreme_fails(&o, b, peri_advance(b, &run));
-        (void)extreme_fails(&o, b, peri_read(b, PERI_DISPLACEMENT, u, 6));
+        (void)extreme_fails(&o, b, peri_get_field(b, PERI_FIELD_DISPLACEMENT, u, 6));
         for (k = 0; k < 6; ++k) extreme_take(&o, fabs(u[k]), "afterwards, integrator", integrator, 0, 0);
         o = extreme_end(o, b);
     }
@@ -294,11 +294,11 @@ static outcome frames(const extreme *row, int32_t precision) {
     (void)row;
     for (k = 0; k < 6; ++k)
         for (timed = 0; timed < 2; ++timed) {
-            peri_body *b = pair_of(&o, precision, PERI_BOND_BASED, PERI_LINEAR, 1, 1);
+            peri_body *b = pair_of(&o, precision, PERI_LAW_BOND_BASED, PERI_GEOMETRY_LINEAR, 1, 1);
             count_calls c = {0, 0};
-            peri_run run;
+            peri_advance_desc run;
             int32_t code;
-            peri_run_init(&run);
+            peri_advance_desc_init(&run);
             c.stop = runs[k].stop;
             run.time_step = 0.5;
             if (timed) run.duration = runs[k].steps == INT64_MAX ? 4e18 : 0.5 * (double)runs[k].steps;
@@ -328,11 +328,11 @@ static outcome frames(const extreme *row, int32_t precision) {
 static const extreme rows[] = {
     {"two points, 0.1 of the limit", CLOSED, oscillate, 0.1, 0, 0, PERI_OK, NULL, {8, 8, 8}},
     {"two points, 0.999 of the limit", CLOSED, oscillate, 0.999, 0, 0, PERI_OK, NULL, {8, 8, 8}},
-    {"two points, from rest at the limit, 100 steps", CLOSED, sharp, 1, PERI_VELOCITY_VERLET, 100, PERI_OK, NULL, {5e-12, 2.4e-3, 2.4e-3}},
-    {"two points, 1.01 of the limit, forced", GROWTH, sharp, 1.01, PERI_VELOCITY_VERLET, 1000, PERI_ERROR_UNSTABLE, "at the time", NONE},
-    {"the same, central difference", GROWTH, sharp, 1.01, PERI_CENTRAL_DIFFERENCE, 1000, PERI_ERROR_UNSTABLE, "at the time", NONE},
-    {"two points, 10^6 steps (f32, mixed: 200,000)", CLOSED, long_run, 2e5, 0, PERI_VELOCITY_VERLET, PERI_OK, NULL, {8, 8, 8}},
-    {"the same, central difference", CLOSED, long_run, 2e5, 0, PERI_CENTRAL_DIFFERENCE, PERI_OK, NULL, {8, 8, 8}},
+    {"two points, from rest at the limit, 100 steps", CLOSED, sharp, 1, PERI_INTEGRATOR_VELOCITY_VERLET, 100, PERI_OK, NULL, {5e-12, 2.4e-3, 2.4e-3}},
+    {"two points, 1.01 of the limit, forced", GROWTH, sharp, 1.01, PERI_INTEGRATOR_VELOCITY_VERLET, 1000, PERI_ERROR_UNSTABLE, "at the time", NONE},
+    {"the same, central difference", GROWTH, sharp, 1.01, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, 1000, PERI_ERROR_UNSTABLE, "at the time", NONE},
+    {"two points, 10^6 steps (f32, mixed: 200,000)", CLOSED, long_run, 2e5, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {8, 8, 8}},
+    {"the same, central difference", CLOSED, long_run, 2e5, 0, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, PERI_OK, NULL, {8, 8, 8}},
     {"masses 1 : 1e-12", CLOSED, light, 1, 1e-12, 0, PERI_OK, NULL, SMALL},
     {"masses 1e-12 : 1", CLOSED, light, 1e-12, 1e12, 0, PERI_OK, NULL, SMALL},
     {"masses 1 : 1e-24", CLOSED, light, 1, 1e-24, 0, PERI_OK, NULL, SMALL},

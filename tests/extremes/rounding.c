@@ -34,7 +34,7 @@ typedef struct trace { /* what a life came to                                   
 } trace;
 
 static void note_field(trace *t, outcome *o, peri_body *b, int32_t field) {
-    const int64_t n = peri_field_size(b, field);
+    const int64_t n = peri_size_of_field(b, field);
     double *x = extreme_read(o, b, field), largest = 0;
     if (!x) return;
     if (t->count + n > t->room) {
@@ -63,7 +63,7 @@ static void count_in(trace *t, int64_t number) { (void)scene_swallow(&t->counted
 static void note_bonds(trace *t, outcome *o, peri_body *b) {
     const int64_t n = peri_point_count(b), width = peri_family_width(b);
     int32_t *rows = (int32_t *)malloc((size_t)(n * width) * sizeof *rows);
-    (void)extreme_fails(o, b, peri_read_families(b, 0, n, rows, n * width));
+    (void)extreme_fails(o, b, peri_get_families(b, 0, n, rows, n * width));
     (void)scene_swallow(&t->counted, rows, n * width * (int64_t)sizeof *rows);
     for (int64_t k = 0; k < n * width; ++k) {
         const int32_t i = (int32_t)(k / width), j = rows[k];
@@ -80,15 +80,15 @@ static void note_bonds(trace *t, outcome *o, peri_body *b) {
 static peri_body *body_of(outcome *o, int32_t law, int32_t precision, int32_t rule, int32_t correction, int solid, int cloud, double s0) {
     const double lo[3] = {0, 0, 0}, hi[3] = {8, 5, 3};
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
-    extreme_desc(&d, solid ? PERI_SOLID : PERI_PLANE_STRESS, precision, 2.2);
+    extreme_desc(&d, solid ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, precision, 2.2);
     d.quadrature = rule;
     d.correction = correction;
     extreme_material(&m, law, 0.2, s0);
     if (!cloud) return extreme_box(o, &d, &m, hi, 1);
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m)) ||
-        extreme_fails(o, b, peri_add_perturbed_box(b, 0, lo, hi, 1, 0.8, 5)))
+        extreme_fails(o, b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, 0.8, 5)))
         return b;
     (void)extreme_fails(o, b, peri_build(b));
     return b;
@@ -107,18 +107,18 @@ static outcome strained(const extreme *row, int32_t precision) {
         memset(t, 0, sizeof t);
         for (int odd = 0; odd < 2 && o.status >= 0; ++odd) {
             set_mode(odd ? row->choice : NEAREST);
-            peri_body *b = body_of(&o, scene_laws[k % 4], precision, fine ? PERI_PARTIAL_VOLUME : PERI_FULL_VOLUME,
-                                   fine && !cloud ? PERI_MOMENT_CORRECTION : PERI_NO_CORRECTION, solid, cloud, 0);
+            peri_body *b = body_of(&o, scene_laws[k % 4], precision, fine ? PERI_QUADRATURE_PARTIAL : PERI_QUADRATURE_FULL,
+                                   fine && !cloud ? PERI_CORRECTION_MOMENT : PERI_CORRECTION_NONE, solid, cloud, 0);
             if (o.status >= 0) {
-                count_in(&t[odd], solid ? peri_cut_rectangle(b, corner, up, along) : peri_cut_segment(b, from, to));
-                count_in(&t[odd], peri_set_size(b, peri_select_box(b, NULL, lo, hi)));
-                count_in(&t[odd], peri_set_size(b, peri_select_ball(b, NULL, hi, 3)));
+                count_in(&t[odd], solid ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, up, along) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+                count_in(&t[odd], peri_size_of_set(b, peri_select_box(b, NULL, lo, hi)));
+                count_in(&t[odd], peri_size_of_set(b, peri_select_ball(b, NULL, hi, 3)));
                 note_bonds(&t[odd], &o, b);
                 extreme_affine(&o, b, solid ? pull : flat, NULL);
-                for (int32_t field = PERI_VOLUME; field <= PERI_FORCE_STRESS; ++field)
-                    if (!fine || (field != PERI_DAMAGE && field != PERI_DAMAGE_GROWN)) /* parts of cells are kept to 6e-8 there */
+                for (int32_t field = PERI_FIELD_VOLUME; field <= PERI_FIELD_FORCE_STRESS; ++field)
+                    if (!fine || (field != PERI_FIELD_DAMAGE && field != PERI_FIELD_DAMAGE_GROWN)) /* parts of cells are kept to 6e-8 there */
                         note_field(&t[odd], &o, b, field);
-                note_field(&t[odd], &o, b, PERI_FORCE_DENSITY);
+                note_field(&t[odd], &o, b, PERI_FIELD_FORCE_DENSITY);
             }
             o = extreme_end(o, b);
             set_mode(NEAREST);
@@ -139,21 +139,21 @@ static outcome torn(const extreme *row, int32_t precision) {
             const double apart[3] = {-0.5, 0.03, 0};
             double start[3] = {0, 0, 0}, end[3] = {0, 0, 0};
             peri_energy e;
-            peri_run run;
+            peri_advance_desc run;
             set_mode(odd ? row->choice : NEAREST);
-            peri_body *b = body_of(&o, scene_laws[k % 4], precision, PERI_FULL_VOLUME, PERI_NO_CORRECTION, k / 4 % 2, k / 8, 0.1);
+            peri_body *b = body_of(&o, scene_laws[k % 4], precision, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, k / 4 % 2, k / 8, 0.1);
             if (o.status >= 0) {
                 (void)extreme_fails(&o, b, peri_add_velocity(b, peri_select_box(b, NULL, zero, half), apart));
-                (void)extreme_fails(&o, b, peri_read_momentum(b, start, NULL));
-                peri_run_init(&run);
+                (void)extreme_fails(&o, b, peri_get_momentum(b, start, NULL));
+                peri_advance_desc_init(&run);
                 run.steps = 12;
                 run.time_step = 0.1;
                 (void)extreme_fails(&o, b, peri_advance(b, &run));
                 note_bonds(&t[odd], &o, b);
                 HOLDS(peri_broken_count(b) > 10);
-                note_field(&t[odd], &o, b, PERI_DISPLACEMENT);
-                (void)extreme_fails(&o, b, peri_read_momentum(b, end, NULL));
-                (void)extreme_fails(&o, b, peri_read_energy(b, &e));
+                note_field(&t[odd], &o, b, PERI_FIELD_DISPLACEMENT);
+                (void)extreme_fails(&o, b, peri_get_momentum(b, end, NULL));
+                (void)extreme_fails(&o, b, peri_get_energy(b, &e));
                 for (int d = 0; d < 3; ++d) o.error = extreme_worst(o.error, fabs(end[d] - start[d]) / fabs(start[0]));
                 HOLDS(fabs(e.error) < 0.05 * e.initial);
             }
@@ -173,16 +173,16 @@ static outcome solved(const extreme *row, int32_t precision) {
         if (k / 4 && k / 4 != 1 + k % 4) continue; /* multilevel with each law, each other way with one */
         memset(t, 0, sizeof t);
         for (int odd = 0; odd < 2 && o.status >= 0; ++odd) {
-            peri_statics s;
+            peri_solve_desc s;
             set_mode(odd ? row->choice : NEAREST);
-            peri_body *b = scene_plate(&o, scene_laws[k % 4], precision, PERI_PLANE_STRAIN);
-            peri_statics_init(&s);
-            s.method = k / 4 < 3 ? PERI_NEWTON : k / 4 == 3 ? PERI_BICGSTAB : PERI_RELAXATION;
-            s.preconditioner = k / 4 < 3 ? PERI_MULTILEVEL + k / 4 : PERI_MULTILEVEL;
+            peri_body *b = scene_plate(&o, scene_laws[k % 4], precision, PERI_SPACE_PLANE_STRAIN);
+            peri_solve_desc_init(&s);
+            s.method = k / 4 < 3 ? PERI_METHOD_NEWTON : k / 4 == 3 ? PERI_METHOD_BICGSTAB : PERI_METHOD_RELAXATION;
+            s.preconditioner = k / 4 < 3 ? PERI_PRECONDITIONER_MULTILEVEL + k / 4 : PERI_PRECONDITIONER_MULTILEVEL;
             s.fracture = 0;
-            s.tolerance = precision == PERI_F64 ? 1e-9 : precision == PERI_MIXED ? 1e-5 : 2e-3;
+            s.tolerance = precision == PERI_PRECISION_DOUBLE ? 1e-9 : precision == PERI_PRECISION_MIXED ? 1e-5 : 2e-3;
             (void)extreme_fails(&o, b, peri_solve(b, &s, NULL));
-            note_field(&t[odd], &o, b, PERI_DISPLACEMENT);
+            note_field(&t[odd], &o, b, PERI_FIELD_DISPLACEMENT);
             o = extreme_end(o, b);
             set_mode(NEAREST);
         }
@@ -209,16 +209,16 @@ static outcome told(const extreme *row, int32_t precision) {
         char text[1000] = "", *at = text;
         peri_energy e;
         peri_body_desc d;
-        peri_material m;
+        peri_material_desc m;
         peri_plan_desc plan;
         peri_plan_report report;
         set_mode(mode);
-        peri_body *b = body_of(&o, scene_laws[k % 4], precision, PERI_FULL_VOLUME, PERI_NO_CORRECTION, 0, 0, 0);
+        peri_body *b = body_of(&o, scene_laws[k % 4], precision, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, 0, 0, 0);
         if (o.status >= 0) {
             extreme_affine(&o, b, pull, NULL);
-            (void)extreme_fails(&o, b, peri_read_energy(b, &e));
-            (void)extreme_fails(&o, b, peri_write_history(b, 0, keep_text, text));
-            extreme_desc(&d, PERI_PLANE_STRESS, precision, 2.2);
+            (void)extreme_fails(&o, b, peri_get_energy(b, &e));
+            (void)extreme_fails(&o, b, peri_export_history_to(b, 0, keep_text, text));
+            extreme_desc(&d, PERI_SPACE_PLANE_STRESS, precision, 2.2);
             extreme_material(&m, scene_laws[k % 4], 0.2, 0);
             peri_plan_desc_init(&plan);
             plan.body = &d;

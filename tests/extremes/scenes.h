@@ -4,7 +4,7 @@
 
 #include "extremes.h"
 
-static const int32_t scene_laws[4] = {PERI_BOND_BASED, PERI_LPS, PERI_OTERKUS, PERI_CORRESPONDENCE};
+static const int32_t scene_laws[4] = {PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE};
 
 static inline outcome scene_spoiled(outcome o, const char *what) {
     if (o.status >= 0) {
@@ -28,18 +28,18 @@ static inline peri_body *scene_plate(outcome *o, int32_t law, int32_t precision,
     const double hi[3] = {9, 6, 3}, edge[3] = {1, 6, 3}, pull[3] = {1e-4, 2e-5, 0}, from[3] = {5.2, -1, -1}, to[3] = {5.2, 2.2, -1};
     const double along[3] = {0, 0, 9}, up[3] = {0, 3.2, 0}, lo[3] = {0, 0, 0};
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b;
     int32_t set;
     extreme_desc(&d, space, precision, 2.2);
-    if (law == PERI_LPS) d.kernel = PERI_KERNEL_LIST;
+    if (law == PERI_LAW_LPS) d.kernel = PERI_KERNEL_LIST;
     extreme_material(&m, law, 0.2, 0.02);
     b = extreme_box(o, &d, &m, hi, 1);
     if (o->status < 0) return b;
     (void)extreme_fails(o, b, set = peri_select_box(b, "edge", lo, edge));
-    (void)extreme_fails(o, b, peri_prescribe_displacement(b, set, space == PERI_SOLID ? 7 : 3, NULL, NULL, NULL));
+    (void)extreme_fails(o, b, peri_prescribe_displacement(b, set, space == PERI_SPACE_SOLID ? 7 : 3, NULL, NULL, NULL));
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, pull, NULL, NULL));
-    (void)extreme_fails(o, b, space == PERI_SOLID ? peri_cut_rectangle(b, from, up, along) : peri_cut_segment(b, from, to));
+    (void)extreme_fails(o, b, space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, from, up, along) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
     return b;
 }
 

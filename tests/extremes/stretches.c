@@ -6,7 +6,7 @@ typedef struct scene { /* one body of the loop, and what it is made of          
     outcome       *o;
     peri_body     *body;
     peri_body_desc desc;
-    peri_material  material[2]; /* the second only of the right half of a mixture                                          */
+    peri_material_desc  material[2]; /* the second only of the right half of a mixture                                          */
     int            cloud, mixture;
 } scene;
 
@@ -18,8 +18,8 @@ static peri_body *mix(scene *s, int edge) {
     outcome *o = s->o;
     peri_body *b = NULL;
     (void)(extreme_fails(o, NULL, peri_body_create(&s->desc, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &s->material[0]))
-           || extreme_fails(o, b, peri_add_material(b, &s->material[1])) || extreme_fails(o, b, peri_add_box(b, 0, lo, half, 1))
-           || extreme_fails(o, b, peri_add_box(b, 1, middle, hi, 1)) || extreme_fails(o, b, peri_build(b)));
+           || extreme_fails(o, b, peri_add_material(b, &s->material[1])) || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, half, 1))
+           || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 2), middle, hi, 1)) || extreme_fails(o, b, peri_build(b)));
     if (o->status >= 0) return b;
     peri_body_destroy(b);
     return NULL;
@@ -28,7 +28,7 @@ static peri_body *mix(scene *s, int edge) {
 /* A unit lattice, or 64 points moved off one, with volumes of 0.5 to 1.5. All are short binary fractions with a mean volume of 1 and a
    corner at the origin: places are exact in single precision and in the units of the body, so points can be made to meet exactly. */
 static peri_body *make(scene *s) {
-    const int dim = s->desc.space == PERI_SOLID ? 3 : 2, n = dim == 3 ? 5 : 9, edge = dim == 3 ? 4 : 8;
+    const int dim = s->desc.space == PERI_SPACE_SOLID ? 3 : 2, n = dim == 3 ? 5 : 9, edge = dim == 3 ? 4 : 8;
     double x[3 * 64], volume[64];
     uint64_t seed = 7;
     int i, d, at;
@@ -45,10 +45,10 @@ static peri_body *make(scene *s) {
    with the next law. */
 static outcome each(const extreme *row, int32_t precision, int32_t geometry, double stretch, int step, probe_fn probe) {
     outcome o = {PERI_OK, "", 0};
-    int32_t space, model;
+    int32_t space, law;
     int kind;
-    for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
-        for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
+    for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
+        for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
             for (kind = 0; kind < 5 && o.status >= 0; kind += step) {
                 scene s;
                 double error;
@@ -56,43 +56,43 @@ static outcome each(const extreme *row, int32_t precision, int32_t geometry, dou
                 s.o = &o;
                 s.cloud = kind == 3;
                 s.mixture = kind == 4;
-                extreme_desc(&s.desc, space, precision, space == PERI_SOLID ? 2 : 3);
+                extreme_desc(&s.desc, space, precision, space == PERI_SPACE_SOLID ? 2 : 3);
                 s.desc.geometry = geometry;
                 s.desc.kernel = kind < 3 ? kind : PERI_KERNEL_BEST;
-                extreme_material(&s.material[0], model, 0.3, stretch);
-                extreme_material(&s.material[1], model % 4 + 1, 0.1, stretch);
+                extreme_material(&s.material[0], law, 0.3, stretch);
+                extreme_material(&s.material[1], law % 4 + 1, 0.1, stretch);
                 s.body = make(&s);
                 error = s.body ? probe(&s) : NAN;
-                dense_note(&o, error, space, model);
+                dense_note(&o, error, space, law);
                 o = extreme_end(o, s.body);
             }
     return o;
 }
 
 static int is_tensor(const scene *s) {
-    return s->material[0].model == PERI_CORRESPONDENCE || (s->mixture && s->material[1].model == PERI_CORRESPONDENCE);
+    return s->material[0].law == PERI_LAW_CORRESPONDENCE || (s->mixture && s->material[1].law == PERI_LAW_CORRESPONDENCE);
 }
 
 static double dense_of(scene *s) { return dense_error(s->o, s->body, &s->desc, s->material); }
 
 static void stretch_by(scene *s, double x, double y, double z) {
     const double two[4] = {x - 1, 0, 0, y - 1}, three[9] = {x - 1, 0, 0, 0, y - 1, 0, 0, 0, z - 1};
-    extreme_affine(s->o, s->body, s->desc.space == PERI_SOLID ? three : two, NULL);
+    extreme_affine(s->o, s->body, s->desc.space == PERI_SPACE_SOLID ? three : two, NULL);
 }
 
 /* ---- uniform ------------------------------------------------------------------------------------------------------ */
 
 /* Energy density of point i under the same stretch in all directions. */
 static double closed_form(const scene *s, double stretch, const double *x, const double *volume, int64_t i) {
-    const int dim = s->desc.space == PERI_SOLID ? 3 : 2;
-    const peri_material *m = &s->material[s->mixture && x[i * dim] > (dim == 3 ? 2 : 4)];
+    const int dim = s->desc.space == PERI_SPACE_SOLID ? 3 : 2;
+    const peri_material_desc *m = &s->material[s->mixture && x[i * dim] > (dim == 3 ? 2 : 4)];
     const dense_moduli law = dense_moduli_of(m, s->desc.space);
-    const double green = s->desc.geometry == PERI_LINEAR ? stretch : stretch * (1 + 0.5 * stretch), h = s->desc.horizon * (1 + 1e-8);
+    const double green = s->desc.geometry == PERI_GEOMETRY_LINEAR ? stretch : stretch * (1 + 0.5 * stretch), h = s->desc.horizon * (1 + 1e-8);
     double sum = 0;
     int64_t j, count = peri_point_count(s->body);
     int d;
-    if (m->model == PERI_CORRESPONDENCE) return 0.5 * dim * dim * law.bulk * green * green;
-    if (m->model != PERI_BOND_BASED) return 0.5 * dim * dim * law.bulk * stretch * stretch;
+    if (m->law == PERI_LAW_CORRESPONDENCE) return 0.5 * dim * dim * law.bulk * green * green;
+    if (m->law != PERI_LAW_BOND_BASED) return 0.5 * dim * dim * law.bulk * stretch * stretch;
     for (j = 0; j < count; ++j) {
         double square = 0;
         for (d = 0; d < dim; ++d) square += pow(x[j * dim + d] - x[i * dim + d], 2);
@@ -102,8 +102,8 @@ static double closed_form(const scene *s, double stretch, const double *x, const
 }
 
 static double uniform_error(scene *s, double stretch) {
-    double *x = extreme_read(s->o, s->body, PERI_POSITION), *volume = extreme_read(s->o, s->body, PERI_VOLUME);
-    double *energy = extreme_read(s->o, s->body, PERI_ENERGY_DENSITY), worst = 0;
+    double *x = extreme_read(s->o, s->body, PERI_FIELD_POSITION), *volume = extreme_read(s->o, s->body, PERI_FIELD_VOLUME);
+    double *energy = extreme_read(s->o, s->body, PERI_FIELD_ENERGY_DENSITY), worst = 0;
     int64_t i;
     for (i = 0; x && volume && energy && i < peri_point_count(s->body); ++i)
         worst = extreme_worst(worst, fabs(energy[i] / closed_form(s, stretch, x, volume, i) - 1));
@@ -132,13 +132,13 @@ static double mirrored_probe(scene *s) {
     int64_t i;
     stretch_by(s, -1, 1, 1);
     error = dense_of(s);
-    energy = extreme_read(s->o, s->body, PERI_ENERGY_DENSITY);
+    energy = extreme_read(s->o, s->body, PERI_FIELD_ENERGY_DENSITY);
     for (at_stake = 0, i = 0; energy && i < peri_point_count(s->body); ++i) at_stake = extreme_worst(at_stake, fabs(energy[i]));
     free(energy);
     return extreme_worst(error, at_stake);
 }
 
-static outcome mirrored(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 1, mirrored_probe); }
+static outcome mirrored(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 1, mirrored_probe); }
 
 /* ---- thrown about ------------------------------------------------------------------------------------------------- */
 
@@ -152,33 +152,33 @@ static outcome scattered(const extreme *row, int32_t precision) { return each(ro
 /* Points 0 and 1 meet, at the place of point 2, which all others leave by up to row->value. */
 static double meeting_probe(scene *s) {
     const int dim = peri_dimension(s->body);
-    double *x = extreme_read(s->o, s->body, PERI_POSITION), *u;
+    double *x = extreme_read(s->o, s->body, PERI_FIELD_POSITION), *u;
     int d, k;
     dense_scatter(s->o, s->body, s->row->value, 13);
-    u = extreme_read(s->o, s->body, PERI_DISPLACEMENT);
+    u = extreme_read(s->o, s->body, PERI_FIELD_DISPLACEMENT);
     for (d = 0; x && u && d < dim; ++d)
         for (k = 0; k < 3; ++k) u[k * dim + d] = x[2 * dim + d] - x[k * dim + d];
-    if (u) (void)extreme_fails(s->o, s->body, peri_write(s->body, PERI_DISPLACEMENT, u, peri_field_size(s->body, PERI_DISPLACEMENT)));
+    if (u) (void)extreme_fails(s->o, s->body, peri_set_field(s->body, PERI_FIELD_DISPLACEMENT, u, peri_size_of_field(s->body, PERI_FIELD_DISPLACEMENT)));
     free(x), free(u);
     return dense_of(s);
 }
 
-static outcome meeting(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 1, meeting_probe); }
+static outcome meeting(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 1, meeting_probe); }
 
 /* Displacements whose cubes leave the range of float are refused, before they are taken, where P = F S takes cubes. */
 static double far_probe(scene *s) {
-    const int64_t n = peri_field_size(s->body, PERI_DISPLACEMENT);
+    const int64_t n = peri_size_of_field(s->body, PERI_FIELD_DISPLACEMENT);
     double u[3 * 125] = {0}, largest = 0;
     int64_t i;
-    if (!is_tensor(s) || s->desc.precision == PERI_F64) return scattered_probe(s);
+    if (!is_tensor(s) || s->desc.precision == PERI_PRECISION_DOUBLE) return scattered_probe(s);
     u[4] = s->row->value;
-    if (peri_write(s->body, PERI_DISPLACEMENT, u, n) != PERI_ERROR_RANGE) return 1;
-    if (extreme_fails(s->o, s->body, peri_read(s->body, PERI_DISPLACEMENT, u, n))) return NAN;
+    if (peri_set_field(s->body, PERI_FIELD_DISPLACEMENT, u, n) != PERI_ERROR_RANGE) return 1;
+    if (extreme_fails(s->o, s->body, peri_get_field(s->body, PERI_FIELD_DISPLACEMENT, u, n))) return NAN;
     for (i = 0; i < n; ++i) largest = extreme_worst(largest, fabs(u[i]));
     return largest;
 }
 
-static outcome far_away(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 1, far_probe); }
+static outcome far_away(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 1, far_probe); }
 
 /* Turned by 2.5 about an axis along no bond. */
 static double turned_probe(scene *s) {
@@ -196,13 +196,13 @@ static double turned_probe(scene *s) {
     return dense_of(s);
 }
 
-static outcome turned(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 1, turned_probe); }
+static outcome turned(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 1, turned_probe); }
 
 /* ---- in time ------------------------------------------------------------------------------------------------------ */
 
 static void advance(scene *s, int64_t steps, double safety, double time_step) {
-    peri_run run;
-    peri_run_init(&run);
+    peri_advance_desc run;
+    peri_advance_desc_init(&run);
     run.steps = steps;
     run.safety = safety;
     run.time_step = time_step;
@@ -217,10 +217,10 @@ static double passing_probe(scene *s) {
     int d;
     dense_scatter(s->o, s->body, tensor ? 0.3 : s->row->value, 17);
     advance(s, 100, tensor ? 0.2 : 0.9, 0);
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_momentum(s->body, linear, angular))) return NAN;
-    at = extreme_read(s->o, s->body, PERI_CURRENT);
-    v = extreme_read(s->o, s->body, PERI_VELOCITY);
-    volume = extreme_read(s->o, s->body, PERI_VOLUME);
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_momentum(s->body, linear, angular))) return NAN;
+    at = extreme_read(s->o, s->body, PERI_FIELD_CURRENT_POSITION);
+    v = extreme_read(s->o, s->body, PERI_FIELD_VELOCITY);
+    volume = extreme_read(s->o, s->body, PERI_FIELD_VOLUME);
     for (i = 0; at && v && volume && i < peri_point_count(s->body); ++i) {
         double speed = 0, far_ = 0;
         for (d = 0; d < dim; ++d) {
@@ -238,7 +238,7 @@ static double passing_probe(scene *s) {
     return size > 0 ? extreme_worst(sqrt(p) / size, sqrt(l) / arm) : NAN;
 }
 
-static outcome passing(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 1, passing_probe); }
+static outcome passing(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 1, passing_probe); }
 
 /* Stretched to ten times, with a critical stretch a little above or below 9: none or all bonds break in one step, and then all fly on. */
 static double breaking_probe(scene *s) {
@@ -246,26 +246,26 @@ static double breaking_probe(scene *s) {
     double before, worst, step;
     peri_energy e, later;
     stretch_by(s, 10, 10, 10);
-    if (extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     before = e.elastic;
     step = 1e-9 * peri_stable_step(s->body); /* kinetic energy, and so the error of a step, of 1e-16 of what is stored */
     advance(s, 1, 1, step);
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     worst = fabs(e.error) / before;
     if (*value > 9) return extreme_worst(worst, (double)peri_broken_count(s->body) + fabs(e.elastic / before - 1));
     worst = extreme_worst(worst, fabs((double)peri_broken_count(s->body) - all) + e.elastic / before + fabs(e.fracture / before - 1));
     advance(s, 50, 0.9, 0);
-    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &later))) return NAN;
+    if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &later))) return NAN;
     return extreme_worst(worst, fabs(later.kinetic / e.kinetic - 1));
 }
 
 static outcome breaking(const extreme *row, int32_t precision) {
-    return each(row, precision, PERI_NONLINEAR, row->value, 1, breaking_probe);
+    return each(row, precision, PERI_GEOMETRY_NONLINEAR, row->value, 1, breaking_probe);
 }
 
 /* Where the last layer of cells begins. */
 static double inside(const scene *s) {
-    return (s->desc.space == PERI_SOLID ? 4 : 8) - (s->cloud || s->mixture ? 1 : 0);
+    return (s->desc.space == PERI_SPACE_SOLID ? 4 : 8) - (s->cloud || s->mixture ? 1 : 0);
 }
 
 static int32_t is_rim(void *user, int64_t index, const double *x) {
@@ -273,7 +273,7 @@ static int32_t is_rim(void *user, int64_t index, const double *x) {
     const double inner = inside(s);
     int d, rim = 0;
     (void)index;
-    for (d = 0; d < (s->desc.space == PERI_SOLID ? 3 : 2); ++d) rim |= x[d] < 1 || x[d] > inner;
+    for (d = 0; d < (s->desc.space == PERI_SPACE_SOLID ? 3 : 2); ++d) rim |= x[d] < 1 || x[d] > inner;
     return rim;
 }
 
@@ -283,8 +283,8 @@ static double shaken_probe(scene *s) {
     const double stretch = s->row->value, square = stretch * stretch, dim = peri_dimension(s->body);
     const dense_moduli law = dense_moduli_of(s->material, s->desc.space);
     const double harder = square + 0.5 * (square - 1) * dim * law.bulk / (law.lambda + 2 * law.mu);
-    const double tensor = s->material[0].model == PERI_CORRESPONDENCE ? sqrt(harder) : 1;
-    const int64_t n = peri_field_size(s->body, PERI_VELOCITY);
+    const double tensor = s->material[0].law == PERI_LAW_CORRESPONDENCE ? sqrt(harder) : 1;
+    const int64_t n = peri_size_of_field(s->body, PERI_FIELD_VELOCITY);
     double v[3 * 125], shake = 0, worst = 0;
     uint64_t seed = 3;
     peri_energy e;
@@ -296,27 +296,27 @@ static double shaken_probe(scene *s) {
     rim = peri_prescribe_velocity(s->body, rim, peri_dimension(s->body) == 3 ? 7 : 3, NULL, NULL, NULL);
     if (extreme_fails(s->o, s->body, rim)) return NAN;
     for (i = 0; i < n; ++i) v[i] = 2 * test_random(&seed) - 1;
-    if (extreme_fails(s->o, s->body, peri_write(s->body, PERI_VELOCITY, v, n))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_set_field(s->body, PERI_FIELD_VELOCITY, v, n))) return NAN;
     for (part = 0; part < 10; ++part) {
         advance(s, 40, s->row->other / tensor, 0);
-        if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_read_energy(s->body, &e))) return NAN;
+        if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
         shake = extreme_worst(shake, e.kinetic);
         worst = extreme_worst(worst, fabs(e.error));
     }
     return worst / shake;
 }
 
-static outcome shaken(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 3, shaken_probe); }
+static outcome shaken(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 3, shaken_probe); }
 
 /* ---- in equilibrium ----------------------------------------------------------------------------------------------- */
 
 /* |V f| of the points that are at an end, or of the others. */
 static double forces_of(scene *s, int ends) {
     const int dim = peri_dimension(s->body);
-    double *f = extreme_read(s->o, s->body, PERI_FORCE_DENSITY), *x = extreme_read(s->o, s->body, PERI_POSITION), sum = 0;
-    double *volume = extreme_read(s->o, s->body, PERI_VOLUME);
+    double *f = extreme_read(s->o, s->body, PERI_FIELD_FORCE_DENSITY), *x = extreme_read(s->o, s->body, PERI_FIELD_POSITION), sum = 0;
+    double *volume = extreme_read(s->o, s->body, PERI_FIELD_VOLUME);
     int64_t i;
-    for (i = 0; f && x && volume && i < peri_field_size(s->body, PERI_POSITION); ++i) {
+    for (i = 0; f && x && volume && i < peri_size_of_field(s->body, PERI_FIELD_POSITION); ++i) {
         const double at = x[i - i % dim];
         if (ends == (at < 1 || at > inside(s))) sum += pow(f[i] * volume[i / dim], 2);
     }
@@ -351,19 +351,19 @@ static double drawn_probe(scene *s) {
     const double away[3] = {(s->row->value - 1) * (right + 1), 0, 0};
     const int32_t axes = dim == 3 ? 7 : 3;
     int32_t load[2];
-    peri_statics p;
+    peri_solve_desc p;
     double error;
     load[0] = peri_prescribe_displacement(s->body, peri_select_if(s->body, NULL, at_left, NULL), axes, NULL, NULL, NULL);
     load[1] = peri_prescribe_displacement(s->body, peri_select_if(s->body, NULL, at_right, &right), axes, away, NULL, NULL);
-    peri_statics_init(&p);
+    peri_solve_desc_init(&p);
     p.steps = (int64_t)s->row->other;
     if (extreme_fails(s->o, s->body, load[0]) || extreme_fails(s->o, s->body, load[1])) return NAN;
     if (extreme_fails(s->o, s->body, peri_solve(s->body, &p, NULL))) return NAN;
     error = unbalanced(s, load);
-    return dense_of(s) <= 100 * (s->desc.precision == PERI_F64 ? 1.11e-16 : 5.96e-8) ? error : NAN;
+    return dense_of(s) <= 100 * (s->desc.precision == PERI_PRECISION_DOUBLE ? 1.11e-16 : 5.96e-8) ? error : NAN;
 }
 
-static outcome drawn(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 5, drawn_probe); }
+static outcome drawn(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 5, drawn_probe); }
 
 /* From row->choice: 0 collapsed, 1 inside out and shaken, 2 thrown about: loads on the free part. An equilibrium that is one, or a failure
    that is named, with numbers that are finite. */
@@ -371,7 +371,7 @@ static double wild_probe(scene *s) {
     const int dim = peri_dimension(s->body);
     double right = inside(s);
     const double force[3] = {1e-3, -2e-3, 1e-3};
-    peri_statics p;
+    peri_solve_desc p;
     int32_t load[3], status;
     if (s->row->choice == 0) stretch_by(s, 0, 0, 0);
     else if (s->row->choice == 1) stretch_by(s, -1, 1, 1);
@@ -379,7 +379,7 @@ static double wild_probe(scene *s) {
     load[0] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_left, NULL), dim == 3 ? 7 : 3, NULL, NULL, NULL);
     load[2] = peri_apply_body_force(s->body, PERI_ALL, force, NULL, NULL);
     load[1] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_right, &right), dim == 3 ? 7 : 3, NULL, NULL, NULL);
-    peri_statics_init(&p);
+    peri_solve_desc_init(&p);
     p.iterations = 100;
     p.newton = 12;
     p.halvings = 0;
@@ -390,26 +390,26 @@ static double wild_probe(scene *s) {
     return unbalanced(s, load);
 }
 
-static outcome wild(const extreme *row, int32_t precision) { return each(row, precision, PERI_NONLINEAR, 0, 2, wild_probe); }
+static outcome wild(const extreme *row, int32_t precision) { return each(row, precision, PERI_GEOMETRY_NONLINEAR, 0, 2, wild_probe); }
 
 static const extreme rows[] = {
-    {"10 times as long", "closed forms of W under e = 9|xi|; the laws written out", uniform, 10, 0, PERI_NONLINEAR, PERI_OK, NULL,
+    {"10 times as long", "closed forms of W under e = 9|xi|; the laws written out", uniform, 10, 0, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL,
      ROUNDINGS(100)},
-    {"10 times as long, linear", "closed forms of W under e = 9|xi|; the laws written out", uniform, 10, 0, PERI_LINEAR, PERI_OK, NULL,
+    {"10 times as long, linear", "closed forms of W under e = 9|xi|; the laws written out", uniform, 10, 0, PERI_GEOMETRY_LINEAR, PERI_OK, NULL,
      ROUNDINGS(100)},
-    {"a million times as long", "closed forms of W", uniform, 1e6, 0, PERI_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
-    {"compressed by 99 %", "closed forms of W under e = -0.99|xi|; the laws written out", uniform, 0.01, 0, PERI_NONLINEAR, PERI_OK, NULL,
+    {"a million times as long", "closed forms of W", uniform, 1e6, 0, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"compressed by 99 %", "closed forms of W under e = -0.99|xi|; the laws written out", uniform, 0.01, 0, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL,
      ROUNDINGS(100)},
-    {"collapsed into one point", "closed forms of W under e = -|xi|; no direction, no force", uniform, 0, 0, PERI_NONLINEAR, PERI_OK, NULL,
+    {"collapsed into one point", "closed forms of W under e = -|xi|; no direction, no force", uniform, 0, 0, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL,
      ROUNDINGS(100)},
-    {"stretched and sheared flat", "the laws written out", strained, 30, 0, PERI_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"stretched and sheared flat", "the laws written out", strained, 30, 0, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
     {"mirrored", "a mirror image has the lengths of its original: W = 0", mirrored, 0, 0, 0, PERI_OK, NULL, ROUNDINGS(100)},
-    {"inside out and stretched", "the laws written out", strained, -3, 0.2, PERI_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
-    {"inside out, linear", "the laws written out", strained, -3, 0.2, PERI_LINEAR, PERI_OK, NULL, ROUNDINGS(100)},
-    {"points pass through each other", "the laws written out", scattered, 3, 0, PERI_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
-    {"points pass, linear", "the laws written out", scattered, 3, 0, PERI_LINEAR, PERI_OK, NULL, ROUNDINGS(100)},
-    {"thrown by 1e10 spacings", "the laws written out", scattered, 1e10, 0, PERI_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
-    {"thrown by 1e10 spacings, linear", "the laws written out", scattered, 1e10, 0, PERI_LINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"inside out and stretched", "the laws written out", strained, -3, 0.2, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"inside out, linear", "the laws written out", strained, -3, 0.2, PERI_GEOMETRY_LINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"points pass through each other", "the laws written out", scattered, 3, 0, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"points pass, linear", "the laws written out", scattered, 3, 0, PERI_GEOMETRY_LINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"thrown by 1e10 spacings", "the laws written out", scattered, 1e10, 0, PERI_GEOMETRY_NONLINEAR, PERI_OK, NULL, ROUNDINGS(100)},
+    {"thrown by 1e10 spacings, linear", "the laws written out", scattered, 1e10, 0, PERI_GEOMETRY_LINEAR, PERI_OK, NULL, ROUNDINGS(100)},
     {"thrown by 9e14 spacings", "the laws written out; refused where the cubes of F leave the range of float", far_away, 9e14, 0, 0,
      PERI_OK,
      NULL, ROUNDINGS(100)},

@@ -10,37 +10,37 @@
 
 /* A field without symmetry of size 1e-2, times scale. */
 static void waves(outcome *o, peri_body *b, int32_t field, double scale) {
-    const int64_t n = peri_field_size(b, PERI_POSITION);
+    const int64_t n = peri_size_of_field(b, PERI_FIELD_POSITION);
     double *x = n > 0 ? (double *)malloc((size_t)n * sizeof *x) : NULL;
     int64_t i;
     for (i = 0; x && i < n; ++i) x[i] = (double)(float)(1e-2 * sin(1.7 * (double)i)) * scale;
-    if (x) (void)extreme_fails(o, b, peri_write(b, field, x, n));
+    if (x) (void)extreme_fails(o, b, peri_set_field(b, field, x, n));
     free(x);
 }
 
 /* choice 0: linear geometry, displacements of 1e-2 times 2^-value (where bonds are single: 2^-other): the same bits, smaller. choice 1:
    those of finite geometry against linear. */
 static outcome tiny(const extreme *row, int32_t precision) {
-    const double scale = ldexp(1, -(int)(precision == PERI_F64 ? row->value : row->other));
+    const double scale = ldexp(1, -(int)(precision == PERI_PRECISION_DOUBLE ? row->value : row->other));
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
+    int32_t law, space;
     int cloud;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space)
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
             for (cloud = 0; cloud < 2 && o.status == PERI_OK; ++cloud) {
-                scene s = scene_of(space, precision, model, PERI_LINEAR);
+                scene s = scene_of(space, precision, law, PERI_GEOMETRY_LINEAR);
                 shown large, small;
                 peri_body *b;
                 s.cloud = cloud;
                 b = small_body(&o, &s);
-                waves(&o, b, PERI_DISPLACEMENT, row->choice ? scale : 1);
+                waves(&o, b, PERI_FIELD_DISPLACEMENT, row->choice ? scale : 1);
                 show(&o, b, &large);
                 if (row->choice) {
                     o = extreme_end(o, b);
-                    s.geometry = PERI_NONLINEAR;
+                    s.geometry = PERI_GEOMETRY_NONLINEAR;
                     b = small_body(&o, &s);
                 }
-                waves(&o, b, PERI_DISPLACEMENT, scale);
+                waves(&o, b, PERI_FIELD_DISPLACEMENT, scale);
                 show(&o, b, &small);
                 compare(&o, row, &s, &large, &small, row->choice ? 1 : scale, "tiny");
                 forget(&large);
@@ -52,30 +52,30 @@ static outcome tiny(const extreme *row, int32_t precision) {
 
 /* Displacements and velocities below the normal range of the state, and a run: no number grows beyond the energy that it began with. */
 static outcome denormal(const extreme *row, int32_t precision) {
-    const double least = precision == PERI_F32 ? ldexp(1, -140) : ldexp(1, -1060);
+    const double least = precision == PERI_PRECISION_SINGLE ? ldexp(1, -140) : ldexp(1, -1060);
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
-            scene s = scene_of(space, precision, model, PERI_NONLINEAR);
+    int32_t law, space;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space && o.status == PERI_OK; ++space) {
+            scene s = scene_of(space, precision, law, PERI_GEOMETRY_NONLINEAR);
             peri_body *b;
-            peri_run run;
+            peri_advance_desc run;
             double *u, *v;
             int64_t i, n;
             s.stretch = 1e-3;
             b = small_body(&o, &s);
-            n = peri_field_size(b, PERI_DISPLACEMENT);
-            waves(&o, b, PERI_DISPLACEMENT, least);
-            waves(&o, b, PERI_VELOCITY, least);
-            peri_run_init(&run);
+            n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
+            waves(&o, b, PERI_FIELD_DISPLACEMENT, least);
+            waves(&o, b, PERI_FIELD_VELOCITY, least);
+            peri_advance_desc_init(&run);
             run.steps = 50;
             run.damping = 0.01;
             if (o.status == PERI_OK) (void)extreme_fails(&o, b, peri_advance(b, &run));
-            u = extreme_read(&o, b, PERI_DISPLACEMENT);
-            v = extreme_read(&o, b, PERI_VELOCITY);
+            u = extreme_read(&o, b, PERI_FIELD_DISPLACEMENT);
+            v = extreme_read(&o, b, PERI_FIELD_VELOCITY);
             for (i = 0; u && v && i < n; ++i)
-                extreme_note(&o, row, precision, (fabs(u[i]) + fabs(v[i])) / least, "model %d, space %d", (int)model, (int)space);
-            if (peri_broken_count(b) != 0) extreme_note(&o, row, precision, NAN, "model %d, space %d: bonds broke", (int)model, (int)space);
+                extreme_note(&o, row, precision, (fabs(u[i]) + fabs(v[i])) / least, "law %d, space %d", (int)law, (int)space);
+            if (peri_broken_count(b) != 0) extreme_note(&o, row, precision, NAN, "law %d, space %d: bonds broke", (int)law, (int)space);
             free(u);
             free(v);
             o = extreme_end(o, b);
@@ -87,19 +87,19 @@ static outcome denormal(const extreme *row, int32_t precision) {
 static double *settle(outcome *o, const scene *s, int displaced, double size, int64_t *n, int32_t *status) {
     const double lo[3] = {-1, -1, -1}, hi[3] = {1, 99, 99}, far_lo[3] = {4, -1, -1}, far_hi[3] = {99, 99, 99};
     const double value[3] = {1e-3 * size, 4e-4 * size, 0};
-    const int32_t axes = s->space == PERI_SOLID ? 7 : 3;
+    const int32_t axes = s->space == PERI_SPACE_SOLID ? 7 : 3;
     peri_body *b = small_body(o, s);
-    peri_statics st;
+    peri_solve_desc st;
     int32_t set;
     double *u;
     (void)extreme_fails(o, b, peri_prescribe_displacement(b, peri_select_box(b, NULL, lo, hi), axes, NULL, NULL, NULL));
     set = peri_select_box(b, NULL, far_lo, far_hi);
     (void)extreme_fails(o, b, displaced ? peri_prescribe_displacement(b, set, axes, value, NULL, NULL)
                                         : peri_apply_body_force(b, set, value, NULL, NULL));
-    peri_statics_init(&st);
+    peri_solve_desc_init(&st);
     *status = o->status == PERI_OK ? peri_solve(b, &st, NULL) : o->status;
-    u = extreme_read(o, b, PERI_DISPLACEMENT);
-    *n = u ? peri_field_size(b, PERI_DISPLACEMENT) : 0;
+    u = extreme_read(o, b, PERI_FIELD_DISPLACEMENT);
+    *n = u ? peri_size_of_field(b, PERI_FIELD_DISPLACEMENT) : 0;
     *o = extreme_end(*o, b);
     return u;
 }
@@ -107,9 +107,9 @@ static double *settle(outcome *o, const scene *s, int displaced, double size, in
 /* Linearity: displacements of a tiny load are those of a load of one, times as tiny; or a status says that they cannot be had. */
 static outcome faint(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
-    int32_t model;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_ && o.status == PERI_OK; ++model) {
-        const scene s = scene_of(model % 2 ? PERI_SOLID : PERI_PLANE_STRAIN, precision, model, PERI_LINEAR);
+    int32_t law;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law && o.status == PERI_OK; ++law) {
+        const scene s = scene_of(law % 2 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, precision, law, PERI_GEOMETRY_LINEAR);
         int32_t status[2];
         int64_t n, i;
         double *large = settle(&o, &s, row->choice, 1, &n, &status[0]), *small = settle(&o, &s, row->choice, row->value, &n, &status[1]);
@@ -119,7 +119,7 @@ static outcome faint(const extreme *row, int32_t precision) {
             worst = extreme_worst(worst, fabs(small[i] / row->value - large[i]));
         }
         if (status[0] != PERI_OK) extreme_note(&o, row, precision, NAN, "a load of one: %d", (int)status[0]);
-        else if (status[1] == PERI_OK) extreme_note(&o, row, precision, worst / most, "model %d", (int)model);
+        else if (status[1] == PERI_OK) extreme_note(&o, row, precision, worst / most, "law %d", (int)law);
         else if (status[1] != PERI_ERROR_RANGE && status[1] != PERI_ERROR_CONVERGENCE) o.status = status[1];
         free(large);
         free(small);
@@ -131,25 +131,25 @@ static outcome faint(const extreme *row, int32_t precision) {
 static outcome flushed(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
 #ifdef FLUSHES
-    int32_t model, space;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_ && o.status == PERI_OK; ++space) {
+    int32_t law, space;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space && o.status == PERI_OK; ++space) {
             const unsigned control = _mm_getcsr();
-            scene s = scene_of(space, precision, model, PERI_NONLINEAR);
+            scene s = scene_of(space, precision, law, PERI_GEOMETRY_NONLINEAR);
             shown seen[2];
             int way, cloud;
             for (cloud = 0; cloud < 2; ++cloud) {
                 for (way = 0; way < 2; ++way) {
                     const double left[3] = {-0.2, 0.05, 0}, lo[3] = {-1, -1, -1}, hi[3] = {1, 99, 99}, down[3] = {0, -1e-3, 0};
                     peri_body *b;
-                    peri_run run;
+                    peri_advance_desc run;
                     s.stretch = 0.02;
                     s.cloud = cloud;
                     if (way) _mm_setcsr(control | 0x8040u); /* flush to zero, denormals are zeros                        */
                     b = small_body(&o, &s);
                     (void)extreme_fails(&o, b, peri_add_velocity(b, peri_select_box(b, NULL, lo, hi), left));
                     (void)extreme_fails(&o, b, peri_apply_body_force(b, PERI_ALL, down, NULL, NULL));
-                    peri_run_init(&run);
+                    peri_advance_desc_init(&run);
                     run.steps = 30;
                     if (o.status == PERI_OK) (void)extreme_fails(&o, b, peri_advance(b, &run));
                     show(&o, b, &seen[way]);

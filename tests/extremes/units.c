@@ -13,7 +13,7 @@ typedef struct units {
 } units;
 
 typedef struct scene {
-    int32_t space, precision, model, geometry, criterion;
+    int32_t space, precision, law, geometry, criterion;
     int32_t exact;  /* only what powers of two go through unrounded: no cube roots                                        */
     int32_t source; /* 0 a lattice; others with weights of their own: 1 cells moved, partial volumes, 2 points of the caller, a user's w,
                        3 a lattice, moment correction                                                                    */
@@ -31,9 +31,9 @@ static const units one = {1, 1, 1, 1};
 
 static double time_unit(const units *s) { return s->length * (sqrt(s->density) / sqrt(s->stress)); }
 static double speed_unit(const units *s) { return s->length / time_unit(s); }
-static int dim_of(const scene *c) { return c->space == PERI_SOLID ? 3 : 2; }
+static int dim_of(const scene *c) { return c->space == PERI_SPACE_SOLID ? 3 : 2; }
 static double cube(const units *s, const scene *c) {
-    return s->length * s->length * (c->space == PERI_SOLID ? s->length : s->thickness);
+    return s->length * s->length * (c->space == PERI_SPACE_SOLID ? s->length : s->thickness);
 }
 
 /* ---- records ------------------------------------------------------------------------------------------------------ */
@@ -53,7 +53,7 @@ static void keep(record *r, const char *name, const double *x, int64_t n, double
 
 static void keep_field(record *r, outcome *o, peri_body *b, int32_t field, const char *name, double unit) {
     double *x = extreme_read(o, b, field);
-    if (x) keep(r, name, x, peri_field_size(b, field), unit);
+    if (x) keep(r, name, x, peri_size_of_field(b, field), unit);
     free(x);
 }
 
@@ -89,25 +89,25 @@ static void keep_all(record *r, outcome *o, peri_body *b, const units *s, const 
     const double t = time_unit(s), density = s->stress / s->length, energy = s->stress * cube(s, c);
     double linear[3] = {0}, angular[3] = {0}, numbers[4];
     peri_energy e;
-    keep_field(r, o, b, PERI_POSITION, "position", s->length);
-    keep_field(r, o, b, PERI_DISPLACEMENT, "displacement", s->length);
-    keep_field(r, o, b, PERI_VELOCITY, "velocity", s->length / t);
-    if (!rest) keep_field(r, o, b, PERI_FORCE_DENSITY, "force density", density);
-    keep_field(r, o, b, PERI_VOLUME, "volume", dim == 3 ? cube(s, c) : s->length * s->length);
-    keep_field(r, o, b, PERI_FAMILY_SIZE, "family size", 1);
-    keep_field(r, o, b, PERI_DAMAGE, "damage", 1);
-    keep_field(r, o, b, PERI_ENERGY_DENSITY, "energy density", s->stress);
-    keep_field(r, o, b, PERI_CURRENT, "current", s->length);
-    keep_field(r, o, b, PERI_DILATATION, "dilatation", 1);
-    keep_field(r, o, b, PERI_STRAIN, "strain", 1);
-    keep_field(r, o, b, PERI_STRESS, "stress", s->stress);
-    keep_field(r, o, b, PERI_FORCE_STRESS, "force stress", s->stress);
-    keep_field(r, o, b, PERI_REACTION, "reaction density", density);
-    if (!extreme_fails(o, b, peri_read_energy(b, &e))) {
+    keep_field(r, o, b, PERI_FIELD_POSITION, "position", s->length);
+    keep_field(r, o, b, PERI_FIELD_DISPLACEMENT, "displacement", s->length);
+    keep_field(r, o, b, PERI_FIELD_VELOCITY, "velocity", s->length / t);
+    if (!rest) keep_field(r, o, b, PERI_FIELD_FORCE_DENSITY, "force density", density);
+    keep_field(r, o, b, PERI_FIELD_VOLUME, "volume", dim == 3 ? cube(s, c) : s->length * s->length);
+    keep_field(r, o, b, PERI_FIELD_FAMILY_SIZE, "family size", 1);
+    keep_field(r, o, b, PERI_FIELD_DAMAGE, "damage", 1);
+    keep_field(r, o, b, PERI_FIELD_ENERGY_DENSITY, "energy density", s->stress);
+    keep_field(r, o, b, PERI_FIELD_CURRENT_POSITION, "current", s->length);
+    keep_field(r, o, b, PERI_FIELD_DILATATION, "dilatation", 1);
+    keep_field(r, o, b, PERI_FIELD_STRAIN, "strain", 1);
+    keep_field(r, o, b, PERI_FIELD_STRESS, "stress", s->stress);
+    keep_field(r, o, b, PERI_FIELD_FORCE_STRESS, "force stress", s->stress);
+    keep_field(r, o, b, PERI_FIELD_REACTION, "reaction density", density);
+    if (!extreme_fails(o, b, peri_get_energy(b, &e))) {
         const double ledger[8] = {e.kinetic, e.elastic, e.external, e.obstacle, e.damping, e.fracture, e.initial, e.error};
         keep(r, "ledger", ledger, 8, energy);
     }
-    if (!extreme_fails(o, b, peri_read_momentum(b, linear, angular))) {
+    if (!extreme_fails(o, b, peri_get_momentum(b, linear, angular))) {
         keep(r, "momentum", linear, dim, s->density * cube(s, c) * s->length / t);
         keep(r, "angular momentum", angular, turns, energy * t);
     }
@@ -119,19 +119,20 @@ static void keep_all(record *r, outcome *o, peri_body *b, const units *s, const 
     numbers[0] = (double)r->broken;
     numbers[1] = (double)peri_cut_count(b);
     keep(r, "broken and cut", numbers, 2, 1);
-    if (c->model == PERI_BOND_BASED && !extreme_fails(o, b, peri_read_bond_constants(b, 0, 0, &numbers[0], &numbers[1]))) {
+    if (c->law == PERI_LAW_BOND_BASED && !extreme_fails(o, b, peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), &numbers[0], &numbers[1]))) {
         keep(r, "micromodulus", numbers, 1, s->stress / (s->length * cube(s, c)));
         keep(r, "critical stretch", numbers + 1, 1, 1);
     }
-    if (c->criterion != PERI_CRITERION_STRETCH && !extreme_fails(o, b, peri_read_critical_energy(b, 0, numbers)))
+    if (c->criterion != PERI_CRITERION_STRETCH && !extreme_fails(o, b, peri_get_critical_energy(b, peri_id(b, PERI_KIND_MATERIAL, 1), numbers)))
         keep(r, "critical energy", numbers, 1, s->stress / cube(s, c));
 }
 
 /* ---- the scene ---------------------------------------------------------------------------------------------------- */
 
-static double user_weight(void *user, double q) {
+static int32_t user_weight(void *user, double q, double *w) {
     (void)user;
-    return 1.2 - q;
+    *w = 1.2 - q;
+    return 0;
 }
 
 /* Points of the caller, off the lattice by up to 0.2. */
@@ -151,28 +152,28 @@ static void give_points(outcome *o, peri_body *b, const double *hi, double l, in
 /* A bar of 7 x 4 x 3 cells, or a strip of 12 x 5, in units s; limit: times what breaks it at about 2 % stretch, 0: never. */
 static peri_body *bar(outcome *o, const units *s, const scene *c, double limit) {
     const double l = s->length, lo[3] = {0, 0, 0}, solid[3] = {7 * l, 4 * l, 3 * l}, plane[3] = {12 * l, 5 * l, 0};
-    const double *hi = c->space == PERI_SOLID ? solid : plane;
+    const double *hi = c->space == PERI_SPACE_SOLID ? solid : plane;
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
-    extreme_desc(&d, c->space, c->precision, (c->space == PERI_SOLID ? 2 : 3) * l);
+    extreme_desc(&d, c->space, c->precision, (c->space == PERI_SPACE_SOLID ? 2 : 3) * l);
     d.geometry = c->geometry;
-    if (c->space != PERI_SOLID) d.thickness = s->thickness;
-    extreme_material(&m, c->model, 0.3, 0);
+    if (c->space != PERI_SPACE_SOLID) d.thickness = s->thickness;
+    extreme_material(&m, c->law, 0.3, 0);
     m.young = s->stress;
     m.density = s->density;
     m.criterion = c->criterion;
-    if (c->source == 1) d.quadrature = PERI_PARTIAL_VOLUME;
+    if (c->source == 1) d.quadrature = PERI_QUADRATURE_PARTIAL;
     if (c->source == 2) {
         d.influence = PERI_INFLUENCE_USER;
         d.influence_fn = user_weight;
     }
-    if (c->source == 3) d.correction = PERI_MOMENT_CORRECTION;
+    if (c->source == 3) d.correction = PERI_CORRECTION_MOMENT;
     if (limit > 0) m.fracture_energy = limit * 1e-3 * s->stress * l;
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m))) return b;
-    if (c->source == 1) (void)extreme_fails(o, b, peri_add_perturbed_box(b, 0, lo, hi, l, 0.7, 3));
+    if (c->source == 1) (void)extreme_fails(o, b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, l, 0.7, 3));
     else if (c->source == 2) give_points(o, b, hi, l, dim_of(c));
-    else (void)extreme_fails(o, b, peri_add_box(b, 0, lo, hi, l));
+    else (void)extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, l));
     if (o->status == PERI_OK) (void)extreme_fails(o, b, peri_build(b));
     return b;
 }
@@ -188,18 +189,18 @@ static int32_t slab(outcome *o, peri_body *b, const units *s, double from, doubl
 static void notch(outcome *o, peri_body *b, const units *s, const scene *c) {
     const double l = s->length, lo[3] = {3 * l, 2.3 * l, -l}, edge1[3] = {0, 9 * l, 0}, edge2[3] = {0, 0, 9 * l};
     const double from[2] = {6 * l, 3.3 * l}, to[2] = {6 * l, 9 * l};
-    (void)extreme_fails(o, b, c->space == PERI_SOLID ? peri_cut_rectangle(b, lo, edge1, edge2) : peri_cut_segment(b, from, to));
+    (void)extreme_fails(o, b, c->space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, lo, edge1, edge2) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
 }
 
 /* Pulled apart by its ends, loaded, damped, thrown at a plane and a ball: everything that acts has other units. */
 static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
-    const double t = time_unit(s), v = speed_unit(s), l = s->length, width = c->space == PERI_SOLID ? 7 : 12;
+    const double t = time_unit(s), v = speed_unit(s), l = s->length, width = c->space == PERI_SPACE_SOLID ? 7 : 12;
     const double left[3] = {-0.06 * v, 0, 0}, right[3] = {0.06 * v, 0.01 * v, 0}, down[3] = {0, -0.05 * v, 0}, up[3] = {0, 1, 0};
     const double pressure[3] = {0, 2e-3 * s->stress, 0}, weight[3] = {0, -1e-3 * s->stress / l, 0}, floor_[3] = {0, 0.3 * l, 0};
     const double ball[3] = {0.5 * width * l, -2.5 * l, l};
     int32_t sets[2], loads[2], plane = -1, round = -1, k;
     double force[3];
-    peri_run run;
+    peri_advance_desc run;
     peri_body *b = bar(o, s, c, 1);
     if (o->status < 0) return b;
     notch(o, b, s, c);
@@ -207,10 +208,10 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
     sets[1] = slab(o, b, s, width - 1, width);
     if (c->criterion == PERI_CRITERION_NODE_ENERGY) /* bonds within a grip neither lengthen nor shorten: rounding would decide */
         for (k = 0; k < 2; ++k) (void)extreme_fails(o, b, peri_set_no_fail(b, sets[k], 1));
-    loads[0] = peri_prescribe_velocity(b, sets[0], PERI_X, left, NULL, NULL);
+    loads[0] = peri_prescribe_velocity(b, sets[0], PERI_AXIS_X, left, NULL, NULL);
     (void)extreme_fails(o, b, loads[0]);
-    (void)extreme_fails(o, b, peri_prescribe_velocity(b, sets[1], PERI_X | PERI_Y, right, NULL, NULL));
-    loads[1] = peri_apply_traction(b, slab(o, b, s, 2, 4), (c->space == PERI_SOLID ? 2 : 1) * l * (dim_of(c) == 3 ? l : 1), pressure,
+    (void)extreme_fails(o, b, peri_prescribe_velocity(b, sets[1], PERI_AXIS_X | PERI_AXIS_Y, right, NULL, NULL));
+    loads[1] = peri_apply_layer_traction(b, slab(o, b, s, 2, 4), (c->space == PERI_SPACE_SOLID ? 2 : 1) * l * (dim_of(c) == 3 ? l : 1), pressure,
                                    NULL, NULL);
     (void)extreme_fails(o, b, loads[1]);
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, weight, NULL, NULL));
@@ -221,49 +222,49 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
         round = peri_add_ball_obstacle(b, ball, 3.2 * l, 0, NULL, NULL);
         (void)extreme_fails(o, b, round);
     }
-    peri_run_init(&run);
+    peri_advance_desc_init(&run);
     if (c->exact) run.steps = STEPS;
     else run.duration = 9 * t;
     run.damping = 0.02 / t;
     if (o->status == PERI_OK) (void)extreme_fails(o, b, peri_advance(b, &run));
     keep_all(r, o, b, s, c, 0);
-    if (!extreme_fails(o, b, peri_read_reaction(b, loads[0], force))) keep(r, "reaction", force, dim_of(c), s->stress * cube(s, c) / l);
-    if (!extreme_fails(o, b, peri_read_reaction(b, loads[1], force))) keep(r, "load", force, dim_of(c), s->stress * cube(s, c) / l);
-    if (!extreme_fails(o, b, peri_read_obstacle_force(b, plane, force))) keep(r, "plane", force, dim_of(c), s->stress * cube(s, c) / l);
-    if (!c->exact && !extreme_fails(o, b, peri_read_obstacle_force(b, round, force)))
+    if (!extreme_fails(o, b, peri_get_reaction(b, loads[0], force))) keep(r, "reaction", force, dim_of(c), s->stress * cube(s, c) / l);
+    if (!extreme_fails(o, b, peri_get_reaction(b, loads[1], force))) keep(r, "load", force, dim_of(c), s->stress * cube(s, c) / l);
+    if (!extreme_fails(o, b, peri_get_obstacle_force(b, plane, force))) keep(r, "plane", force, dim_of(c), s->stress * cube(s, c) / l);
+    if (!c->exact && !extreme_fails(o, b, peri_get_obstacle_force(b, round, force)))
         keep(r, "ball", force, dim_of(c), s->stress * cube(s, c) / l);
     return b;
 }
 
 /* Held at one end, under tractions, pressures in a crack and over all faces. */
 static peri_body *hold(outcome *o, const units *s, const scene *c, record *r) {
-    const double l = s->length, width = c->space == PERI_SOLID ? 7 : 12, high = c->space == PERI_SOLID ? 4 : 5;
+    const double l = s->length, width = c->space == PERI_SPACE_SOLID ? 7 : 12, high = c->space == PERI_SPACE_SOLID ? 4 : 5;
     const double along[3] = {1, 0, 0}, value[3] = {1e-3 * s->stress, 2e-4 * s->stress, 0}, area = high * l * (dim_of(c) == 3 ? 3 * l : 1);
-    const int32_t axes = PERI_X | PERI_Y | (c->space == PERI_SOLID ? PERI_Z : 0);
+    const int32_t axes = PERI_AXIS_X | PERI_AXIS_Y | (c->space == PERI_SPACE_SOLID ? PERI_AXIS_Z : 0);
     double *u, force[3];
     int64_t n;
     int32_t held;
-    peri_statics statics;
+    peri_solve_desc statics;
     peri_matrix *matrix = NULL;
     peri_body *b = bar(o, s, c, 0);
     if (o->status < 0) return b;
     notch(o, b, s, c);
     held = peri_prescribe_displacement(b, slab(o, b, s, 0, 2), axes, NULL, NULL, NULL);
     (void)extreme_fails(o, b, held);
-    (void)extreme_fails(o, b, peri_apply_surface_traction(b, slab(o, b, s, 3, width), area, along, value, NULL, NULL));
+    (void)extreme_fails(o, b, peri_apply_traction(b, slab(o, b, s, 3, width), area, along, value, NULL, NULL));
     (void)extreme_fails(o, b, peri_apply_pressure(b, PERI_ALL, 1e-4 * s->stress, NULL, NULL));
-    (void)extreme_fails(o, b, peri_apply_bond_pressure(b, PERI_ALL, 5e-4 * s->stress, NULL, NULL));
-    peri_statics_init(&statics);
+    (void)extreme_fails(o, b, peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 5e-4 * s->stress, NULL, NULL));
+    peri_solve_desc_init(&statics);
     if (o->status == PERI_OK) (void)extreme_fails(o, b, peri_solve(b, &statics, NULL));
     keep_all(r, o, b, s, c, 1);
-    if (!extreme_fails(o, b, peri_read_reaction(b, held, force))) keep(r, "reaction", force, dim_of(c), s->stress * cube(s, c) / l);
-    u = extreme_read(o, b, PERI_DISPLACEMENT);
-    n = peri_field_size(b, PERI_DISPLACEMENT);
+    if (!extreme_fails(o, b, peri_get_reaction(b, held, force))) keep(r, "reaction", force, dim_of(c), s->stress * cube(s, c) / l);
+    u = extreme_read(o, b, PERI_FIELD_DISPLACEMENT);
+    n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
     if (u && !extreme_fails(o, b, peri_multiply_stiffness(b, u, u, n))) keep(r, "K u", u, n, s->stress * cube(s, c) / l);
     free(u);
-    if (o->status == PERI_OK && !extreme_fails(o, b, peri_assemble(b, &matrix))) {
+    if (o->status == PERI_OK && !extreme_fails(o, b, peri_matrix_create(b, &matrix))) {
         double *entries = (double *)malloc((size_t)peri_matrix_entries(matrix) * sizeof *entries);
-        if (entries && !extreme_fails(o, b, peri_read_matrix(matrix, NULL, NULL, entries)))
+        if (entries && !extreme_fails(o, b, peri_get_matrix(matrix, NULL, NULL, entries)))
             keep(r, "K", entries, peri_matrix_entries(matrix), s->stress * cube(s, c) / (l * l));
         free(entries);
         peri_matrix_destroy(matrix);
@@ -292,7 +293,7 @@ static void compare(outcome *o, const extreme *row, act_fn act, const units *s, 
     drop(&got);
 }
 
-/* Every length with every modulus and density; spaces and geometries take turns. choice: the model; value: criterion; other: 0 motion,
+/* Every length with every modulus and density; spaces and geometries take turns. choice: the law; value: criterion; other: 0 motion,
    1 equilibrium, 2 motion of clouds and weights of all kinds. */
 static outcome every_unit(const extreme *row, int32_t precision) {
     static const double lengths[] = {1e-9, 1e-4, 1e6}, stresses[] = {1e-3, 1e5, 1e13}, densities[] = {1e-6, 1e2, 1e5};
@@ -303,7 +304,7 @@ static outcome every_unit(const extreme *row, int32_t precision) {
     memset(want, 0, sizeof want);
     for (k = 0; k < 33 && o.status == PERI_OK; ++k) { /* but for motion of lattices: each pair of units, not each three */
         if (k >= 6 && row->other != 0 && (k + (k - 6) / 3 + (k - 6) / 9) % 3) continue;
-        scene c = {PERI_SOLID - k % 3, precision, row->choice, PERI_LINEAR - k / 3 % 2, (int32_t)row->value, 0, 0};
+        scene c = {PERI_SPACE_SOLID - k % 3, precision, row->choice, PERI_GEOMETRY_LINEAR - k / 3 % 2, (int32_t)row->value, 0, 0};
         const int at = k % 6;
         if (row->other == 2) c.source = 1 + at % 3;
         if (k < 6) {
@@ -315,10 +316,10 @@ static outcome every_unit(const extreme *row, int32_t precision) {
             units s = {lengths[n / 9], stresses[n / 3 % 3], densities[n % 3], 1};
             s.thickness = s.length;
             /* spaces change with k, densities with n: turned by the modulus, so that they meet in all ways */
-            c.space = 1 + (n + n / 3 + n / 9) % 3;
-            c.geometry = 1 + n / 2 % 2;
-            if (row->other == 2) c.source = 1 + PERI_SOLID - c.space;
-            compare(&o, row, act, &s, &c, &want[(PERI_SOLID - c.space) + 3 * (PERI_LINEAR - c.geometry)]);
+            c.space = PERI_SPACE_PLANE_STRESS + (n + n / 3 + n / 9) % 3;
+            c.geometry = PERI_GEOMETRY_NONLINEAR + n / 2 % 2;
+            if (row->other == 2) c.source = PERI_SOURCE_BOX + PERI_SPACE_SOLID - c.space;
+            compare(&o, row, act, &s, &c, &want[(PERI_SPACE_SOLID - c.space) + 3 * (PERI_GEOMETRY_LINEAR - c.geometry)]);
         }
     }
     for (k = 0; k < 6; ++k) drop(&want[k]);
@@ -331,10 +332,10 @@ static outcome same_bits(const extreme *row, int32_t precision) {
                                  {1048576.0, 0.0009765625, 65536.0, 4096.0},
                                  {7.8886090522101181e-31, 6.2230152778611417e-61, 6.2230152778611417e-61, 1.2621774483536189e-29}};
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space < PERI_SPACE_COUNT_; ++space) {
-            const scene c = {space, precision, model, PERI_NONLINEAR, PERI_CRITERION_STRETCH, 1, 0};
+    int32_t law, space;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space) {
+            const scene c = {space, precision, law, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 1, 0};
             const act_fn act = row->other == 0 ? pull : hold;
             record want = {{0}, {0}, {0}, 0, 0};
             int k;
@@ -349,12 +350,12 @@ static outcome same_bits(const extreme *row, int32_t precision) {
 static outcome every_thickness(const extreme *row, int32_t precision) {
     static const double thick[] = {1e-9, 1e-3, 1e6};
     outcome o = {PERI_OK, "", 0};
-    int32_t model, space;
-    for (model = PERI_BOND_BASED; model < PERI_MODEL_COUNT_; ++model)
-        for (space = PERI_PLANE_STRESS; space <= PERI_PLANE_STRAIN; ++space) {
-            const int by_energy = model != PERI_BOND_BASED && space == PERI_PLANE_STRAIN;
+    int32_t law, space;
+    for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
+        for (space = PERI_SPACE_PLANE_STRESS; space <= PERI_SPACE_PLANE_STRAIN; ++space) {
+            const int by_energy = law != PERI_LAW_BOND_BASED && space == PERI_SPACE_PLANE_STRAIN;
             const int32_t criterion = by_energy ? PERI_CRITERION_BOND_ENERGY : PERI_CRITERION_STRETCH;
-            const scene c = {space, precision, model, PERI_NONLINEAR, criterion, 0, 0};
+            const scene c = {space, precision, law, PERI_GEOMETRY_NONLINEAR, criterion, 0, 0};
             record want = {{0}, {0}, {0}, 0, 0};
             int k;
             o = extreme_end(o, pull(&o, &one, &c, &want));
@@ -378,7 +379,7 @@ static outcome far_units(const extreme *row, int32_t precision) {
     memset(want, 0, sizeof want);
     for (k = 0; k < 2; ++k)
         for (space = 0; space < 3; ++space) {
-            const scene c = {space + 1, precision, k ? PERI_CORRESPONDENCE : PERI_BOND_BASED, PERI_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+            const scene c = {space + 1, precision, k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
             o = extreme_end(o, pull(&o, &one, &c, &want[k][space]));
         }
     for (a = -most; a <= most; ++a)
@@ -386,9 +387,9 @@ static outcome far_units(const extreme *row, int32_t precision) {
             for (d = -most; d <= most && o.status == PERI_OK; ++d) {
                 const double ten = pow(10, row->value);
                 const units s = {pow(ten, a), pow(ten, e), pow(ten, d), pow(ten, a)};
-                scene c = {1 + (a + e + d + 3 * most) % 3, precision, 0, PERI_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+                scene c = {1 + (a + e + d + 3 * most) % 3, precision, 0, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
                 k = (a + d + 2 * most) % 2;
-                c.model = k ? PERI_CORRESPONDENCE : PERI_BOND_BASED;
+                c.law = k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED;
                 compare(&o, row, pull, &s, &c, &want[k][c.space - 1]);
                 right += o.status == PERI_OK;
                 if (o.status == PERI_ERROR_RANGE && !row->choice) o.status = PERI_OK;
@@ -406,7 +407,7 @@ static outcome one_far_unit(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     units s = one;
     record r = {{0}, {0}, {0}, 0, 0};
-    const scene c = {row->other == 2 ? PERI_PLANE_STRAIN : PERI_SOLID, precision, PERI_LPS, PERI_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+    const scene c = {row->other == 2 ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_SOLID, precision, PERI_LAW_LPS, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
     double *const which[4] = {&s.length, &s.stress, &s.density, &s.thickness};
     *which[row->choice] = pow(10, row->value);
     o = extreme_end(o, pull(&o, &s, &c, &r));
@@ -421,7 +422,7 @@ static outcome planned_far(const extreme *row, int32_t precision) {
     for (k = 0; k < 3 * 41; ++k) {
         const double ten = pow(10, 15.0 * (k % 41 - 20)), l = k / 41 == 0 ? ten : 1;
         peri_body_desc d;
-        peri_material m;
+        peri_material_desc m;
         peri_plan_desc p;
         peri_plan_report report;
         peri_error error;
@@ -429,7 +430,7 @@ static outcome planned_far(const extreme *row, int32_t precision) {
         outcome built = {PERI_OK, "", 0};
         int i, same;
         extreme_desc(&d, 1 + k % 3, precision, 2 * l);
-        extreme_material(&m, PERI_LPS, 0.2, 0.1);
+        extreme_material(&m, PERI_LAW_LPS, 0.2, 0.1);
         if (k / 41 == 1) m.young = ten;
         if (k / 41 == 2) m.density = ten;
         peri_plan_desc_init(&p);
@@ -438,7 +439,7 @@ static outcome planned_far(const extreme *row, int32_t precision) {
         p.spacing = l;
         for (i = 0; i < 3; ++i) p.hi[i] = 5 * l;
         if (!extreme_fails(&built, NULL, peri_body_create(&d, &b, NULL)) && !extreme_fails(&built, b, peri_add_material(b, &m))
-            && !extreme_fails(&built, b, peri_add_box(b, 0, p.lo, p.hi, l)))
+            && !extreme_fails(&built, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), p.lo, p.hi, l)))
             (void)extreme_fails(&built, b, peri_build(b));
         same = peri_plan(&p, &report, &error) == built.status && strcmp(built.field, error.field) == 0;
         if (built.status == PERI_OK) /* a box without correction: exact (peri.h) */
@@ -456,18 +457,18 @@ static outcome constants(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double h = row->value;
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
     double got = 0, want;
-    extreme_desc(&d, PERI_SOLID, precision, h);
-    extreme_material(&m, row->choice ? PERI_LPS : PERI_BOND_BASED, 0.25, 0);
+    extreme_desc(&d, PERI_SPACE_SOLID, precision, h);
+    extreme_material(&m, row->choice ? PERI_LAW_LPS : PERI_LAW_BOND_BASED, 0.25, 0);
     m.young = row->other;
     if (row->choice) {
         m.criterion = PERI_CRITERION_BOND_ENERGY;
         m.fracture_energy = row->other;
     }
     if (!extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) && !extreme_fails(&o, b, peri_add_material(b, &m)))
-        (void)extreme_fails(&o, b, row->choice ? peri_read_critical_energy(b, 0, &got) : peri_read_bond_constants(b, 0, 0, &got, NULL));
+        (void)extreme_fails(&o, b, row->choice ? peri_get_critical_energy(b, peri_id(b, PERI_KIND_MATERIAL, 1), &got) : peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), &got, NULL));
     /* c = 18 K/(pi h^4), K = E/1.5; w0 = 4 G0/(pi h^4) */
     want = (row->choice ? 4 * row->other : 12 * row->other) / 3.14159265358979323846 / h / h / h / h;
     if (o.status == PERI_OK) extreme_note(&o, row, precision, fabs(got / want - 1), "%g, not %g", got, want);
@@ -483,11 +484,11 @@ static outcome unused(const extreme *row, int32_t precision) {
     for (k = -1; k < 16 && o.status == PERI_OK; ++k) {
         const double lo[3] = {0, 0, 0}, hi[3] = {5, 4, 3}, ground[3] = {0, -1, 0}, up[3] = {0, 1, 0};
         peri_body_desc d;
-        peri_material m, other;
+        peri_material_desc m, other;
         peri_body *b = NULL;
         int32_t id = 0;
-        extreme_desc(&d, PERI_SOLID, precision, 2);
-        extreme_material(&m, PERI_LPS, 0.3, 0.1);
+        extreme_desc(&d, PERI_SPACE_SOLID, precision, 2);
+        extreme_material(&m, PERI_LAW_LPS, 0.3, 0.1);
         other = m;
         if (k >= 0) other.young = far_[k % 4];
         if (k >= 0) other.density = far_[k / 4];
@@ -515,18 +516,18 @@ static outcome obstacle(const extreme *row, int32_t precision) {
     const double place[3] = {row->choice == 2 ? size : 0, 1.25, 0}, centre[3] = {2, 1.25 - size, 2};
     outcome o = {PERI_OK, "", 0};
     peri_body_desc d;
-    peri_material m;
+    peri_material_desc m;
     peri_body *b = NULL;
     int32_t id;
     double force[3];
-    extreme_desc(&d, PERI_SOLID, precision, 2);
-    extreme_material(&m, PERI_BOND_BASED, 0, 0);
+    extreme_desc(&d, PERI_SPACE_SOLID, precision, 2);
+    extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
     (void)extreme_fails(&o, b, peri_add_material(b, &m));
-    (void)extreme_fails(&o, b, peri_add_box(b, 0, lo, hi, 1));
+    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
     if (extreme_fails(&o, b, peri_build(b))) return extreme_end(o, b);
     id = row->choice == 1 ? peri_add_ball_obstacle(b, centre, size, 2, NULL, NULL) : peri_add_plane_obstacle(b, place, up, 2, NULL, NULL);
-    if (!extreme_fails(&o, b, id) && !extreme_fails(&o, b, peri_read_obstacle_force(b, id, force)))
+    if (!extreme_fails(&o, b, id) && !extreme_fails(&o, b, peri_get_obstacle_force(b, id, force)))
         /* one layer of 16 points is 0.75 deep: 2 * 0.75 * 16 = 24 */
         extreme_note(&o, row, precision, fabs(force[1] / 24 - 1) + fabs(force[0]) + fabs(force[2]), "force %g %g %g", force[0], force[1],
                      force[2]);
@@ -542,18 +543,18 @@ static outcome obstacle(const extreme *row, int32_t precision) {
 #define TRUTH "dimensional analysis: numbers over their units do not depend on the units"
 
 static const extreme rows[] = {
-    {"motion in all units, bond-based", TRUTH, every_unit, 1, 0, PERI_BOND_BASED, PERI_OK, NULL, MOTION},
-    {"motion in all units, LPS", TRUTH, every_unit, 1, 0, PERI_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, Oterkus", TRUTH, every_unit, 1, 0, PERI_OTERKUS, PERI_OK, NULL, MOTION},
-    {"motion in all units, correspondence", TRUTH, every_unit, 1, 0, PERI_CORRESPONDENCE, PERI_OK, NULL, MOTION},
-    {"motion in all units, bonds break by energy", TRUTH, every_unit, 2, 0, PERI_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, nodes break by energy", TRUTH, every_unit, 3, 0, PERI_CORRESPONDENCE, PERI_OK, NULL, MOTION},
-    {"motion in all units, clouds and weights, LPS", TRUTH, every_unit, 1, 2, PERI_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, clouds and weights, correspondence", TRUTH, every_unit, 1, 2, PERI_CORRESPONDENCE, PERI_OK, NULL, MOTION},
-    {"equilibrium in all units, bond-based", TRUTH, every_unit, 1, 1, PERI_BOND_BASED, PERI_OK, NULL, REST},
-    {"equilibrium in all units, LPS", TRUTH, every_unit, 1, 1, PERI_LPS, PERI_OK, NULL, REST},
-    {"equilibrium in all units, Oterkus", TRUTH, every_unit, 1, 1, PERI_OTERKUS, PERI_OK, NULL, REST},
-    {"equilibrium in all units, correspondence", TRUTH, every_unit, 1, 1, PERI_CORRESPONDENCE, PERI_OK, NULL, REST},
+    {"motion in all units, bond-based", TRUTH, every_unit, 1, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, MOTION},
+    {"motion in all units, LPS", TRUTH, every_unit, 1, 0, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
+    {"motion in all units, Oterkus", TRUTH, every_unit, 1, 0, PERI_LAW_OTERKUS, PERI_OK, NULL, MOTION},
+    {"motion in all units, correspondence", TRUTH, every_unit, 1, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
+    {"motion in all units, bonds break by energy", TRUTH, every_unit, 2, 0, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
+    {"motion in all units, nodes break by energy", TRUTH, every_unit, 3, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
+    {"motion in all units, clouds and weights, LPS", TRUTH, every_unit, 1, 2, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
+    {"motion in all units, clouds and weights, correspondence", TRUTH, every_unit, 1, 2, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
+    {"equilibrium in all units, bond-based", TRUTH, every_unit, 1, 1, PERI_LAW_BOND_BASED, PERI_OK, NULL, REST},
+    {"equilibrium in all units, LPS", TRUTH, every_unit, 1, 1, PERI_LAW_LPS, PERI_OK, NULL, REST},
+    {"equilibrium in all units, Oterkus", TRUTH, every_unit, 1, 1, PERI_LAW_OTERKUS, PERI_OK, NULL, REST},
+    {"equilibrium in all units, correspondence", TRUTH, every_unit, 1, 1, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, REST},
     {"motion in powers of two", "such scaling rounds nothing: the same bits", same_bits, 0, 0, 0, PERI_OK, NULL, NONE},
     {"equilibrium in powers of two", "such scaling rounds nothing: the same bits", same_bits, 0, 1, 0, PERI_OK, NULL, NONE},
     {"plates of any thickness", "energies, forces, momenta by thickness; motion the same", every_thickness, 0, 0, 0, PERI_OK, NULL, MOTION},

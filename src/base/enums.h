@@ -1,0 +1,35 @@
+/* enums.h - the groups of enums of peri.h: where the values of each begin and end. They are disjoint, so that a value in the wrong field is
+   refused; arrays that have an entry for each go by value less the first. */
+#ifndef PERI_ENUMS_H
+#define PERI_ENUMS_H
+
+#define PERI_GROUP_(name, first, last)                                                                                 \
+    enum { peri__first_##name = (first), peri__end_##name = (last) + 1, peri__count_##name = (last) - (first) + 1 }
+
+PERI_GROUP_(space, PERI_SPACE_PLANE_STRESS, PERI_SPACE_SOLID);
+PERI_GROUP_(precision, PERI_PRECISION_DOUBLE, PERI_PRECISION_SINGLE);
+PERI_GROUP_(geometry, PERI_GEOMETRY_NONLINEAR, PERI_GEOMETRY_LINEAR);
+PERI_GROUP_(influence, PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_USER);
+PERI_GROUP_(quadrature, PERI_QUADRATURE_FULL, PERI_QUADRATURE_PARTIAL_MOMENT);
+PERI_GROUP_(break_timing, PERI_BREAK_AT_STEP_END, PERI_BREAK_AFTER_DRIFT);
+PERI_GROUP_(correction, PERI_CORRECTION_NONE, PERI_CORRECTION_MOMENT);
+PERI_GROUP_(kernel, PERI_KERNEL_BEST, PERI_KERNEL_LIST);
+PERI_GROUP_(instructions, PERI_INSTRUCTIONS_BEST, PERI_INSTRUCTIONS_AVX512);
+PERI_GROUP_(law, PERI_LAW_BOND_BASED, PERI_LAW_CORRESPONDENCE);
+PERI_GROUP_(criterion, PERI_CRITERION_STRETCH, PERI_CRITERION_NODE_ENERGY);
+PERI_GROUP_(integrator, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_INTEGRATOR_CENTRAL_DIFFERENCE);
+PERI_GROUP_(method, PERI_METHOD_NEWTON, PERI_METHOD_RELAXATION);
+PERI_GROUP_(preconditioner, PERI_PRECONDITIONER_MULTILEVEL, PERI_PRECONDITIONER_NONE);
+PERI_GROUP_(loose, PERI_LOOSE_REFUSED, PERI_LOOSE_BALANCED);
+PERI_GROUP_(type, PERI_TYPE_F64, PERI_TYPE_I32);
+PERI_GROUP_(source, PERI_SOURCE_BOX, PERI_SOURCE_POINTS);
+PERI_GROUP_(quantity, PERI_QUANTITY_DEFORMATION, PERI_QUANTITY_FRACTURE);
+PERI_GROUP_(preset, PERI_PRESET_NONE, PERI_PRESET_REFERENCE);
+PERI_GROUP_(field, PERI_FIELD_POSITION, PERI_FIELD_REACTION);
+PERI_GROUP_(standing, PERI_CUT_INITIAL, PERI_CUT_IN_PLACE);
+PERI_GROUP_(kind, PERI_KIND_MATERIAL, PERI_KIND_OBSTACLE);
+PERI_GROUP_(status, PERI_ERROR_LEFT_OUT, PERI_STOPPED);
+
+#define PERI_IS_ONE_OF(group, value) ((value) >= peri__first_##group && (value) < peri__end_##group)
+
+#endif
