@@ -204,7 +204,7 @@ static int peri__recipe_serves(const peri__recipe *r, const peri_body_desc *body
 
 /* What is wrong with the question, if anything is. */
 static int32_t peri__check_goal(const peri_choose_desc *g, const peri_body_desc *body, const peri_material_desc *material, peri_error *error) {
-    if (g->cookie != PERI_COOKIE_GOAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "goal", -1, 0.0);
+    if (g->cookie != PERI_COOKIE_GOAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     if (material->cookie != PERI_COOKIE_MATERIAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
     if (!PERI_IS_ONE_OF(preset, g->preset)) return peri__set_error(error, PERI_ERROR_CHOICE, "preset", -1, g->preset);
     if (!PERI_IS_ONE_OF(quantity, g->quantity))
@@ -213,9 +213,9 @@ static int32_t peri__check_goal(const peri_choose_desc *g, const peri_body_desc 
     if (!(g->seconds >= 0.0 && peri__finite(g->seconds))) return peri__set_error(error, PERI_ERROR_RANGE, "seconds", -1, g->seconds);
     if (g->bytes < 0) return peri__set_error(error, PERI_ERROR_RANGE, "bytes", -1, (double)g->bytes);
     if (!(g->feature > 0.0 && peri__finite(g->feature))) return peri__set_error(error, PERI_ERROR_RANGE, "feature", -1, g->feature);
-    if ((g->preset != PERI_PRESET_NONE) + (g->error > 0.0) > 1) return peri__set_error(error, PERI_ERROR_ARGUMENT, "preset, error", -1, 0.0);
+    if ((g->preset != PERI_PRESET_NONE) + (g->error > 0.0) > 1) return peri__set_error(error, PERI_ERROR_ARGUMENT, "preset", -1, 0.0);
     if (g->preset == PERI_PRESET_NONE && g->error <= 0.0 && g->seconds <= 0.0 && g->bytes == 0)
-        return peri__set_error(error, PERI_ERROR_ARGUMENT, "preset, error, seconds, bytes", -1, 0.0);
+        return peri__set_error(error, PERI_ERROR_ARGUMENT, "preset", -1, 0.0);
     const double nu = peri__poisson(material, body->space);
     if (!(nu >= PERI_POISSON_LOW && nu <= PERI_POISSON_HIGH)) return peri__set_error(error, PERI_ERROR_RANGE, "poisson", -1, nu);
     return PERI_OK;
@@ -256,7 +256,7 @@ PERI_API int32_t peri_choose(const peri_choose_desc *goal, peri_body_desc *body,
     if (!error) error = &local;
     (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
     if (!goal || !body || !material || !choice)
-        return peri__set_error(error, PERI_ERROR_ARGUMENT, !goal ? "goal" : !body ? "body" : !material ? "material" : "choice", -1, 0.0);
+        return peri__set_error(error, PERI_ERROR_ARGUMENT, !goal ? "desc" : !body ? "body" : !material ? "material" : "report", -1, 0.0);
     desc = *body;
     desc.horizon = 1.0; /* what is chosen need not have been set */
     desc.influence = PERI_INFLUENCE_CONSTANT;

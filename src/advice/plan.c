@@ -81,7 +81,7 @@ static int32_t peri__open_estimate(peri__estimate *s, const peri_plan_desc *plan
     memset(s, 0, sizeof *s);
     peri__start_body(b, plan->body);
     PERI_NEED_CHOICE(b, source, plan->source);
-    PERI_NEED(b, plan->measure == 0 || plan->measure == 1, "measure");
+    PERI_NEED_FLAG(b, plan->measure);
     PERI_NEED_NUMBER(b, plan->amount >= 0.0 && plan->amount <= 1.0, plan->amount);
     int32_t status = peri__check_material(b, plan->material, 1);
     if (status < 0) return status;
@@ -465,7 +465,7 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
     (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
     if (report) memset(report, 0, sizeof *report);
     if (!plan || !report) return peri__set_error(error, PERI_ERROR_ARGUMENT, plan ? "report" : "plan", -1, 0.0);
-    if (plan->cookie != PERI_COOKIE_PLAN) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "plan", -1, 0.0);
+    if (plan->cookie != PERI_COOKIE_PLAN) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     if (!plan->body) return peri__set_error(error, PERI_ERROR_ARGUMENT, "body", -1, 0.0);
     int32_t status = peri__check_desc(plan->body, error);
     if (status < 0) return status;

@@ -143,7 +143,7 @@ static const char *peri__field_name(const char *expression) {
     if (!(b)->model) return peri__fail((b), PERI_ERROR_ORDER, "peri_build", -1, 0.0)
 #define PERI_NEED_UNBUILT(b)                                                                                           \
     PERI_NEED_BODY(b);                                                                                                 \
-    if ((b)->model || (b)->running) return peri__fail((b), PERI_ERROR_ORDER, (b)->running ? "callback" : "peri_build", -1, 0.0)
+    if ((b)->model || (b)->running) return peri__fail((b), PERI_ERROR_ORDER, (b)->running ? "peri_unlock" : "peri_build", -1, 0.0)
 #define PERI_NEED_VECTOR(b, vector)                                                                                    \
     PERI_NEED(b, vector, #vector);                                                                                     \
     if (!peri__finite_vector(vector, (b)->dim)) return peri__fail((b), PERI_ERROR_RANGE, #vector, -1, 0.0)
@@ -157,7 +157,7 @@ static const char *peri__field_name(const char *expression) {
 /* Of a built body: what a callback within a step may not change; and the state, which no callback may. */
 #define PERI_NEED_CHANGEABLE(b)                                                                                        \
     PERI_NEED_BUILT(b);                                                                                                \
-    if ((b)->running > PERI__IN_FRAME) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)
+    if ((b)->running > PERI__IN_FRAME) return peri__fail((b), PERI_ERROR_ORDER, "peri_unlock", -1, 0.0)
 #define PERI_NEED_IDLE(b)                                                                                              \
     PERI_NEED_BUILT(b);                                                                                                \
-    if ((b)->running) return peri__fail((b), PERI_ERROR_ORDER, "callback", -1, 0.0)
+    if ((b)->running) return peri__fail((b), PERI_ERROR_ORDER, "peri_unlock", -1, 0.0)

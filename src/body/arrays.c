@@ -215,7 +215,8 @@ static int64_t peri__held_total(const int64_t *held) {
 
 PERI_API int32_t peri_get_memory(const peri_body *b, peri_memory *memory) {
     int64_t held[PERI__PURPOSES] = { 0 };
-    if (!b || !memory) return PERI_ERROR_ARGUMENT;
+    PERI_NEED_BODY(b);
+    if (!memory) return peri__fail_const(b, PERI_ERROR_ARGUMENT, "memory", -1, 0.0);
     if (b->model) peri__count_model(b, b->model, held);
     memory->shared = peri__held_total(held);
     peri__count_body(b, held);

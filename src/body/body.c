@@ -21,23 +21,30 @@ PERI_API void peri_body_desc_init(peri_body_desc *d) {
     d->thickness = 1.0;
 }
 
-/* The name of the first field out of range, or NULL. */
-static const char *peri__bad_choice(const peri_body_desc *d) {
-    if (!PERI_IS_ONE_OF(space, d->space)) return "space";
-    if (!PERI_IS_ONE_OF(precision, d->precision)) return "precision";
-    if (!PERI_IS_ONE_OF(geometry, d->geometry)) return "geometry";
-    if (!PERI_IS_ONE_OF(influence, d->influence)) return "influence";
-    if (d->influence == PERI_INFLUENCE_USER && !d->influence_fn) return "influence_fn";
-    if (!PERI_IS_ONE_OF(quadrature, d->quadrature)) return "quadrature";
-    if (d->space == PERI_SPACE_SOLID && peri__is_planar(d->quadrature)) return "quadrature";
-    if (!PERI_IS_ONE_OF(break_timing, d->break_timing)) return "break_timing";
-    if (!PERI_IS_ONE_OF(correction, d->correction)) return "correction";
-    if (d->correction != PERI_CORRECTION_NONE && peri__is_planar(d->quadrature)) return "correction";
-    if (d->threads < 0) return "threads";
-    if (!PERI_IS_ONE_OF(kernel, d->kernel)) return "kernel";
-    if (!PERI_IS_ONE_OF(instructions, d->instructions)) return "instructions";
-    if ((d->allocate == NULL) != (d->release == NULL)) return "allocate, release";
-    return NULL;
+/* Refuses the first choice of a descriptor that is none, or that others exclude. */
+static int32_t peri__check_choices(const peri_body_desc *d, peri_error *error) {
+#define PERI_CHOICE_(field, condition)                                                                                 \
+    if (!(condition)) return peri__set_error(error, PERI_ERROR_CHOICE, #field, -1, (double)d->field)
+    PERI_CHOICE_(space, PERI_IS_ONE_OF(space, d->space));
+    PERI_CHOICE_(precision, PERI_IS_ONE_OF(precision, d->precision));
+    PERI_CHOICE_(geometry, PERI_IS_ONE_OF(geometry, d->geometry));
+    PERI_CHOICE_(influence, PERI_IS_ONE_OF(influence, d->influence));
+    PERI_CHOICE_(quadrature, PERI_IS_ONE_OF(quadrature, d->quadrature));
+    PERI_CHOICE_(quadrature, d->space != PERI_SPACE_SOLID || !peri__is_planar(d->quadrature));
+    PERI_CHOICE_(correction, PERI_IS_ONE_OF(correction, d->correction));
+    PERI_CHOICE_(correction, d->correction == PERI_CORRECTION_NONE || !peri__is_planar(d->quadrature));
+    PERI_CHOICE_(break_timing, PERI_IS_ONE_OF(break_timing, d->break_timing));
+    PERI_CHOICE_(kernel, PERI_IS_ONE_OF(kernel, d->kernel));
+    PERI_CHOICE_(instructions, PERI_IS_ONE_OF(instructions, d->instructions));
+    PERI_CHOICE_(ledger, d->ledger == 0 || d->ledger == 1);
+#undef PERI_CHOICE_
+    if (d->influence == PERI_INFLUENCE_USER && !d->influence_fn)
+        return peri__set_error(error, PERI_ERROR_ARGUMENT, "influence_fn", -1, 0.0);
+    if ((d->allocate == NULL) != (d->release == NULL))
+        return peri__set_error(error, PERI_ERROR_ARGUMENT, d->allocate ? "release" : "allocate", -1, 0.0);
+    if (d->threads < 0) return peri__set_error(error, PERI_ERROR_RANGE, "threads", -1, d->threads);
+    if (d->number < 0 || d->number > 127) return peri__set_error(error, PERI_ERROR_RANGE, "number", -1, d->number);
+    return PERI_OK;
 }
 
 /* The switch that left a space or a precision out of this build, or NULL. */
@@ -69,8 +76,8 @@ static const char *peri__without_precision(int32_t precision) {
 static int32_t peri__check_desc(const peri_body_desc *desc, peri_error *error) {
     if (!desc) return peri__set_error(error, PERI_ERROR_ARGUMENT, "desc", -1, 0.0);
     if (desc->cookie != PERI_COOKIE_BODY) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
-    const char *bad = peri__bad_choice(desc);
-    if (bad) return peri__set_error(error, PERI_ERROR_ARGUMENT, bad, -1, 0.0);
+    const int32_t status = peri__check_choices(desc, error);
+    if (status < 0) return status;
     const char *without = peri__without_space(desc->space);
     if (!without) without = peri__without_precision(desc->precision);
     if (without) return peri__set_error(error, PERI_ERROR_LEFT_OUT, without, -1, 0.0);
@@ -376,7 +383,7 @@ static int32_t peri__update_classes(peri_body *b) {
     int32_t n = m->materials;
     if (!b->point_class && (n > 1 || b->no_fail)) {
         b->point_class = (uint8_t *)peri__new(&b->memory, m->points, 1);
-        if (!b->point_class) return peri__fail(b, PERI_ERROR_MEMORY, "classes", -1, 0.0);
+        if (!b->point_class) return peri__fail(b, PERI_ERROR_MEMORY, "laws", -1, 0.0);
     }
     b->classes = b->no_fail ? 2 * n : n;
     for (int32_t p = 0; p < b->classes; ++p)
@@ -429,7 +436,7 @@ PERI_API int32_t peri_build(peri_body *b) {
     m = (peri__model *)peri__new(&b->memory, 1, sizeof *m);
     if (!m) {
         peri__leave(b, former);
-        return peri__fail(b, PERI_ERROR_MEMORY, "model", -1, 0.0);
+        return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
     }
     m->memory = b->memory;
     m->users = 1;

@@ -70,7 +70,7 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
     if (copy) *copy = NULL;
     if (!from || !copy) return peri__set_error(error, PERI_ERROR_ARGUMENT, from ? "copy" : "body", -1, 0.0);
     if (!from->model) return peri__set_error(error, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
-    if (from->running > PERI__IN_FRAME) return peri__set_error(error, PERI_ERROR_ORDER, "callback", -1, 0.0);
+    if (from->running > PERI__IN_FRAME) return peri__set_error(error, PERI_ERROR_ORDER, "peri_unlock", -1, 0.0);
     b = (peri_body *)peri__new(&from->memory, 1, sizeof *b);
     if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
     peri__start_body(b, &from->desc);

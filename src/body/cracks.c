@@ -66,7 +66,7 @@ static int32_t peri__need_flags(peri_body *b, int32_t standing) {
     const int initial = standing == PERI_CUT_INITIAL;
     if (initial && b->now.steps > 0) return peri__fail(b, PERI_ERROR_ORDER, "standing", -1, standing);
     if (initial && !b->uncut) b->uncut = peri__new_flags(b);
-    if ((initial && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "cracks", -1, 0.0);
+    if ((initial && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "damage", -1, 0.0);
     return PERI_OK;
 }
 
@@ -161,7 +161,7 @@ static int64_t peri__cut_polygon(peri_body *b, int32_t standing, int count, doub
     }
     double area = sqrt(peri__dot(normal, normal, dim));
     if (!(area > 1e-12 * (dim == 2 ? extent : extent * extent)) || !peri__finite(area))
-        return peri__fail(b, PERI_ERROR_CRACK, "crack", -1, 0.0);
+        return peri__fail(b, PERI_ERROR_CRACK, count == 2 ? "to" : count == 3 ? "r" : "edge2", -1, 0.0);
     for (int side = 0; side < 2; ++side) {
         peri__add_face(&crack, normal, vertex[0], touch, dim);
         for (int32_t d = 0; d < dim; ++d) normal[d] = -normal[d];
@@ -344,14 +344,14 @@ PERI_API int32_t peri_set_no_fail(peri_body *b, int32_t id, int32_t on) {
     uint8_t *fresh = NULL;
     if (!b->no_fail) {
         fresh = b->no_fail = (uint8_t *)peri__new(&b->memory, b->model->points, 1);
-        if (!fresh) return peri__fail(b, PERI_ERROR_MEMORY, "no_fail", -1, 0.0);
+        if (!fresh) return peri__fail(b, PERI_ERROR_MEMORY, "damage", -1, 0.0);
     }
     int32_t status = peri__update_classes(b); /* takes memory, so before anything changes */
     if (status < 0) {
         peri__delete(&b->memory, fresh, b->model->points, 1);
         b->no_fail = NULL;
         (void)peri__update_classes(b);
-        return peri__fail(b, PERI_ERROR_MEMORY, "classes", -1, 0.0);
+        return peri__fail(b, PERI_ERROR_MEMORY, "laws", -1, 0.0);
     }
     for (int64_t k = 0; k < peri__set_count(b, set); ++k) b->no_fail[peri__set_point(b, set, k)] = (uint8_t)on;
     return peri__update_classes(b);
@@ -361,7 +361,7 @@ PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
     PERI_NEED_CHANGEABLE(b);
     if (fn && !b->before) {
         b->before = (uint32_t *)peri__new(&b->memory, b->model->points * b->model->words, sizeof *b->before);
-        if (!b->before) return peri__fail(b, PERI_ERROR_MEMORY, "break events", -1, 0.0);
+        if (!b->before) return peri__fail(b, PERI_ERROR_MEMORY, "peri_on_break", -1, 0.0);
     } else if (!fn) {
         peri__delete(&b->memory, b->before, b->model->points * b->model->words, sizeof *b->before);
         b->before = NULL;

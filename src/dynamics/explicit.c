@@ -70,7 +70,7 @@ static int32_t peri__unstagger(peri_body *b, double dt, double damping) {
     operands.kick = 0.5 * dt * operands.keep;
     operands.loss_new = b->desc.ledger ? h : 0.0;
     peri__kick(b, &operands, &bad);
-    return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->now.time) : PERI_OK;
+    return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time) : PERI_OK;
 }
 
 /* One step of dt (inner units) to the time `next`. */
@@ -126,7 +126,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         operands.loss_old = 0.0;
         peri__kick(b, &operands, &bad);
     }
-    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "at the time", bad, b->now.time);
+    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
     return PERI_OK;
 }
 
@@ -142,7 +142,7 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     if (!peri__is_nan(r->load_factor)) PERI_NEED_NUMBER(b, 1, r->load_factor);
     PERI_NEED(b, r->frame_steps >= 0, "frame_steps");
     PERI_NEED(b, r->steps >= 0, "steps");
-    if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "steps, duration", -1, r->duration);
+    if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "duration", -1, r->duration);
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     const double unit = b->model->time;
     double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;

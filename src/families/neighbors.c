@@ -194,7 +194,7 @@ static int32_t peri__write_families(peri_body *b, peri__cloud *c, int numbered) 
     if (c->weighs) m->weight = peri__new_tail(&m->memory, m->entries, peri__bond_real(b), PERI_GROUP);
     if (!sums || (c->weighs && !m->weight)) {
         peri__delete(&m->memory, sums, blocks, sizeof *sums);
-        return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
+        return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     }
     peri__for_points(b, c->cell_count, 256, peri__fill_block, c, sums);
     for (int64_t k = 0; k * PERI_BLOCK < c->cell_count; ++k) {

@@ -467,7 +467,7 @@ static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
         peri__delete(&b->memory, d, 1, sizeof *d);
     }
     if (status < 0) peri__free_stencil(m);
-    return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "stencil", -1, 0.0) : 0;
+    return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0) : 0;
 }
 
 /* Brings the masks of the columns of a group up to date with flags[points][words], bit k of a row for its k-th bond, in some lanes. */

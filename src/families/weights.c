@@ -261,7 +261,7 @@ static void peri__row_sum_block(void *context, int64_t begin, int64_t end, peri_
 static int32_t peri__keep_lengths(peri_body *b, const peri__cloud *c) {
     peri__model *m = c->model;
     void *bond = peri__new(&m->memory, m->entries, peri__bond_real(b));
-    if (!bond) return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
+    if (!bond) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     for (int64_t i = 0; i < m->points; ++i)
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
             peri__put_real(bond, b->b32, at, peri__listed_length(c, i, at));
@@ -279,7 +279,7 @@ static int32_t peri__weigh(peri_body *b, peri__cloud *c, peri__sums *sums) {
     if (parts) m->partial_volume = (float *)peri__new(&m->memory, m->entries, sizeof(float));
     if (centroids) m->centroid = peri__new(&m->memory, m->entries * m->dim, real);
     if (!m->weight || (parts && !m->partial_volume) || (centroids && (!m->bond || !m->centroid)))
-        return peri__fail(b, PERI_ERROR_MEMORY, "weights", -1, 0.0);
+        return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
     if (b->desc.influence == PERI_INFLUENCE_USER) { /* the caller's function runs on the caller's thread */
         for (int64_t k = 0; k < m->blocks; ++k) {
             memset(&sums[k], 0, sizeof sums[k]);

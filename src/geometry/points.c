@@ -69,7 +69,7 @@ static int32_t peri__lattice(peri_body *b, int32_t material, const double *lo, c
     for (int32_t d = 0; d < b->dim; ++d) {
         double count = floor((hi[d] - lo[d]) / spacing + 0.5);
         if (!(hi[d] > lo[d]) || !peri__finite(hi[d] - lo[d]))
-            return peri__fail(b, PERI_ERROR_RANGE, "hi - lo", d, hi[d] - lo[d]);
+            return peri__fail(b, PERI_ERROR_RANGE, "hi", d, hi[d] - lo[d]);
         if (count < 1.0) count = 1.0;
         sites *= count;
         if (sites > (double)PERI_POINT_LIMIT) return peri__fail(b, PERI_ERROR_TOO_LARGE, "spacing", -1, sites);
@@ -130,9 +130,9 @@ static int64_t peri__add_lattice(peri_body *b, int32_t material, peri__piece *pi
         return peri__fail(b, PERI_ERROR_RANGE, "spacing", -1, cell_volume);
     if (inside) {
         taken = (uint8_t *)peri__new(&b->memory, sites / 8 + 1, 1);
-        if (!taken) return peri__fail(b, PERI_ERROR_MEMORY, "shape", -1, 0.0);
+        if (!taken) return peri__fail(b, PERI_ERROR_MEMORY, "peri_add_shape", -1, 0.0);
         added = peri__mark_sites(b, piece, sites, inside, user, taken);
-        if (added == 0) status = peri__fail(b, PERI_ERROR_EMPTY, "shape", -1, 0.0);
+        if (added == 0) status = peri__fail(b, PERI_ERROR_EMPTY, "peri_add_shape", -1, 0.0);
     }
     if (status == PERI_OK) status = peri__reserve_points(b, added);
     for (int64_t k = 0, point = s->point_count; status == PERI_OK && k < sites; ++k) {
@@ -245,7 +245,7 @@ PERI_API int64_t peri_add_perturbed_box(peri_body *b, int32_t material, const do
     int64_t vertices = peri__vertex_count(&piece, b->dim), at = 0;
     piece.vertex_bytes = vertices * b->dim * (int64_t)sizeof(double);
     piece.vertices = (double *)peri__new(&b->memory, piece.vertex_bytes, 1);
-    if (!piece.vertices) return peri__fail(b, PERI_ERROR_MEMORY, "vertices", -1, 0.0);
+    if (!piece.vertices) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
     for (int64_t v = 0; v < vertices; ++v) {
         int64_t rest = v, interior = 1, index[3];
         for (int32_t d = 0; d < b->dim; ++d) {

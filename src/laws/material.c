@@ -95,7 +95,7 @@ static int32_t peri__fill_units(peri_body *b, peri__model *m) {
                              m->energy * m->time, m->energy * m->time / m->length };
     for (size_t k = 0; k < sizeof units / sizeof *units; ++k)
         if (!(units[k] > 1e-250 && units[k] < 1e250))
-            return peri__fail(b, PERI_ERROR_RANGE, "units of length, modulus, density", -1, units[k]);
+            return peri__fail(b, PERI_ERROR_RANGE, "spacing, young, density", -1, units[k]);
     return PERI_OK;
 }
 
@@ -173,16 +173,16 @@ static int32_t peri__check_model(peri_body *b, const peri_material_desc *m) {
 }
 
 static int32_t peri__check_material(peri_body *b, const peri_material_desc *m, int need_density) {
-    PERI_NEED(b, m, "material");
-    if (m->cookie != PERI_COOKIE_MATERIAL) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
+    PERI_NEED(b, m, "desc");
+    if (m->cookie != PERI_COOKIE_MATERIAL) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     PERI_NEED_NUMBER(b, m->young >= 0.0, m->young);
     PERI_NEED_NUMBER(b, m->bulk >= 0.0, m->bulk);
     PERI_NEED_NUMBER(b, m->fracture_energy >= 0.0, m->fracture_energy);
     PERI_NEED_NUMBER(b, m->critical_stretch >= 0.0, m->critical_stretch);
     if (need_density) PERI_NEED_NUMBER(b, m->density > 0.0, m->density);
-    if ((m->young > 0.0) == (m->bulk > 0.0)) return peri__fail(b, PERI_ERROR_MATERIAL, "young, bulk", -1, m->bulk);
+    if ((m->young > 0.0) == (m->bulk > 0.0)) return peri__fail(b, PERI_ERROR_MATERIAL, "bulk", -1, m->bulk);
     if (m->fracture_energy > 0.0 && m->critical_stretch > 0.0)
-        return peri__fail(b, PERI_ERROR_MATERIAL, "fracture_energy, critical_stretch", -1, m->critical_stretch);
+        return peri__fail(b, PERI_ERROR_MATERIAL, "critical_stretch", -1, m->critical_stretch);
     return peri__check_model(b, m);
 }
 
@@ -223,7 +223,7 @@ PERI_API int32_t peri_set_interface(peri_body *b, int32_t first, int32_t second,
         }
     }
     if (!peri__grow(&b->memory, &b->interfaces, &b->interface_capacity, b->interface_count + 1, sizeof *b->interfaces))
-        return peri__fail(b, PERI_ERROR_MEMORY, "interface", -1, 0.0);
+        return peri__fail(b, PERI_ERROR_MEMORY, "peri_set_interface", -1, 0.0);
     peri__interface *face = &b->interfaces[b->interface_count++];
     face->i = i;
     face->j = j;

@@ -50,10 +50,10 @@ static double peri__unit_of(const peri__model *m, int32_t field) {
 }
 
 PERI_API int64_t peri_size_of_field(const peri_body *b, int32_t field) {
-    if (!b) return PERI_ERROR_ARGUMENT;
-    if (!b->model) return PERI_ERROR_ORDER;
-    int32_t components = peri__components(field, b->dim);
-    return components > 0 ? b->model->points * components : PERI_ERROR_FIELD;
+    PERI_NEED_BODY(b);
+    if (!b->model) return peri__fail_const(b, PERI_ERROR_ORDER, "peri_build", -1, 0.0);
+    if (!PERI_IS_ONE_OF(field, field)) return peri__fail_const(b, PERI_ERROR_CHOICE, "field", -1, field);
+    return b->model->points * peri__components(field, b->dim);
 }
 
 /* ---- what is stored ----------------------------------------------------------------------------------------------- */
@@ -190,7 +190,7 @@ static void peri__compute(peri_body *b, int32_t field, double *out) {
 
 /* Forces are what a write or a cut can leave out of date. */
 static int32_t peri__ready_field(peri_body *b, int32_t field) {
-    if (peri__components(field, b->dim) == 0) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
+    PERI_NEED_CHOICE(b, field, field);
     return peri__fields[field - peri__first_field].forces ? peri__ensure_force(b) : PERI_OK;
 }
 
@@ -230,7 +230,8 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
 
 PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, int64_t count) {
     PERI_NEED_IDLE(b);
-    if (field != PERI_FIELD_DISPLACEMENT && field != PERI_FIELD_VELOCITY) return peri__fail(b, PERI_ERROR_FIELD, "field", field, 0.0);
+    PERI_NEED_CHOICE(b, field, field);
+    if (field != PERI_FIELD_DISPLACEMENT && field != PERI_FIELD_VELOCITY) return peri__fail(b, PERI_ERROR_FIELD, "field", -1, field);
     PERI_NEED(b, in, "in");
     const peri__model *m = b->model;
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));

@@ -94,7 +94,7 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
     PERI_NEED(b, write, "write");
     n = b->model->points;
     double *values = (double *)peri__new(&b->memory, n * PERI_PACKED(b->dim), sizeof(double));
-    if (!values) return peri__fail(b, PERI_ERROR_MEMORY, "vtu", -1, 0.0);
+    if (!values) return peri__fail(b, PERI_ERROR_MEMORY, "peri_export_vtu_to", -1, 0.0);
     w.body = b;
     w.write = write;
     w.user = user;
@@ -145,6 +145,7 @@ PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write
     peri__writer w;
     peri_energy e;
     PERI_NEED_BUILT(b);
+    PERI_NEED_FLAG(b, header);
     PERI_NEED(b, write, "write");
     int32_t status = peri_get_energy(b, &e);
     if (status < 0) return status;
@@ -191,6 +192,8 @@ static int32_t peri__save(peri_body *b, const char *path, const char *mode, int 
 PERI_API int32_t peri_export_vtu(peri_body *b, const char *path) { return peri__save(b, path, "wb", 0); }
 
 PERI_API int32_t peri_export_history(peri_body *b, const char *path, int32_t append) {
+    PERI_NEED_BUILT(b);
+    PERI_NEED_FLAG(b, append);
     return peri__save(b, path, append ? "ab" : "wb", 1);
 }
 #endif

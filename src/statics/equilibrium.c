@@ -34,7 +34,7 @@ static int32_t peri__take_solver(peri__solver *s) {
     s->queue = (int32_t *)peri__take(s, m->points, sizeof *s->queue);
     s->k.model = b->model;
     s->k.constrained = s->constrained;
-    return ok && s->blocks && s->constrained && s->part_of && s->queue ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
+    return ok && s->blocks && s->constrained && s->part_of && s->queue ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "peri_solve", -1, 0.0);
 }
 
 /* ---- forces ------------------------------------------------------------------------------------------------------- */
@@ -112,7 +112,7 @@ static int32_t peri__check_small_loads(peri__solver *s) {
             const int64_t at = d * m->stride + i;
             others = fmax(others, fmax(m->volume[i] * fabs(peri__get_real(s->k.z, b->f32, at)), fabs(peri__get_real(b->u, b->f32, at))));
         }
-    return asked > 0.0 && asked < limit && others < limit ? peri__fail(b, PERI_ERROR_RANGE, "loads, supports", -1, asked) : PERI_OK;
+    return asked > 0.0 && asked < limit && others < limit ? peri__fail(b, PERI_ERROR_RANGE, "value", -1, asked) : PERI_OK;
 }
 
 static int peri__is_settled(peri__solver *s, double residual, double loads) {
@@ -163,7 +163,7 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
     }
     if (!s->levels && s->settings->preconditioner == PERI_PRECONDITIONER_MULTILEVEL && s->settings->method == PERI_METHOD_NEWTON) {
         s->levels = peri__build_levels(s);
-        if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
+        if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "peri_solve", -1, 0.0);
         s->bytes += s->levels->bytes;
     }
     peri__note_bytes(s);
@@ -308,7 +308,7 @@ static int32_t peri__newton(peri__solver *s) {
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))
-            return s->negative ? peri__fail_step(s, PERI_ERROR_INDEFINITE, "tangent", -1, 0.0) : PERI_OK;
+            return s->negative ? peri__fail_step(s, PERI_ERROR_INDEFINITE, "peri_solve", -1, 0.0) : PERI_OK;
         if (!(residual < HUGE_VAL) && k > 0) { /* the last way led out of all numbers: back */
             memcpy(b->u, s->k.p, peri__vector_bytes(b));
             s->report.residual = told;
@@ -325,8 +325,8 @@ static int32_t peri__newton(peri__solver *s) {
         s->negative = status == PERI_ERROR_INDEFINITE;
         if (status == PERI_ERROR_MEMORY) return status;
         if (status == PERI_ERROR_LOOSE || (linear && s->negative))
-            return peri__fail_step(s, status, "tangent", peri__most_moved(s), 0.0);
-        if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "displacement", -1, s->report.residual);
+            return peri__fail_step(s, status, "peri_solve", peri__most_moved(s), 0.0);
+        if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "PERI_FIELD_DISPLACEMENT", -1, s->report.residual);
         memcpy(s->k.p, b->u, peri__vector_bytes(b));
         if (linear || gap) {
             if (linear || status != PERI_STOPPED) peri__move(s, 1.0);

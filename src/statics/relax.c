@@ -41,7 +41,7 @@ static int32_t peri__relax(peri__solver *s) {
     double loads, residual;
     s->floor = peri__rounding(b) * s->top;
     if (peri__gap(s)) {
-        if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "displacement", -1, 0.0);
+        if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "PERI_FIELD_DISPLACEMENT", -1, 0.0);
         peri__move(s, 1.0);
     }
     memcpy(s->k.d, b->u, peri__vector_bytes(b));

@@ -252,14 +252,14 @@ static int32_t peri__find_floating_parts(peri__solver *s) {
         int64_t count = peri__connected(s, i, -1);
         peri__free_modes(s, count, &part);
         if (part.modes == 0) continue;
-        if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, (double)part.modes);
+        if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "loose", i, (double)part.modes);
         s->report.loose += part.modes;
         if (s->settings->loose == PERI_LOOSE_PINNED) {
             peri__pin(s, count, &part);
             continue;
         }
         if (!peri__grow(&b->memory, &s->parts, &s->part_capacity, s->part_count + 1, sizeof *s->parts))
-            return peri__fail(b, PERI_ERROR_MEMORY, "solver", -1, 0.0);
+            return peri__fail(b, PERI_ERROR_MEMORY, "peri_solve", -1, 0.0);
         for (int64_t n = 0; n < count; ++n) s->part_of[s->queue[n]] = (int32_t)s->part_count;
         s->parts[s->part_count++] = part;
     }
@@ -331,7 +331,7 @@ static int32_t peri__invert_blocks(peri__solver *s) {
             memset(last, 0, sizeof last);
             spanned = 0;
         } else if (spanned < frees) {
-            if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "point", i, 0.0);
+            if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "loose", i, 0.0);
             s->constrained[i] |= PERI_SINGULAR;
             s->singular++;
         }
