@@ -1,9 +1,8 @@
 /* peri.h - peridynamics in one include: deformation and fracture of solids by nonlocal bonds.
    SPDX-License-Identifier: MIT
 
-   A body is a cloud of points, each with a volume and a family: the points within its horizon. The
-   points of a family are joined by bonds, which carry the force. A bond that is stretched too far
-   breaks for good; cracks are where bonds are broken. There is no mesh and no tracking of cracks.
+   A body is a cloud of points, each with a volume and a family: the points within its horizon, to
+   which bonds join it. Bonds carry the force; one that is stretched too far breaks for good.
 
    BUILD, any one of (C99; the declarations are C++11, too; link with -lm; -fopenmp for all cores)
      cc -O2 -c peri_impl.c          once, up to a minute of gcc; every other file includes peri.h
@@ -30,15 +29,13 @@
      Planes   a point's "volume" is its area [L^2]; forces and energies include the thickness.
      Results  >= 0 is success: PERI_OK, an id or a count. < 0 is a peri_status; peri_get_error then
               tells field, place and value. A call that fails has changed nothing, unless said.
-     Ids      int32_t, never 0; each carries its kind and the number of its body, so that a load is
-              not taken for a set, nor an id of another body. An id that a failed call returned is
-              refused by the next call. Points are no ids: they are numbered from 0 as added.
-     Enums    have disjoint values, so that one in the wrong field is refused. Flags are 0 or 1.
-     Callback returns 0: go on, and of a choice: no. > 0: yes, or stop. < 0: it failed, which ends
-              the call with PERI_ERROR_CALLBACK. It may read the body that called it; what else
-              it may do, and how to leave it by a jump, see peri_unlock.
-     Threads  one at a time per body; different bodies, clones included, at once. Callbacks come
-              on the thread that made the call. Results have the same bits for any number.
+     Ids      carry their kind and the number of their body, and are never 0: a load is not taken
+              for a set, nor an id of another body. Points are no ids: 0, 1, ... as added.
+     Enums    have disjoint values: one in the wrong field is refused. Flags are 0 or 1.
+     Callback returns 0: go on, or no; > 0: stop, or yes; < 0: it failed, which ends the call with
+              PERI_ERROR_CALLBACK. It may read the body that called it.
+     Threads  one at a time per body; different bodies, clones included, at once. Results have the
+              same bits for any number. Callbacks come on the thread that made the call.
    The library never prints, exits, asserts, or keeps global state. Equations are cited from
    [T] the thesis, [L] the lecture, [P] PDMATLAB2D, [C] the convergence study: docs/theory.md. */
 
@@ -323,10 +320,8 @@ PERI_API int32_t peri_id(const peri_body *body, int32_t kind, int64_t index);
 typedef enum peri_law {
     PERI_LAW_BOND_BASED = 1001,    /* t = 1/2 c w s, s = e/|xi|: PMB, generalised [P] A, [T] 1.23 */
     PERI_LAW_LPS = 1002,           /* t = (w/m)(A theta |xi| + B e) [T] 1.54, 1.67, [C] 2-7 */
-    PERI_LAW_OTERKUS = 1003,       /* t = 2 w (a d theta + b e), calibrated on each family [C]
-                                      8-17 */
-    PERI_LAW_CORRESPONDENCE = 1004 /* T = w P K^-1 xi, stabilised; Saint Venant-Kirchhoff [C]
-                                      18-21 */
+    PERI_LAW_OTERKUS = 1003,       /* t = 2 w (a d theta + b e), on each family [C] 8-17 */
+    PERI_LAW_CORRESPONDENCE = 1004 /* T = w P K^-1 xi, stabilised [C] 18-21 */
 } peri_law;
 
 /* When a stretched bond breaks; between two materials: when either's criterion is met. */
@@ -370,8 +365,7 @@ PERI_API int32_t peri_get_critical_energy(peri_body *body, int32_t material, dou
 
 /* ---- points, before peri_build; each returns the number of points added, or an error  */
 
-/* The box lo[dim]..hi[dim] in cells of about `spacing` [L] that tile it; points at their
-   centres. */
+/* The box lo[dim]..hi[dim] in cells of about `spacing` [L], which tile it. */
 PERI_API int64_t peri_add_box(peri_body *body, int32_t material, const double *lo,
     const double *hi, double spacing);
 
@@ -412,8 +406,7 @@ PERI_API int64_t peri_step_count(const peri_body *body); /* steps, load steps to
 PERI_API double peri_time(const peri_body *body); /* [T] since build or reset */
 PERI_API double peri_load_factor(const peri_body *body); /* that loads act with; 0 before any did */
 
-/* How bonds are worked on: "columns, AVX-512", "list, SSE2", "rows", "reference"; "" before
-   build. */
+/* How bonds are worked on: "columns, AVX-512", "list, SSE2", "rows", "reference". */
 PERI_API const char *peri_kernel_text(const peri_body *body);
 
 /* Largest stable time step [T], a bound from the bonds of each point, unstretched ([T] 2.11), and
