@@ -26,7 +26,7 @@ typedef struct peri__estimate { /* 60 kB, on the stack of peri_plan: it allocate
     int32_t       axis[3];         /* the longest first                                                                  */
     int64_t       n[3];            /* cells per axis; 1 in the third of 2D                                               */
     double        jitter;          /* by how many cells a neighbour may be off its site, each way                        */
-    int64_t       far[3];          /* the longest bond along each axis, in cells                                         */
+    int64_t       span[3];         /* the longest bond along each axis, in cells                                         */
     int64_t       bonds, width;
     double        vectors;         /* lattice vectors of bonds                                                           */
     int64_t       vector_count;    /* those in `vector`: all, or 0 where they are too many                               */
@@ -91,7 +91,7 @@ static void peri__count_bonds(peri__estimate *s) {
     const int64_t n0 = s->n[s->axis[0]], n1 = s->n[s->axis[1]], n2 = s->n[s->axis[2]], before = (n0 - 1) / 2;
     int64_t bonds = 0, width = 0;
     double parts = 0.0, mean = 0.0, spread = 0.0, vectors = 0.0;
-    memset(s->far, 0, sizeof s->far);
+    memset(s->span, 0, sizeof s->span);
     for (int64_t q = 0; q < n2; ++q) {
         int64_t p = 0;
         for (; p < n1; ++p) {
@@ -99,9 +99,9 @@ static void peri__count_bonds(peri__estimate *s) {
             const int64_t copies = (p > 0 ? 2 : 1) * (q > 0 ? 2 : 1), places = (n1 - p) * (n2 - q);
             const int64_t sides = peri__sides(p, n1) * peri__sides(q, n2);
             if (out < 0) break;
-            if (out > s->far[s->axis[0]]) s->far[s->axis[0]] = out;
-            if (p > s->far[s->axis[1]]) s->far[s->axis[1]] = p;
-            if (q > s->far[s->axis[2]]) s->far[s->axis[2]] = q;
+            if (out > s->span[s->axis[0]]) s->span[s->axis[0]] = out;
+            if (p > s->span[s->axis[1]]) s->span[s->axis[1]] = p;
+            if (q > s->span[s->axis[2]]) s->span[s->axis[2]] = q;
             vectors += (double)copies * (2.0 * (double)out + 1.0);
             if (in >= 0) {
                 bonds += copies * places * (n0 + in * (2 * n0 - in - 1)); /* no part of it passes points^2 < 2^62 */
@@ -127,9 +127,9 @@ static void peri__list_vectors(peri__estimate *s) {
     int64_t count = 0;
     s->vector_count = 0;
     if (s->vectors <= 4.0 * PERI_VECTOR_LIMIT)
-        for (int64_t z = -s->far[2]; z <= s->far[2]; ++z)
-            for (int64_t y = -s->far[1]; y <= s->far[1]; ++y)
-                for (int64_t x = -s->far[0]; x <= s->far[0]; ++x) {
+        for (int64_t z = -s->span[2]; z <= s->span[2]; ++z)
+            for (int64_t y = -s->span[1]; y <= s->span[1]; ++y)
+                for (int64_t x = -s->span[0]; x <= s->span[0]; ++x) {
                     const double xi[3] = { (double)x, (double)y, (double)z };
                     if ((x == 0 && y == 0 && z == 0) || !peri__joins(s, xi)) continue;
                     if (count < PERI_VECTOR_LIMIT) {
@@ -213,16 +213,16 @@ static void peri__kind(int64_t n, int64_t k, int64_t further, int64_t kind, int6
 }
 
 /* Columns of the kinds of groups that start at x0: one group of each is looked for. The rows of a kind act alike up to `rows` rows on. */
-static int64_t peri__columns_from(const peri__estimate *s, int64_t x0, int64_t x1, const int64_t *near, int64_t margin) {
+static int64_t peri__columns_from(const peri__estimate *s, int64_t x0, int64_t x1, const int64_t *rim, int64_t margin) {
     const int64_t rows = (x0 + PERI_GROUP - 1) / s->n[0];
     int64_t total = 0;
-    for (int64_t p = 0; p < peri__kinds(s->n[1], near[1], rows); ++p) {
+    for (int64_t p = 0; p < peri__kinds(s->n[1], rim[1], rows); ++p) {
         int64_t y0, ys, z0, zs;
-        peri__kind(s->n[1], near[1], rows, p, &y0, &ys);
+        peri__kind(s->n[1], rim[1], rows, p, &y0, &ys);
         const int64_t slabs = ys == 1 ? (y0 + rows) / s->n[1] : 0;
-        for (int64_t q = 0; q < peri__kinds(s->n[2], near[2], slabs); ++q) {
+        for (int64_t q = 0; q < peri__kinds(s->n[2], rim[2], slabs); ++q) {
             int64_t found = 0;
-            peri__kind(s->n[2], near[2], slabs, q, &z0, &zs);
+            peri__kind(s->n[2], rim[2], slabs, q, &z0, &zs);
             for (int64_t k = 0; k < PERI_GROUP * PERI_GROUP && !found; ++k) {
                 const int64_t y = y0 + k % PERI_GROUP, z = z0 + k / PERI_GROUP;
                 for (int64_t x = x0; x <= x1 && y < y0 + ys && z < z0 + zs && !found; ++x) {
@@ -239,13 +239,13 @@ static int64_t peri__columns_from(const peri__estimate *s, int64_t x0, int64_t x
 /* Columns of all groups that differ. Groups away from the ends of a row are alike wherever they start. */
 static int64_t peri__kept_columns(const peri__estimate *s, int64_t margin) {
     const int64_t last = s->n[0] - 1;
-    int64_t near[3], total = 0;
-    for (int d = 0; d < 3; ++d) near[d] = s->corrected ? 2 * s->far[d] : s->far[d];
-    const int64_t inner = near[0], inner_last = last - near[0] - (PERI_GROUP - 1);
-    if (inner <= inner_last) total = peri__columns_from(s, inner, peri__min(inner_last, inner + PERI_GROUP - 1), near, margin);
+    int64_t rim[3], total = 0;
+    for (int d = 0; d < 3; ++d) rim[d] = s->corrected ? 2 * s->span[d] : s->span[d];
+    const int64_t inner = rim[0], inner_last = last - rim[0] - (PERI_GROUP - 1);
+    if (inner <= inner_last) total = peri__columns_from(s, inner, peri__min(inner_last, inner + PERI_GROUP - 1), rim, margin);
     for (int64_t x0 = 0; x0 <= last; ++x0) {
         if (x0 >= inner && x0 <= inner_last) x0 = inner_last + 1;
-        total += peri__columns_from(s, x0, x0, near, margin);
+        total += peri__columns_from(s, x0, x0, rim, margin);
     }
     return total;
 }
@@ -265,12 +265,12 @@ static int peri__estimate_stencil(peri__estimate *s) {
         const int32_t *v = s->vector[k];
         const int64_t offset = v[0] + s->n[0] * (v[1] + s->n[1] * v[2]);
         double kinds = m->dim == 3 ? 0.25 : 0.375; /* symmetry makes some alike: as boxes have it */
-        for (int d = 0; d < 3; ++d) kinds *= (double)peri__min(s->n[d], 2 * s->far[d] + 1);
+        for (int d = 0; d < 3; ++d) kinds *= (double)peri__min(s->n[d], 2 * s->span[d] + 1);
         l->columns += peri__groups_of(s, v);
         if (offset > l->reach) l->reach = offset;
         if (s->corrected) rows += kinds;
     }
-    const int64_t margin = s->corrected ? s->far[0] : 0;
+    const int64_t margin = s->corrected ? s->span[0] : 0;
     if (s->corrected) {
         l->columns += (int64_t)(0.7 * (double)peri__min(2 * margin, s->n[0]) * (double)s->bonds / (double)s->n[0]);
         l->vectors = rows < 2.0 * PERI_VECTOR_LIMIT ? (int32_t)rows : 2 * PERI_VECTOR_LIMIT;

@@ -327,7 +327,7 @@ static double peri__corner_row_sum(const peri__estimate *s) {
     peri__sample sample[PERI_CLASS_LIMIT];
     int64_t kinds[3], p[3], to[3], all = 1;
     double largest = 0.0, xi[3];
-    for (int d = 0; d < 3; ++d) all *= kinds[d] = 1 + peri__min(s->far[d], (s->n[d] - 1) / 2);
+    for (int d = 0; d < 3; ++d) all *= kinds[d] = 1 + peri__min(s->span[d], (s->n[d] - 1) / 2);
     for (int64_t k = 0; k < all; ++k) {
         p[0] = k % kinds[0];
         p[1] = k / kinds[0] % kinds[1];
@@ -363,7 +363,7 @@ static int32_t peri__plan_step(peri__estimate *s, double *step) {
     const double most = s->body.dim == 3 ? 5.0 : 15.0;
     int64_t all = 1;
     s->jitter = 0.0;
-    for (int d = 0; d < 3; ++d) all *= 1 + s->far[d];
+    for (int d = 0; d < 3; ++d) all *= 1 + s->span[d];
     if (s->vector_count == 0 || (!s->model.pairwise && all > PERI_CLASS_LIMIT)) {
         const double coarser = s->model.horizon / s->model.spacing / most;
         for (int32_t d = 0; d < s->body.dim; ++d) {

@@ -48,7 +48,7 @@ typedef struct peri__builder { /* what building needs and drops                 
     int32_t      *like;           /* those of the group at hand; NULL where they serve nothing                           */
     int32_t       ids[PERI_VECTOR_LIMIT]; /* the family of point ids_of, ascending                                       */
     int64_t       ids_of;
-    peri__near    near;
+    peri__near    around;
     peri__partial_volumes   parts;
 } peri__builder;
 
@@ -356,7 +356,7 @@ static int32_t peri__build_groups(peri__builder *d) {
         const int32_t *ids = m->ids ? &m->ids[m->start[i]] : d->ids;
         const int shifted = !m->ids && peri__shift_row(d, i);
         if (!m->ids && !shifted) {
-            (void)peri__visit_family(d->cloud, i, &d->near, d->ids, PERI_VECTOR_LIMIT);
+            (void)peri__visit_family(d->cloud, i, &d->around, d->ids, PERI_VECTOR_LIMIT);
             peri__sort_row(d->ids, m->count[i]);
             d->ids_of = i;
         }

@@ -153,9 +153,9 @@ PERI_ISA_TARGET PERI_INLINE void PERI_ISA_FN(dilatation_sum_column)(const PERI_I
         PERI_VECTOR eta[PERI_D], y[PERI_D], along;
         PERI_ISA_FN(moved)(s, bond, n, eta);
         const PERI_VECTOR now = PERI_ISA_FN(extend)(bond, eta, y, &along, linear);
-        const PERI_VECTOR far = PERI_IF(linear, along, along / (now + length));
+        const PERI_VECTOR extension = PERI_IF(linear, along, along / (now + length));
         const PERI_LIVE live = PERI_TO_LIVE(bond->mask >> (n * PERI_WIDTH));
-        PERI_ISA_FN(gather)(&sum[n], PERI_IF(whole, weight * far, PERI_KEEP_PRODUCT(live, weight, far)));
+        PERI_ISA_FN(gather)(&sum[n], PERI_IF(whole, weight * extension, PERI_KEEP_PRODUCT(live, weight, extension)));
     }
 }
 

@@ -93,12 +93,12 @@ static void PERI_FN(gather_list)(const peri__operands *o, int64_t begin, int64_t
 /* Points of group g that may have a bond beyond the critical energy of its ends. */
 static uint32_t PERI_FN(near_node_energy)(const peri__operands *o, int64_t g) {
     const peri__model *m = o->model;
-    uint32_t near = 0;
+    uint32_t rows = 0;
     for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
         const int64_t i = g * PERI_GROUP + l;
-        near |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY)) << l;
+        rows |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY)) << l;
     }
-    return near;
+    return rows;
 }
 
 /* The force on group g by columns; returns a bit for each point that must be done by rows. */
@@ -106,10 +106,10 @@ static uint32_t PERI_FN(group_force)(const peri__operands *o, int64_t g, peri_r 
     const peri__model *m = o->model;
     if (m->seen_by & PERI__BY_ROWS && o->breaking) return 0xFFFFu;
     if (m->pairwise) return PERI_BY_VECTORS(m, pairwise)(o, g, f);
-    uint32_t near = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
-    if (m->stencil.ends) return near | PERI_BY_VECTORS(m, mixed)(o, g, f);
-    if (!(m->gathers & PERI__GRADIENT)) return near | PERI_BY_VECTORS(m, ordinary)(o, g, f);
-    return o->central[g] ? 0xFFFFu : near | PERI_BY_VECTORS(m, tensor)(o, g, f);
+    uint32_t rows = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
+    if (m->stencil.ends) return rows | PERI_BY_VECTORS(m, mixed)(o, g, f);
+    if (!(m->gathers & PERI__GRADIENT)) return rows | PERI_BY_VECTORS(m, ordinary)(o, g, f);
+    return o->central[g] ? 0xFFFFu : rows | PERI_BY_VECTORS(m, tensor)(o, g, f);
 }
 
 /* The points of group g whose bits are set are done by rows, the others get f. */
