@@ -2,6 +2,9 @@
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
+#ifdef __cplusplus
+#error "peri_impl.c is C99: compile it as C (cc, not c++), and link it; C++ files include peri.h alone"
+#endif
 
 /* A build without some of its parts has functions that nothing calls; in the whole library such a function is a mistake. Ends with
    peri_impl.c. */
@@ -31,7 +34,7 @@
    their own (PERI_SPLIT), which an edit elsewhere leaves alone. */
 #ifndef PERI_SPLIT
 #define PERI_SHARED static
-#elif defined(__GNUC__) || defined(__clang__)
+#elif (defined(__GNUC__) || defined(__clang__)) && !defined(_WIN32) /* a DLL exports what says so */
 #define PERI_SHARED __attribute__((visibility("hidden")))
 #else
 #define PERI_SHARED
@@ -52,7 +55,7 @@
 /* Arithmetic is what is written, whatever the user's flags: refusals compare with NaN and infinity, which -ffinite-math-only would fold
    away, and both ends of a bond must come to the same number, which sums taken in another order or fused with products (FMA) do not.
    clang's -ffast-math fuses, and estimates square roots, in spite of the pragma. Ends with peri_impl.c. */
-#if defined(__clang__) && __clang_major__ >= 12
+#if defined(__clang__) && __clang_major__ >= 12 && !defined(__wasm__) /* which clang gives no such pragma */
 #define PERI_AS_WRITTEN
 #pragma float_control(push)
 #pragma float_control(precise, on)
