@@ -21,6 +21,7 @@ function scan(path, folder, text, n, t, more, list, k, parts) {
     folder = path
     if (!sub(/[^\/]*$/, "", folder)) folder = ""
     while ((more = (getline text < path)) > 0) {
+        if (text == "/* SPDX-License-Identifier: MIT */") continue # peri.h says it for all
         t = text ~ /^[ \t]*#[ \t]*include "/ ? target_of(folder, text) : ""
         if (t ~ /\.inl$/ && n > 0 && target[path, n] ~ /\.inl$/) target[path, n] = target[path, n] "|" t
         else {
