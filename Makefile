@@ -5,7 +5,9 @@
 # make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
 # make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, more than an hour
 # make examples  builds and runs every example
-# make lib       build/libperi.a and build/libperi.so
+# make lib       build/libperi.a and build/libperi.so (with WERROR= where a compiler warns of what ours do not)
+# make install   header, single file, libraries, pkg-config and CMake files, licence: PREFIX=/usr/local, DESTDIR=, INCLUDEDIR=, LIBDIR=
+# make uninstall the same, removed
 # make dist      build/dist/peri.h, the single-file header
 # make fuzz      random programs by libFuzzer under sanitizers, FUZZ_TIME seconds long (300); needs clang
 # make lint      strict warnings under every compiler found, static analysis, house rules
@@ -13,9 +15,13 @@
 
 CC ?= cc
 CFLAGS ?= -O2
-STRICT = -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror
+WERROR ?= -Werror
+STRICT = -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef $(WERROR)
 OPENMP := $(shell echo 'int main(void){return 0;}' | $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 COMPILE = $(CC) $(STRICT) $(CFLAGS) $(OPENMP) -I.
+# peri.h states the version; before 1.0 the minor version is the interface
+VERSION := $(shell sed -n 's/^.define PERI_VERSION "\([^"]*\)"$$/\1/p' peri.h)
+SONAME = $(if $(filter Darwin,$(shell uname)),,-Wl,-soname,libperi.so.$(basename $(VERSION)))
 NATIVE := $(shell for n in -march=native -mcpu=native; do \
     echo 'int main(void){return 0;}' | $(CC) $$n -x c - -o /dev/null 2>/dev/null && echo $$n && break; done)
 
@@ -27,7 +33,7 @@ EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench tradeoff machines examples lib dist fuzz lint clean
+.PHONY: all demo programs test validate bench tradeoff machines examples lib install uninstall dist fuzz lint clean
 all: lib
 
 # The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
@@ -55,10 +61,24 @@ build/libperi.a: $(OBJECTS)
 	rm -f $@
 	$(AR) rcs $@ $^
 
+# all that the parts share among themselves is hidden by compiler.h: peri_* alone is left
 build/libperi.so: $(OBJECTS)
-	$(CC) -shared $(OPENMP) $^ -o $@ -lm
+	$(CC) -shared $(SONAME) $(OPENMP) $(LDFLAGS) $^ -o $@ -lm
 
 lib: build/libperi.a build/libperi.so
+
+PREFIX ?= /usr/local
+INCLUDEDIR = $(PREFIX)/include
+LIBDIR = $(PREFIX)/lib
+DOCDIR = $(PREFIX)/share/doc/peri
+INSTALL = CC="$(CC)" OPENMP="$(OPENMP)" VERSION="$(VERSION)" PREFIX="$(PREFIX)" INCLUDEDIR="$(INCLUDEDIR)" LIBDIR="$(LIBDIR)" \
+    DOCDIR="$(DOCDIR)" DESTDIR="$(DESTDIR)" sh tools/install.sh
+
+install: lib dist
+	@$(INSTALL)
+
+uninstall:
+	@$(INSTALL) --remove
 
 # The library as others compile it, for tests/checks.sh: again the kernels apart, so that an edit elsewhere leaves them alone. OTHER of a
 # target is its compiler and flags. Sanitizers triple the time to optimise kernels: those of double, which most tests run, are worth it.
@@ -186,7 +206,8 @@ trade-%: build/bench/tradeoff
 dist: build/dist/peri.h
 build/dist/peri.h: $(SOURCES) tools/dist.awk
 	@mkdir -p $(@D)
-	awk -f tools/dist.awk peri.h > $@
+	awk -f tools/dist.awk peri.h > $@.new
+	mv $@.new $@
 
 # tests/program.h says what is checked; the kept programs of tests/program_corpus.h are where it starts
 FUZZ_TIME ?= 300

@@ -58,6 +58,8 @@ if command -v g++ > /dev/null; then
 else
     skip cxx11 "no g++ on this machine"
 fi
+. tests/check_hygiene.sh
+queue install "sh tests/check_install.sh"
 if command -v tcc > /dev/null; then
     queue tcc "tcc -I. -c peri_impl.c -o build/checks/tcc.o"
 else
