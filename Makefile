@@ -20,7 +20,7 @@ STRICT = -std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef $(WERROR
 OPENMP := $(shell echo 'int main(void){return 0;}' | $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 COMPILE = $(CC) $(STRICT) $(CFLAGS) $(OPENMP) -I.
 # peri.h states the version; before 1.0 the minor version is the interface
-VERSION := $(shell sed -n 's/^.define PERI_VERSION "\([^"]*\)"$$/\1/p' peri.h)
+VERSION := $(shell sed -n 's/^.define PERI_VERSION *"\([^"]*\)"$$/\1/p' peri.h)
 SONAME = $(if $(filter Darwin,$(shell uname)),,-Wl,-soname,libperi.so.$(basename $(VERSION)))
 NATIVE := $(shell for n in -march=native -mcpu=native; do \
     echo 'int main(void){return 0;}' | $(CC) $$n -x c - -o /dev/null 2>/dev/null && echo $$n && break; done)

@@ -868,7 +868,7 @@ PERI_API int32_t peri_choose(const peri_choose_desc *desc, peri_body_desc *body,
 #if defined(PERI_STATIC) && defined(PERI_DECLARED_EXTERN_)
 #error "PERI_STATIC comes too late: define it before peri.h is first included"
 #elif defined(PERI_IMPLEMENTATION) && defined(__cplusplus)
-#error "PERI_IMPLEMENTATION in a C++ file: move it to a .c file, or compile peri_impl.c as C and link it"
+#error "PERI_IMPLEMENTATION in C++: put it in a C file, or compile peri_impl.c as C and link it"
 #elif defined(PERI_IMPLEMENTATION) && !defined(PERI_IMPLEMENTATION_DONE)
 #include "peri_impl.c"
 #endif

@@ -63,7 +63,7 @@ cxx_implementation() {
     for compiler in g++ clang++; do
         command -v $compiler > /dev/null || continue
         for folder in . build/dist; do
-            refused 1 "PERI_IMPLEMENTATION in a C++ file" $compiler -I$folder -fsyntax-only $out/implementation.cpp
+            refused 1 "PERI_IMPLEMENTATION in C++" $compiler -I$folder -fsyntax-only $out/implementation.cpp
         done
         refused 0 "is C99: compile it as C" $compiler -Wfatal-errors -x c++ -I. -fsyntax-only peri_impl.c
     done

@@ -83,7 +83,7 @@ END
     *) configure="cmake -DCMAKE_C_COMPILER=$cc" ;;
     esac
     found() { $configure -S find -B find/build -DCMAKE_PREFIX_PATH="$prefix" "$@" > log 2>&1; }
-    version=$(sed -n 's/^.define PERI_VERSION "\(.*\)"/\1/p' "$root/peri.h")
+    version=$(sed -n 's/^.define PERI_VERSION *"\(.*\)"/\1/p' "$root/peri.h")
     found -DWANTED="${version%.*}" && cmake --build find/build > log 2>&1 || { cat log; exit 1; }
     right find_package_shared find/build/shared
     right find_package_static find/build/static
