@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A ball of two materials dropped on a moving floor, and a clone of it, as it was written for peri 0.1: points with material numbers, an
    influence function that returns its value, a view, the loads by number, every status that has another name. */
 #include "peri.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # what text cannot do: callbacks return 0 and write their value; ids in arrays; statuses that were split; materials are numbered from 1
 s/^static double weight\(void \*user, double q\)/static int32_t weight(void *user, double q, double *w)/
 s/return q < 1 \? 1 - q : 0;/*w = q < 1 ? 1 - q : 0;\n    return 0;/

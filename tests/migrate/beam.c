@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A bar pulled by consistent tractions to half the load and then to all of it, as it was written for peri 0.1: settings by their old names,
    the load factor by hand. Hooke's law is what it must give. */
 #include "peri.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A pane of glass pulled until a crack runs, as it was written for peri 0.1: materials and sets by plain number, callbacks without a result,
    a cut whose standing follows from when it is made. */
 #include "peri.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # what text cannot do: callbacks return 0, and a cut made after a step is damage
 s/^static void (count_break|ramp)\(/static int32_t \1(/
 /\+\+breaks;/a\
