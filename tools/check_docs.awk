@@ -2,8 +2,8 @@
 # check_docs.awk - called by check_docs.sh: peri.h, then README.md and docs/*.md.
 #
 # Where things must be said: functions, callback types, structs, enums and enumerators anywhere in docs/; functions, enumerators of status and
-# fields in manual.md, or in a page that it links to (statics, theory, accuracy); the fields of a struct in backquotes under the heading that
-# names it. The table under the heading "Calls and statuses" has every function, and only statuses that there are.
+# fields in manual.md, or in a page that it links to (statics, theory, accuracy); the fields of a struct in the first cells of a table under the
+# heading that names it. The table under the heading "Calls and statuses" has every function, and only statuses that there are.
 
 function complain(what) { print "docs: " what; bad = 1 }
 
@@ -121,10 +121,11 @@ FNR == 1 {
         if (docs(FILENAME)) anywhere[name] = 1
         if (page != "migration.md") used[name " " FILENAME ":" FNR (after ~ /^\*|^\.\./ || name ~ /_$/ ? " open" : "")] = 1
     }
-    if (under ~ /`?peri_[a-z0-9_]+`?/ && said_in) {
+    if (under ~ /peri_[a-z0-9_]+/ && said_in && /^\| `/) {
         match(under, /peri_[a-z0-9_]+/)
         struct = substr(under, RSTART, RLENGTH)
-        text = $0
+        split($0, cell, "|")
+        text = cell[2]
         while (match(text, /`[a-z0-9_]+`/)) {
             told[struct " " substr(text, RSTART + 1, RLENGTH - 2)] = 1
             text = substr(text, RSTART + RLENGTH)
