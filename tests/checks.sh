@@ -11,6 +11,8 @@ check example_length sh -c 'for e in examples/*.c; do
 # ---- every way to compile it
 quick=$CC
 check dist sh tests/check_dist.sh
+check docs sh tests/check_docs.sh
+check migrate sh tests/check_migrate.sh
 sanitized=""
 if can_sanitize; then
     sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Turns a program written for peri 0.1 into one for 0.2 as far as text can: sed -E -i -f migrate.sed *.c
-# What is left to do by hand is in docs/migration.md. GNU sed (\b).
+# Once: run again it would rename what it has renamed. What is left to do by hand is in docs/migration.md. GNU sed (\b).
 
 # settings of a call are its descriptor
 s/\bperi_statics_report\b/peri_solve_report/g
@@ -35,6 +35,12 @@ s/\bperi_apply_bond_pressure\b/peri_apply_bond_pressure_for_comparison/g
 
 # a cut says what it is; PERI_CUT_NOW where it is made after the first step
 s/\bperi_cut_(segment|polyline|disc|triangle|rectangle|pairs|if)\(([^(),]+), */peri_cut_\1(\2, PERI_CUT_INITIAL, /g
+
+# a material, load or obstacle by its plain number: the id that it has
+s/\bperi_(add_(box|ball|shape|perturbed_box)|get_critical_energy)\(([^(),]+), *([0-9]+),/peri_\1(\3, peri_id(\3, PERI_KIND_MATERIAL, \4 + 1),/g
+s/\bperi_(set_interface|get_bond_constants)\(([^(),]+), *([0-9]+), *([0-9]+),/peri_\1(\2, peri_id(\2, PERI_KIND_MATERIAL, \3 + 1), peri_id(\2, PERI_KIND_MATERIAL, \4 + 1),/g
+s/\bperi_(get_reaction|remove_load)\(([^(),]+), *([0-9]+)([,)])/peri_\1(\2, peri_id(\2, PERI_KIND_LOAD, \3 + 1)\4/g
+s/\bperi_(get_obstacle_force|remove_obstacle)\(([^(),]+), *([0-9]+)([,)])/peri_\1(\2, peri_id(\2, PERI_KIND_OBSTACLE, \3 + 1)\4/g
 
 # enums
 s/\bPERI_(PLANE_STRESS|PLANE_STRAIN|SOLID)\b/PERI_SPACE_\1/g

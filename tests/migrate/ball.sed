@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+# what text cannot do: callbacks return 0 and write their value; ids in arrays; statuses that were split; materials are numbered from 1
+s/^static double weight\(void \*user, double q\)/static int32_t weight(void *user, double q, double *w)/
+s/return q < 1 \? 1 - q : 0;/*w = q < 1 ? 1 - q : 0;\n    return 0;/
+s/^static void floor_at\((.*)\) \{ (.*) \}/static int32_t floor_at(\1) {\n    \2\n    return 0;\n}/
+s/^    const int32_t materials\[2\] = \{1, 1\};/    int32_t materials[2];/
+s/(peri_select_points\(ball, NULL, 0, materials\) != PERI_ERROR_)SET/\1EMPTY/
+s/(peri_find_set\(ball, "rim"\) != PERI_ERROR_)SET/\1NAME/
+s/PERI_ERROR_ID\b/PERI_ERROR_ID_NONE/
+/m\.bulk = 2;/{
+n
+s/^    peri_add_material\(ball, &m\);/    materials[0] = materials[1] = peri_add_material(ball, \&m);/
+}
+s/first == 0 && last == 1/last == first + 1/
