@@ -43,10 +43,10 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
     if (!peri__grow(&b->memory, &b->loads, &b->load_capacity, b->load_count + 1, sizeof *b->loads))
         return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     if (fn) load.value = (double *)peri__new(&b->memory, load.count * b->dim, sizeof(double));
-    if (fn && set == PERI_ALL) load.all = (int32_t *)peri__new(&b->memory, load.count, sizeof *load.all);
+    if (fn && set == 0) load.all = (int32_t *)peri__new(&b->memory, load.count, sizeof *load.all);
     if (support) load.force = (double *)peri__new(&b->memory, PERI__SUPPORT_PLANES * load.count * b->dim, sizeof(double));
     if (support) load.owned = (uint8_t *)peri__new(&b->memory, load.count, 1);
-    if ((fn && !load.value) || (fn && set == PERI_ALL && !load.all) || (support && (!load.force || !load.owned))) {
+    if ((fn && !load.value) || (fn && set == 0 && !load.all) || (support && (!load.force || !load.owned))) {
         peri__free_load(b, &load);
         return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     }

@@ -16,11 +16,11 @@ static double peri__touching(const peri_body *b) {
 }
 
 static int64_t peri__set_count(const peri_body *b, int32_t set) {
-    return set == PERI_ALL ? b->model->points : b->sets[set - 1].count;
+    return set == 0 ? b->model->points : b->sets[set - 1].count;
 }
 
 static int32_t peri__set_point(const peri_body *b, int32_t set, int64_t k) {
-    return set == PERI_ALL ? (int32_t)k : b->sets[set - 1].points[k];
+    return set == 0 ? (int32_t)k : b->sets[set - 1].points[k];
 }
 
 /* What a set is called inside, 0 for all; or why its id is none. */

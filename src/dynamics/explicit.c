@@ -24,6 +24,7 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
     r->cookie = PERI_COOKIE_RUN;
     r->integrator = PERI_INTEGRATOR_VELOCITY_VERLET;
     r->safety = 0.9;
+    r->load_factor = (double)NAN;
 }
 
 /* Inner units. 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice, once on the
