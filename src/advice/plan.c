@@ -86,7 +86,7 @@ static int32_t peri__open_estimate(peri__estimate *s, const peri_plan_desc *plan
     int32_t status = peri__check_material(b, plan->material, 1);
     if (status < 0) return status;
     b->materials[b->material_count++] = *plan->material;
-    status = peri__lattice(b, 0, plan->lo, plan->hi, plan->spacing, &s->piece);
+    status = peri__lattice(b, peri__id(b, PERI_KIND_MATERIAL, 0), plan->lo, plan->hi, plan->spacing, &s->piece);
     if (status < 0) return status;
     double volume = 1.0;
     for (int32_t d = 0; d < b->dim; ++d) volume *= s->piece.cell[d];
@@ -441,10 +441,12 @@ static int32_t peri__measure_plan(const peri__estimate *s, const peri_plan_desc 
     for (int32_t d = 0; d < s->body.dim; ++d) hi[d] = plan->lo[d] + (double)cells[d] * s->piece.cell[d];
     int64_t status = peri_body_create(&desc, &b, error);
     if (status < 0) return (int32_t)status;
-    status = peri_add_material(b, plan->material);
+    const int32_t material = peri_add_material(b, plan->material);
+    status = material;
     if (status >= 0) {
-        if (plan->source == PERI_SOURCE_BOX) status = peri_add_box(b, 0, plan->lo, hi, plan->spacing);
-        else status = peri_add_perturbed_box(b, 0, plan->lo, hi, plan->spacing, plan->source == PERI_SOURCE_POINTS ? 1.0 : plan->amount, 1);
+        const double amount = plan->source == PERI_SOURCE_POINTS ? 1.0 : plan->amount;
+        if (plan->source == PERI_SOURCE_BOX) status = peri_add_box(b, material, plan->lo, hi, plan->spacing);
+        else status = peri_add_perturbed_box(b, material, plan->lo, hi, plan->spacing, amount, 1);
     }
     if (status >= 0) status = peri_build(b);
     if (status >= 0) {
@@ -464,7 +466,7 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
     peri__estimate s;
     (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
     if (report) memset(report, 0, sizeof *report);
-    if (!plan || !report) return peri__set_error(error, PERI_ERROR_ARGUMENT, plan ? "report" : "plan", -1, 0.0);
+    if (!plan || !report) return peri__set_error(error, PERI_ERROR_ARGUMENT, plan ? "report" : "desc", -1, 0.0);
     if (plan->cookie != PERI_COOKIE_PLAN) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     if (!plan->body) return peri__set_error(error, PERI_ERROR_ARGUMENT, "body", -1, 0.0);
     int32_t status = peri__check_desc(plan->body, error);

@@ -41,7 +41,7 @@ static int64_t peri__find(peri_body *b, int32_t kind, int32_t id, const char *fi
 }
 
 /* The number of a body that was given none: from where it lies, so that bodies that live at the same time mostly differ. */
-static int32_t peri__number_of(const peri_body *b) { 
+static int32_t peri__number_of(const peri_body *b) {
     return 1 + (int32_t)((((uint64_t)(uintptr_t)b >> 4) * 0x9E3779B97F4A7C15u >> 32) % 127);
 }
 
