@@ -92,7 +92,7 @@ static double peri__view_at(const peri_view *view, int64_t i, int32_t d) {
 /* ---- what is computed --------------------------------------------------------------------------------------------- */
 
 static void peri__read_material(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->model->material[i];
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->model->material[i] + 1; /* PERI_ID_INDEX */
 }
 
 static void peri__read_family_size(peri_body *b, double *out) {
