@@ -112,7 +112,7 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
     peri__emit_text(&w, "</Points>\n<PointData Scalars=\"damage\" Vectors=\"displacement\">\n");
     for (size_t k = 0; k < PERI_VTU_FIELDS; ++k) {
         const int32_t field = peri__vtu_fields[k], components = peri__vtu_components(field);
-        offset = peri__emit_array(&w, "Float64", peri__fields[field].name, components, offset, n * 8 * components);
+        offset = peri__emit_array(&w, "Float64", peri__fields[field - peri__first_field].name, components, offset, n * 8 * components);
     }
     peri__emit_text(&w, "</PointData>\n<Cells>\n");
     offset = peri__emit_array(&w, "Int32", "connectivity", 1, offset, n * 4);
