@@ -4,15 +4,15 @@
 
 #include "scene.h"
 
-static int reached[64]; /* by code + 32 */
+static int reached[peri__count_status]; /* by code less the first */
 static peri_error seen; /* the record of the last refusal */
 
-/* The call must have returned `code` and left a complete record of it (where the function can: body not NULL, not const). */
+/* The call must have returned `code` and left a complete record of it (where there is a body to keep it). */
 static void refuse(const peri_body *b, int32_t code, int64_t result, const char *text, int line) {
     if (result != code) {
         test_bad++;
         printf("    line %d: %s gave %d (%s), expected %d\n", line, text, (int)result, peri_status_text((int32_t)result), code);
-    } else reached[code + 32] = 1;
+    } else reached[code - peri__first_status] = 1;
     if (!b) return;
     memset(&seen, 0, sizeof seen);
     if (peri_get_error(b, &seen) != PERI_OK || seen.code != code || !seen.field || !seen.text || !seen.text[0] || seen.reserved) {
@@ -22,7 +22,7 @@ static void refuse(const peri_body *b, int32_t code, int64_t result, const char 
     }
 }
 #define REFUSE(body, code, call)  refuse((body), (code), (int64_t)(call), #call, __LINE__)
-#define REFUSE_CONST(code, call)  refuse(NULL, (code), (int64_t)(call), #call, __LINE__) /* const body: no record */
+#define REFUSE_CONST(code, call)  refuse(NULL, (code), (int64_t)(call), #call, __LINE__) /* no body: no record */
 #define FIELD_IS(name)            CHECK(seen.field && strstr(seen.field, name) != NULL)
 
 static inline int32_t take_none(void *user, int64_t index, const double *x) {

@@ -535,7 +535,7 @@ static void damage_index(void) {
     MUST(body, peri_build(body));
     CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 3, first) == 3);
     advance(body, 1, 0.0);
-    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 3, later) == 3);
+    CHECK(peri_cut_pairs(body, PERI_CUT_NOW, 3, later) == 3);
     CHECK(peri_cut_count(body) == 3 && peri_broken_count(body) == 3);
     d = field(body, PERI_FIELD_DAMAGE);
     for (i = 0; i < 9; ++i) CHECK_NEAR(d[i], all[i], 0.0, 1e-14);
@@ -555,7 +555,7 @@ static void damage_index(void) {
     MUST(body, peri_build(body));
     CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, one) == 1);
     advance(body, 1, 0.0);
-    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, two) == 1);
+    CHECK(peri_cut_pairs(body, PERI_CUT_NOW, 1, two) == 1);
     d = field(body, PERI_FIELD_DAMAGE);
     CHECK_NEAR(d[0], 1.0 - 0.25 / 1.5, 1e-14, 0.0);
     CHECK_NEAR(d[1], 1.0 - 1.0 / 2.0, 1e-14, 0.0);

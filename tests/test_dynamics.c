@@ -155,8 +155,7 @@ static peri_body *two_halves(int32_t space, int32_t geometry, brute *g) {
     for (a = 0; a < 2; ++a) {
         g->c[a][a] = micromodulus(space, young[a], g->horizon);
         g->density[a] = density[a];
-        CHECK(unbreakable(b, young[a], density[a]) == a);
-        (void)MUST(b, peri_add_box(b, a, lo, hi, H));
+        (void)MUST(b, peri_add_box(b, unbreakable(b, young[a], density[a]), lo, hi, H));
         lo[0] = hi[0];
         hi[0] *= 2;
     }
@@ -181,7 +180,7 @@ static double brute_length(const brute *g, int i, int j) {
     for (k = 0; k < g->dim; ++k) q += pow(g->x[j * g->dim + k] - g->x[i * g->dim + k], 2.0);
     return sqrt(q);
 }
-static double brute_c(const brute *g, int i, int j) { return g->c[g->mat[i] > 0.5][g->mat[j] > 0.5]; }
+static double brute_c(const brute *g, int i, int j) { return g->c[g->mat[i] > 1.5][g->mat[j] > 1.5]; }
 
 /* Accelerations by the definition, over all pairs: f = c s M, s = (|xi+eta|-|xi|)/|xi|, in long double. */
 static void brute_acceleration(const brute *g, int linear, const long double *u, long double *a) {
@@ -203,7 +202,7 @@ static void brute_acceleration(const brute *g, int linear, const long double *u,
             s = linear ? dot / (len * len) : (cur - len) / len;
             for (k = 0; k < dim; ++k)
                 a[i * dim + k] += (long double)brute_c(g, i, j) * s * (linear ? xi[k] / len : p[k] / cur) *
-                                  (long double)g->vol[j] / (long double)g->density[g->mat[i] > 0.5];
+                                  (long double)g->vol[j] / (long double)g->density[g->mat[i] > 1.5];
         }
     }
 }
@@ -273,14 +272,14 @@ static void velocity_verlet_is_the_recurrence(void) {
    u w A per kick, summed over n steps of dt: n sqrt(2n) u w dt A. */
 static void two_points(int32_t geometry, int32_t integrator) {
     const double x[6] = {1, 2, 3, 1.06, 2.08, 3.0}, vol[2] = {1e-3, 1.5e-3}, young[2] = {3, 7}, density[2] = {2, 0.5};
-    const int32_t mat[2] = {0, 1};
     const double horizon = 0.25, len = 0.1, amplitude = 1e-3, dir[3] = {0.6, 0.8, 0};
     double c0 = micromodulus(PERI_SPACE_SOLID, young[0], horizon), c1 = micromodulus(PERI_SPACE_SOLID, young[1], horizon);
     double m0 = density[0] * vol[0], m1 = density[1] * vol[1], k = 2 * c0 * c1 / (c0 + c1) * vol[0] * vol[1] / len;
     double w = sqrt(k * (m0 + m1) / (m0 * m1)), u[6], dt, wd, *g, e;
     peri_body *b = empty(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, geometry, horizon);
+    int32_t mat[2];
     int a, n, i;
-    for (a = 0; a < 2; ++a) (void)unbreakable(b, young[a], density[a]);
+    for (a = 0; a < 2; ++a) mat[a] = unbreakable(b, young[a], density[a]);
     (void)MUST(b, peri_add_points(b, 2, x, vol, mat));
     (void)MUST(b, peri_build(b));
     for (i = 0; i < 3; ++i) {
@@ -321,7 +320,7 @@ static void stable_step_by_brute_force(void) {
             for (j = 0; j < g.n; ++j)
                 if (j != i && brute_length(&g, i, j) <= g.horizon * (1 + 1e-8))
                     sum += brute_c(&g, i, j) * g.vol[j] / brute_length(&g, i, j);
-            least = fmin(least, sqrt(2 * g.density[g.mat[i] > 0.5] / sum));
+            least = fmin(least, sqrt(2 * g.density[g.mat[i] > 1.5] / sum));
         }
         CHECK_NEAR(peri_stable_step(b), least, 1e-12, 0);
         brute_free(&g);
@@ -512,12 +511,12 @@ static int32_t meddle_in_break(void *user, int32_t i, int32_t j, double time, do
     peri_advance_desc_init(&r);
     r.steps = 1;
     m->breaks++;
-    m->refused_in_break += peri_bond_is_intact(m->body, i, j) == 0 && peri_cut_segment(m->body, PERI_CUT_INITIAL, a, z) < 0 &&
+    m->refused_in_break += peri_bond_is_intact(m->body, i, j) == 0 && peri_cut_segment(m->body, PERI_CUT_NOW, a, z) < 0 &&
                            peri_reset(m->body) < 0 && peri_advance(m->body, &r) < 0;
     return 0;
 }
 
-/* SOURCE OF TRUTH: peri_frame_fn: "not advance, reset or destroy it"; peri_on_break: "may read the body but not change it". Such
+/* SOURCE OF TRUTH: peri.h: a callback may read the body that called it; a frame may also cut and load it, not advance or reset it. Such
    calls are refused and leave no trace: same bits as the run whose callbacks only look. */
 static void callbacks_may_not_meddle(void) {
     double *u[2];

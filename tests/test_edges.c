@@ -2,20 +2,20 @@
    conservation laws, and the textbook kernel. */
 #include "peri_test.h"
 
-static peri_body *empty(int32_t space, int32_t precision, double horizon, int32_t quadrature, int32_t reference, double s0) {
+static peri_body *empty(int32_t space, int32_t precision, double horizon, int32_t quadrature, int32_t kernel, double s0) {
     peri_body_desc desc;
     peri_body_desc_init(&desc);
     desc.space = space;
     desc.precision = precision;
     desc.horizon = horizon;
     desc.quadrature = quadrature;
-    desc.kernel = reference;
+    desc.kernel = kernel;
     return test_unit_body(&desc, s0);
 }
 
 static peri_body *plate(double s0) {
     const double lo[2] = {0, 0}, hi[2] = {20, 10};
-    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 3.0, PERI_QUADRATURE_FULL, 0, s0);
+    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 3.0, PERI_QUADRATURE_FULL, PERI_KERNEL_BEST, s0);
     MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
     MUST(b, peri_build(b));
     return b;
@@ -119,7 +119,7 @@ static void callbacks_read_and_do_no_harm(void) {
 static int32_t add_more(void *user, int64_t index, const double *x) {
     const double lo[2] = {0, 0}, hi[2] = {4, 4};
     (void)index, (void)x;
-    CHECK(peri_add_box((peri_body *)user, 0, lo, hi, 1.0) == PERI_ERROR_ORDER);
+    CHECK(peri_add_box((peri_body *)user, peri_id((peri_body *)user, PERI_KIND_MATERIAL, 1), lo, hi, 1.0) == PERI_ERROR_ORDER);
     return 1;
 }
 static int32_t build_again(void *user, double q, double *w) {
@@ -224,7 +224,7 @@ static void lattices_far_apart(void) {
             for (k = 0; k < 3; ++k) {
                 const double lo[2] = {0, 0}, hi[2] = {16, 4}, lo2[2] = {far_lo[k], 0}, shift[2] = {0.25, 0};
                 const double hi2[2] = {far_lo[k] + 20.003 * cell[k], 4 * cell[k]};
-                peri_body *b = empty(PERI_SPACE_PLANE_STRESS, precision, 2.5, quadrature, 0, 0);
+                peri_body *b = empty(PERI_SPACE_PLANE_STRESS, precision, 2.5, quadrature, PERI_KERNEL_BEST, 0);
                 int64_t n, i;
                 double *f, largest = 0;
                 MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
@@ -282,7 +282,7 @@ static void damping_of_rigid_motion(void) {
 /* What the arithmetic cannot hold is refused, and nothing changes. */
 static void too_large_numbers(void) {
     const double lo[2] = {0, 0}, hi[2] = {4, 4}, far_[2] = {1e300, 0}, fast[2] = {1e12, 0}, nan_[2] = {NAN, 0};
-    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_SINGLE, 1e200, PERI_QUADRATURE_FULL, 0, 0);
+    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_SINGLE, 1e200, PERI_QUADRATURE_FULL, PERI_KERNEL_BEST, 0);
     peri_error error;
     int64_t n;
     double *x;
@@ -292,7 +292,7 @@ static void too_large_numbers(void) {
     for (n = 0; n < 3; ++n) { /* an extent beyond double; one that is so in units of a spacing; a spacing below double */
         const double places[2][4] = {{-1.7e308, 0, 1.7e308, 0}, {0, 0, 1e300, 0}}, volumes[2][2] = {{1, 1}, {1e-30, 1e-30}};
         const double thin[2] = {4.9e-324, 4};
-        b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, n == 2 ? 10 : 2, PERI_QUADRATURE_FULL, 0, 0);
+        b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, n == 2 ? 10 : 2, PERI_QUADRATURE_FULL, PERI_KERNEL_BEST, 0);
         if (n < 2) MUST(b, peri_add_points(b, 2, places[n], volumes[n], NULL));
         else MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, thin, 1.0));
         CHECK(peri_build(b) == PERI_ERROR_POINT);
@@ -317,7 +317,7 @@ static void too_large_numbers(void) {
 /* A polyline that is refused has cut nothing, also where vertices differ by less than the arithmetic can tell. */
 static void polyline_all_or_nothing(void) {
     const double vertices[6] = {-0.9, 5, 0, 5, 1e-20, 5}, lo[2] = {-1, 0}, hi[2] = {9, 10};
-    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 3.0, PERI_QUADRATURE_FULL, 0, 0);
+    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 3.0, PERI_QUADRATURE_FULL, PERI_KERNEL_BEST, 0);
     MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
     MUST(b, peri_build(b));
     CHECK(peri_cut_polyline(b, PERI_CUT_INITIAL, 3, vertices) == PERI_ERROR_CRACK);
@@ -332,7 +332,7 @@ static void selection_on_the_edge(void) {
     for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
         double x[2 * N], v[N];
         int64_t i;
-        peri_body *b = empty(PERI_SPACE_PLANE_STRESS, precision, 3.5, PERI_QUADRATURE_FULL, 0, 0);
+        peri_body *b = empty(PERI_SPACE_PLANE_STRESS, precision, 3.5, PERI_QUADRATURE_FULL, PERI_KERNEL_BEST, 0);
         for (i = 0; i < N; ++i) {
             x[2 * i] = 0.1 * (double)(i % 10) * 7.3 + 0.013;
             x[2 * i + 1] = (double)(i / 10) * 1.1;

@@ -112,16 +112,17 @@ static tearing small_plate(int32_t law, int32_t criterion) {
 static void fracture_closes(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
-        for (criterion = 1; criterion <= (law == PERI_LAW_BOND_BASED ? 1 : 3); ++criterion) closes(small_plate(law, criterion), "");
+        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion)
+            if (law != PERI_LAW_BOND_BASED || criterion == PERI_CRITERION_STRETCH) closes(small_plate(law, criterion), "");
 }
 static void fracture_closes_otherwise(void) {
     tearing how;
     int32_t law;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law) {
-        how = small_plate(law, 1 + law % 3);
+        how = small_plate(law, PERI_CRITERION_STRETCH + law % 100 % 3);
         how.integrator = PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
         closes(how, "central");
-        how = small_plate(law, 1 + (law + 1) % 3);
+        how = small_plate(law, PERI_CRITERION_STRETCH + (law % 100 + 1) % 3);
         how.grips = 0; /* bonds of supported points break, too */
         how.speed = 0.016;
         closes(how, "no grips");
@@ -136,7 +137,7 @@ static void fracture_closes_otherwise(void) {
 static void fracture_closes_in_3d(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = 1; criterion <= 3; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
             tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_AT_STEP_END, 1, 16, 4, 3, 0.012, 4};
             how.what = kind_of(PERI_SPACE_SOLID, law, criterion, 0.2);
             closes(how, "");
@@ -145,7 +146,7 @@ static void fracture_closes_in_3d(void) {
 static void fracture_closes_on_a_large_plate(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = 1; criterion <= 3; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
             tearing how = small_plate(law, criterion);
             how.nx = 40;
             how.ny = 20;
@@ -301,7 +302,7 @@ static void torn_twice(int32_t law, int32_t criterion) {
 static void reset_clone_and_both_ends(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = 1; criterion <= 3; ++criterion) torn_twice(law, criterion);
+        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) torn_twice(law, criterion);
 }
 
 static void backwards(void *user, int64_t count, peri_task_fn task, void *context) {
@@ -346,7 +347,7 @@ static void same_bits_on_any_threads(void) {
 static void same_bits_on_any_threads_long(void) {
     int32_t law, criterion, precision;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = 1; criterion <= 3; ++criterion)
+        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion)
             for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) threads_do_not_matter(law, criterion, precision);
 }
 
@@ -354,13 +355,13 @@ static void same_bits_on_any_threads_long(void) {
 static void textbook_kernels_agree(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = 1; criterion <= 3; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
             kind k = kind_of(PERI_SPACE_PLANE_STRAIN, law, criterion, 0.3);
             peri_body_desc d = plan(k.space);
             peri_body *fast = burst(d, k, 30, 16, 40), *plain;
             double *u, *v, *damage[2], most;
             int64_t i, n = peri_size_of_field(fast, PERI_FIELD_DISPLACEMENT);
-            d.kernel = 1;
+            d.kernel = PERI_KERNEL_REFERENCE;
             plain = burst(d, k, 30, 16, 40);
             u = get(fast, PERI_FIELD_DISPLACEMENT);
             v = get(plain, PERI_FIELD_DISPLACEMENT);
@@ -383,7 +384,7 @@ static void textbook_kernels_agree(void) {
 static void no_fail_holds(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = 1; criterion <= 3; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
             tearing how = small_plate(law, criterion);
             peri_body_desc d = plan(how.what.space);
             double ends[4];
@@ -394,7 +395,7 @@ static void no_fail_holds(void) {
             (void)MUST(b, peri_set_no_fail(b, PERI_ALL, 1));
             (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 224, 4.0 / 224, 0);
             CHECK(peri_broken_count(b) == 0);
-            CHECK(MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, a, z)) > 0 && peri_broken_count(b) > 0);
+            CHECK(MUST(b, peri_cut_segment(b, PERI_CUT_NOW, a, z)) > 0 && peri_broken_count(b) > 0);
             peri_body_destroy(b);
         }
 }

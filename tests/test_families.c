@@ -551,7 +551,8 @@ static void sets(void) {
         b = peri_select_ball(body, "ball", centre, 5.0 * dx);
         c = peri_select_if(body, NULL, odd_points, &limit);
         d = peri_select_points(body, "some", 4, some);
-        CHECK(a == 1 && b == 2 && c == 3 && d == 4);
+        for (i = 1; i <= 4; ++i) CHECK(peri_id(body, PERI_KIND_SET, i) == (i == 1 ? a : i == 2 ? b : i == 3 ? c : d));
+        CHECK(PERI_ID_INDEX(a) == 1 && PERI_ID_INDEX(b) == 2 && PERI_ID_INDEX(c) == 3 && PERI_ID_INDEX(d) == 4);
         for (i = 0; i < 120; ++i) want[i] = i % 12 >= 2 && i % 12 <= 6 && i / 12 >= 1 && i / 12 <= 2;
         check_set(body, a, want);
         for (i = 0; i < 120; ++i) want[i] = (i % 12 - 5) * (i % 12 - 5) + (i / 12 - 4) * (i / 12 - 4) <= 25;

@@ -219,7 +219,7 @@ static void energy_follows_the_cut(void) {
             for (n = 0; n < 2; ++n) {
                 (void)go(b[n], PERI_INTEGRATOR_VELOCITY_VERLET, 1, 0, 0);
                 put(b[n], PERI_FIELD_DISPLACEMENT, u);
-                CHECK(peri_cut_segment(b[n], PERI_CUT_INITIAL, z, up) > 0);
+                CHECK(peri_cut_segment(b[n], PERI_CUT_NOW, z, up) > 0);
                 if (n) f = get(b[n], PERI_FIELD_FORCE_DENSITY), free(f);
                 w[n] = get(b[n], field);
             }
@@ -301,7 +301,7 @@ static int32_t shear_off(void *user, peri_body *b) {
             if (peri_bond_is_intact(b, (int32_t)i, j) != 1) continue;
             pairs[0] = (int32_t)i;
             pairs[1] = j;
-            CHECK(peri_cut_pairs(b, PERI_CUT_INITIAL, 1, pairs) == 1);
+            CHECK(peri_cut_pairs(b, PERI_CUT_NOW, 1, pairs) == 1);
         }
     s->frames++;
     (void)MUST(b, peri_get_energy(b, &e));
