@@ -73,7 +73,7 @@ static inline specimen solid_specimen(const solid *s, int nx, int ny, int nz) {
 
 static inline peri_material_desc solid_material(const solid *s) { return solid_specimen(s, 1, 1, 1).material; }
 
-/* A body without points, with material 0. */
+/* A body without points, with its material. */
 static inline peri_body *solid_new(const solid *s) {
     const specimen p = solid_specimen(s, 1, 1, 1);
     return specimen_start(&p);

@@ -159,8 +159,8 @@ static void load_all(beam *b) {
     const int32_t pin = b->rows / 2 * b->cols + b->cols / 2;
     (void)MUST(b->body, peri_prescribe_displacement(b->body, columns(b, at - e, at + e), PERI_AXIS_Y, NULL, NULL, NULL));
     (void)MUST(b->body, peri_prescribe_displacement(b->body, columns(b, LENGTH - at - e, LENGTH - at + e), PERI_AXIS_Y, NULL, NULL, NULL));
-    (void)MUST(b->body, peri_prescribe_displacement(b->body, (int32_t)MUST(b->body, peri_select_points(b->body, NULL, 1, &pin)), PERI_AXIS_X,
-                                                    NULL, NULL, NULL));
+    (void)MUST(b->body, peri_prescribe_displacement(b->body, (int32_t)MUST(b->body, peri_select_points(b->body, NULL, 1, &pin)),
+                                                    PERI_AXIS_X, NULL, NULL, NULL));
     (void)MUST(b->body, peri_apply_body_force(b->body, columns(b, -e, LENGTH + e), q, NULL, NULL));
 }
 
@@ -373,8 +373,8 @@ static void table_of_laws(void) {
                 if (spring && (correction == PERI_CORRECTION_VOLUME || correction == PERI_CORRECTION_ENERGY)) continue; /* same as none */
                 if (!spring && functions[f] == PERI_INFLUENCE_INVERSE_4) continue; /* refused */
                 if (stable && moment) b.stabilization = 0.4; /* no correction: the other row of this law */
-                printf("    %-14s %-6s %-9s", law_name[law % 100], stable ? b.stabilization < 0 ? "0.2" : "0.4" : correction_name[correction % 100],
-                       names[f]);
+                printf("    %-14s %-6s %-9s", law_name[law % 100],
+                       stable ? b.stabilization < 0 ? "0.2" : "0.4" : correction_name[correction % 100], names[f]);
                 if (stable) b.correction = PERI_CORRECTION_NONE;
                 (void)row(&b, 0.1, e);
                 for (k = TIP_FORCE; k <= UNIFORM; k += 2) CHECK_NEAR(e[k].end, e[TIP_MOMENT].end, 0, stable || moment ? 0.0005 : 0.006);

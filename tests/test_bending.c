@@ -289,7 +289,7 @@ static void bending_free(bending *t) {
 
 static bending *bending_of(const beam *b, double deflection, int32_t geometry) {
     double below[2], tip[2], down[2], c, s0;
-    int32_t held[4], set;
+    int32_t held[4], set, concrete;
     bending *t = (bending *)calloc(1, sizeof *t);
     specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, b->h, b->ratio, b->cols, b->rows, 1);
     held_points(b, held);
@@ -306,8 +306,9 @@ static bending *bending_of(const beam *b, double deflection, int32_t geometry) {
     s.material.density = 2400;
     s.material.fracture_energy = G0;
     t->body = specimen_make(&s);
+    concrete = peri_id(t->body, PERI_KIND_MATERIAL, 1);
     CHECK(peri_point_count(t->body) == (int64_t)b->cols * b->rows);
-    (void)MUST(t->body, peri_get_bond_constants(t->body, peri_id(t->body, PERI_KIND_MATERIAL, 1), peri_id(t->body, PERI_KIND_MATERIAL, 1), &c, &s0));
+    (void)MUST(t->body, peri_get_bond_constants(t->body, concrete, concrete, &c, &s0));
     CHECK_NEAR(c * DEPTH, micromodulus(b), 1e-12, 0); /* c is per true volume                                            */
     CHECK_NEAR(s0, limit_of(b), 1e-12, 0);
     if (b->notch > 0) (void)MUST(t->body, peri_cut_segment(t->body, PERI_CUT_INITIAL, below, tip));

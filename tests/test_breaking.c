@@ -161,7 +161,8 @@ static void whole_lattices(void) {
     int n;
     for (n = 0; n < 8; ++n) {
         const double s0 = n / 4 ? 0.02 : 5e-4, margin = n % 2 ? 1e-5 : 1e-9;
-        peri_body *body = plain_lattice(n / 2 % 2 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, n % 2 ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE, s0);
+        peri_body *body = plain_lattice(n / 2 % 2 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS,
+                                        n % 2 ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE, s0);
         stretch_all(body, s0 * (1 - margin));
         one_moment(body);
         CHECK(peri_broken_count(body) == 0);

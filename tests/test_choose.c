@@ -452,7 +452,7 @@ static void refused(question q, int32_t code, const char *field, int line) {
 }
 #define REFUSED(change, code, field)                                                                                                       \
     do {                                                                                                                                   \
-        question q = pose(PERI_SPACE_PLANE_STRESS, PERI_QUANTITY_STRESS);                                                                             \
+        question q = pose(PERI_SPACE_PLANE_STRESS, PERI_QUANTITY_STRESS);                                                  \
         q.goal.error = 0.1;                                                                                                                \
         change;                                                                                                                            \
         refused(q, code, field, __LINE__);                                                                                                 \

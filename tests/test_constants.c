@@ -148,14 +148,15 @@ static void thesis_solid(void) {
             const peri_body_desc desc = describe(PERI_SPACE_SOLID, d[k], 1.0, PERI_INFLUENCE_CONSTANT, PERI_QUADRATURE_FULL);
             peri_body *body = create(&desc);
             peri_material_desc m;
+            int32_t a;
             double c = 0, s0 = 0;
             peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
             if (by_bulk) m.bulk = bulk;
             else m.young = 3 * bulk * 0.5;
             m.density = 1.0;
             m.fracture_energy = g0;
-            MUST(body, peri_add_material(body, &m));
-            MUST(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &c, &s0));
+            a = (int32_t)MUST(body, peri_add_material(body, &m));
+            MUST(body, peri_get_bond_constants(body, a, a, &c, &s0));
             CHECK_NEAR(c, 18 * bulk / (PI * pow(d[k], 4)), 1e-12, 0.0);
             CHECK_NEAR(s0, sqrt(5 * g0 / (9 * bulk * d[k])), 1e-12, 0.0);
             peri_body_destroy(body);
@@ -186,24 +187,25 @@ static void every_function(void) {
                 user_kernel mine;
                 peri_body_desc desc = describe(spaces[s], d, h, own ? PERI_INFLUENCE_USER : kernels[n].id, PERI_QUADRATURE_FULL);
                 peri_body *body;
+                int32_t a;
                 double m[5], c, s0, got_c = 0, got_s0 = 0;
                 mine.id = kernels[n].id;
                 mine.pole = 1.0 + 1.0 / (2 * d);
                 desc.influence_fn = own ? user_influence : NULL;
                 desc.influence_user = own ? &mine : NULL;
                 body = create(&desc);
-                add_material(body, 7.0, 0.3);
+                a = add_material(body, 7.0, 0.3);
                 moments(&kernels[n], mine.pole, m);
                 constants(spaces[s], 7.0, 0.3, d, h, m, &c, &s0);
-                if (mine.id == PERI_INFLUENCE_POLE_EDGE && !own) CHECK(peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &got_c, &got_s0) < 0);
-                else MUST(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &got_c, &got_s0));
-                MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
+                if (mine.id == PERI_INFLUENCE_POLE_EDGE && !own) CHECK(peri_get_bond_constants(body, a, a, &got_c, &got_s0) < 0);
+                else MUST(body, peri_get_bond_constants(body, a, a, &got_c, &got_s0));
+                MUST(body, peri_add_box(body, a, lo, hi, 1.0));
                 MUST(body, peri_build(body));
                 if (mine.id != PERI_INFLUENCE_POLE_EDGE || own) {
                     CHECK_NEAR(got_c, c, 1e-10, 0.0);
                     CHECK_NEAR(got_s0, s0, 1e-10, 0.0);
                 }
-                MUST(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &got_c, &got_s0));
+                MUST(body, peri_get_bond_constants(body, a, a, &got_c, &got_s0));
                 CHECK_NEAR(got_c, c, 1e-10, 0.0);
                 CHECK_NEAR(got_s0, s0, 1e-10, 0.0);
                 peri_body_destroy(body);
@@ -227,15 +229,16 @@ static void no_moments(void) {
             peri_body_desc desc = describe(space, 2.2, 1.0, bad[n], PERI_QUADRATURE_FULL);
             peri_body *body = NULL;
             peri_error error;
+            int32_t a;
             double c, s0;
             desc.influence_fn = bad[n] == PERI_INFLUENCE_USER ? broken_influence : NULL;
             if (peri_body_create(&desc, &body, &error) < 0) { /* refusing at once would do as well */
                 CHECK(error.code == PERI_ERROR_INFLUENCE);
                 continue;
             }
-            add_material(body, 1.0, 1.0);
-            CHECK(peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &c, &s0) == PERI_ERROR_INFLUENCE);
-            MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
+            a = add_material(body, 1.0, 1.0);
+            CHECK(peri_get_bond_constants(body, a, a, &c, &s0) == PERI_ERROR_INFLUENCE);
+            MUST(body, peri_add_box(body, a, lo, hi, 1.0));
             CHECK(peri_build(body) == PERI_ERROR_INFLUENCE);
             peri_body_destroy(body);
         }
@@ -437,12 +440,15 @@ static void appendix_f(void) {
         for (rule = PERI_QUADRATURE_FULL; rule < peri__end_quadrature; ++rule)
             for (strain = 0; strain < 2; ++strain)
                 for (geometry = PERI_GEOMETRY_LINEAR; geometry >= PERI_GEOMETRY_NONLINEAR; --geometry) {
-                    peri_body_desc desc = describe(strain ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_PLANE_STRESS, 0.2, thick, kernels[n].id, rule);
+                    const int32_t space = strain ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_PLANE_STRESS;
+                    peri_body_desc desc = describe(space, 0.2, thick, kernels[n].id, rule);
                     peri_body *body;
+                    int32_t a;
                     double c;
                     desc.geometry = geometry;
                     body = unit_square(&desc, 30);
-                    MUST(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &c, NULL));
+                    a = peri_id(body, PERI_KIND_MATERIAL, 1);
+                    MUST(body, peri_get_bond_constants(body, a, a, &c, NULL));
                     for (field = 0; field < 2; ++field) {
                         const double p = field ? 0.01 : 0.1, exact = field ? (strain ? 2.4 : 2.25) * p : (strain ? 1.6 : 1.5) * p * p;
                         const double bound = n == 1 && rule != PERI_QUADRATURE_FULL ? (field ? 0.079 : 0.07) : level[rule % 100][field];
@@ -505,14 +511,15 @@ static void appendix_g(void) {
         printf("    %-5s", kernels[n].name);
         for (rule = PERI_QUADRATURE_FULL; rule < peri__end_quadrature; ++rule)
             for (strain = 0; strain < 2 && rule != PERI_QUADRATURE_PARTIAL_CENTROID; ++strain) {
-                const peri_body_desc desc = describe(strain ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_PLANE_STRESS, 1.0, thick, kernels[n].id, rule);
+                const int32_t space = strain ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_PLANE_STRESS;
+                const peri_body_desc desc = describe(space, 1.0, thick, kernels[n].id, rule);
                 peri_body *body = create(&desc);
+                const int32_t mat = add_material(body, 1.0, 1.0);
                 peri_energy e0, e1;
                 double c, s0, energy = 0, row = 0, total = 0, bond[2];
-                add_material(body, 1.0, 1.0);
-                CHECK(MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, dx)) == 720);
+                CHECK(MUST(body, peri_add_box(body, mat, lo, hi, dx)) == 720);
                 MUST(body, peri_build(body));
-                MUST(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &c, &s0));
+                MUST(body, peri_get_bond_constants(body, mat, mat, &c, &s0));
                 MUST(body, peri_get_field(body, PERI_FIELD_POSITION, place, 1440));
                 for (k = 0; k < 720; ++k) displace(0, s0, place + 2 * k, u + 2 * k);
                 MUST(body, peri_set_field(body, PERI_FIELD_DISPLACEMENT, u, 1440));
@@ -533,7 +540,8 @@ static void appendix_g(void) {
                 CHECK_NEAR(e0.elastic - e1.elastic, total, 1e-10, 0.0);
                 CHECK_NEAR(e1.initial, e1.elastic, 1e-12, 0.0);
                 CHECK(e1.fracture == 0.0);
-                CHECK_NEAR(energy, 1.0, n == 1 && (rule == PERI_QUADRATURE_RAMP || rule == PERI_QUADRATURE_PARTIAL) ? 0.091 : level[rule % 100], 0.0);
+                CHECK_NEAR(energy, 1.0,
+                           n == 1 && (rule == PERI_QUADRATURE_RAMP || rule == PERI_QUADRATURE_PARTIAL) ? 0.091 : level[rule % 100], 0.0);
                 if (!strain) printf("  %s %.4f", rule_name[rule % 100], energy);
                 peri_body_destroy(body);
             }

@@ -68,7 +68,8 @@ static errors errors_of(const solid *s, int cells) {
 static void print_errors(const solid *s, const errors *e) {
     int k;
     if (!test_long) return;
-    printf("    %-12s %-14s %-6s m %.0f", space_name[s->space % 100], law_name[s->law % 100], correction_name[s->correction % 100], s->ratio);
+    printf("    %-12s %-14s %-6s m %.0f", space_name[s->space % 100], law_name[s->law % 100], correction_name[s->correction % 100],
+           s->ratio);
     for (k = 0; k < PLACES; ++k)
         if (s->space == PERI_SPACE_SOLID || k != EDGE)
             printf("  %s %5.1f %5.1f (%5.1f)", place_name[k], 100 * e->mean[k], 100 * e->most[k], 100 * e->isotropic[k]);
@@ -169,6 +170,7 @@ static peri_body *cloud(const solid *s, int kind) {
     double hi[3], *x = (double *)calloc((size_t)(n * dim), sizeof *x), *v = (double *)calloc((size_t)n, sizeof *v);
     uint64_t seed = 7;
     peri_body *b = solid_new(s);
+    const int32_t mat = peri_id(b, PERI_KIND_MATERIAL, 1);
     hi[0] = hi[1] = hi[2] = side * s->spacing;
     for (i = 0; i < n; ++i) {
         x[i * dim] = (i % side + 0.5 * test_random(&seed)) * s->spacing;
@@ -177,10 +179,10 @@ static peri_body *cloud(const solid *s, int kind) {
         v[i] = (0.5 + test_random(&seed));
         for (k = 0; k < dim; ++k) v[i] *= s->spacing;
     }
-    if (kind == BOX) (void)MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, s->spacing));
-    if (kind == PERTURBED && dim == 3) (void)MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.05 * s->spacing));
-    if (kind == PERTURBED && dim == 2) (void)MUST(b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, s->spacing, 1.0, 3));
-    if (kind == BALL) (void)MUST(b, peri_add_ball(b, peri_id(b, PERI_KIND_MATERIAL, 1), middle, (dim == 3 ? 3.4 : 5.2) * s->spacing, s->spacing));
+    if (kind == BOX) (void)MUST(b, peri_add_box(b, mat, lo, hi, s->spacing));
+    if (kind == PERTURBED && dim == 3) (void)MUST(b, peri_add_box(b, mat, lo, hi, 1.05 * s->spacing));
+    if (kind == PERTURBED && dim == 2) (void)MUST(b, peri_add_perturbed_box(b, mat, lo, hi, s->spacing, 1.0, 3));
+    if (kind == BALL) (void)MUST(b, peri_add_ball(b, mat, middle, (dim == 3 ? 3.4 : 5.2) * s->spacing, s->spacing));
     if (kind == UNEQUAL) (void)MUST(b, peri_add_points(b, n, x, v, NULL));
     (void)MUST(b, peri_build(b));
     free(x);
@@ -219,7 +221,8 @@ static void balanced(peri_body *b, const solid *s) {
 static void derivative(peri_body *b, const solid *s) {
     int dim = peri_dimension(b);
     int64_t n = peri_point_count(b) * dim, i;
-    double *u = random_field(n, 0.05 * H, 1), *v = random_field(n, 1.0, 2), *w = random_field(n, 1.0, 3), *f, *vol = get(b, PERI_FIELD_VOLUME);
+    double *u = random_field(n, 0.05 * H, 1), *v = random_field(n, 1.0, 2), *w = random_field(n, 1.0, 3), *f;
+    double *vol = get(b, PERI_FIELD_VOLUME);
     double d = s->geometry == PERI_GEOMETRY_LINEAR ? 0.05 * H : 1e-5 * H, power = 0, size = 0, up, down;
     for (i = 0; i < n; ++i) w[i] = u[i] + d * v[i];
     put(b, PERI_FIELD_DISPLACEMENT, w);
@@ -312,7 +315,9 @@ static void no_bond_pushes_when_pulled(void) {
                             free(f);
                             free(sigma);
                         }
-                    if (test_bad) printf("    %s %s %s cloud %d\n", space_name[space % 100], law_name[law % 100], correction_name[correction % 100], kind);
+                    if (test_bad)
+                        printf("    %s %s %s cloud %d\n", space_name[space % 100], law_name[law % 100], correction_name[correction % 100],
+                               kind);
                     CHECK(pulls > 50);
                     free(x);
                     free(u);

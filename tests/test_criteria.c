@@ -109,7 +109,8 @@ static void critical_energy(void) {
                 peri_body_desc d = plan(space);
                 peri_material_desc m = stuff(k);
                 peri_body *b = NULL;
-                double w0[2] = {0, 0}, want = space == PERI_SPACE_SOLID ? 4 * k.limit / (PI * pow(h, 4)) : 3 * k.limit / (2 * pow(h, 3) * THICK);
+                const int solid = space == PERI_SPACE_SOLID;
+                double w0[2] = {0, 0}, want = solid ? 4 * k.limit / (PI * pow(h, 4)) : 3 * k.limit / (2 * pow(h, 3) * THICK);
                 (void)MUST(NULL, peri_body_create(&d, &b, NULL));
                 (void)MUST(b, peri_add_material(b, &m));
                 m.fracture_energy *= 2;
@@ -223,9 +224,11 @@ static void planes_take_g0(void) {
         int32_t space, law;
         int     m;
         int64_t steps;
-    } scene[8] = {{PERI_SPACE_PLANE_STRAIN, PERI_LAW_LPS, 3, 400}, {PERI_SPACE_PLANE_STRAIN, PERI_LAW_LPS, 5, 200}, {PERI_SPACE_PLANE_STRAIN, PERI_LAW_LPS, 8, 200},
+    } scene[8] = {{PERI_SPACE_PLANE_STRAIN, PERI_LAW_LPS, 3, 400}, {PERI_SPACE_PLANE_STRAIN, PERI_LAW_LPS, 5, 200},
+                  {PERI_SPACE_PLANE_STRAIN, PERI_LAW_LPS, 8, 200},
                   {PERI_SPACE_PLANE_STRESS, PERI_LAW_OTERKUS, 3, 400}, {PERI_SPACE_PLANE_STRESS, PERI_LAW_CORRESPONDENCE, 3, 400},
-                  {PERI_SPACE_SOLID, PERI_LAW_LPS, 3, 200}, {PERI_SPACE_SOLID, PERI_LAW_CORRESPONDENCE, 3, 400}, {PERI_SPACE_SOLID, PERI_LAW_OTERKUS, 5, 100}};
+                  {PERI_SPACE_SOLID, PERI_LAW_LPS, 3, 200}, {PERI_SPACE_SOLID, PERI_LAW_CORRESPONDENCE, 3, 400},
+                  {PERI_SPACE_SOLID, PERI_LAW_OTERKUS, 5, 100}};
     int n;
     for (n = 0; n < 4; ++n) {
         int m = ratio[n];

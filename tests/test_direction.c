@@ -48,8 +48,8 @@ static double angle(double nu, int cells, int m) {
     s.material.critical_stretch = 1e-3;
     b = specimen_make(&s);
     MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, edge, tip));
-    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, top, hi)), PERI_AXIS_X | PERI_AXIS_Y, up, NULL, NULL));
-    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, bottom)), PERI_AXIS_X | PERI_AXIS_Y, down, NULL, NULL));
+    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, top, hi)), PERI_AXIS_XY, up, NULL, NULL));
+    MUST(b, peri_prescribe_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, bottom)), PERI_AXIS_XY, down, NULL, NULL));
     MUST(b, peri_set_no_fail(b, (int32_t)MUST(b, peri_select_box(b, NULL, top2, hi)), 1));
     MUST(b, peri_set_no_fail(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, bottom2)), 1));
     n = 2 * peri_point_count(b);

@@ -112,7 +112,7 @@ static void rigid(int32_t space, int32_t precision, int32_t geometry) {
             free(f);
         }
     for (i = 0; i < n * dim; ++i) u[i] = 1e-2 * x[i]; /* and the probe is alive: a stretch of 1e-2 pulls at the surface, */
-    put(b, PERI_FIELD_DISPLACEMENT, u);                     /* where about half of a family is missing                         */
+    put(b, PERI_FIELD_DISPLACEMENT, u);               /* where about half of a family is missing                         */
     f = get(b, PERI_FIELD_FORCE_DENSITY);
     CHECK(largest(f, n * dim) > 1e-3 * unit && largest(f, n * dim) < 1e-2 * unit);
     free(f);
@@ -313,7 +313,8 @@ static void stable_step_by_brute_force(void) {
     int kind, i, j;
     for (kind = 0; kind < 4; ++kind) {
         brute g;
-        peri_body *b = two_halves(kind & 1 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, kind & 2 ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR, &g);
+        peri_body *b = two_halves(kind & 1 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN,
+                                  kind & 2 ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR, &g);
         double least = HUGE_VAL;
         for (i = 0; i < g.n; ++i) {
             double sum = 0;
@@ -469,7 +470,8 @@ static void far_from_the_origin(void) {
         int place;
         for (place = 0; place < 2; ++place) {
             const double at = place ? 1e6 * H : 0, lo[2] = {at, -at}, hi[2] = {at + 7 * H, -at + 5 * H};
-            peri_body *b = empty(PERI_SPACE_PLANE_STRESS, k ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 3 * H);
+            peri_body *b = empty(PERI_SPACE_PLANE_STRESS, k ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE,
+                                 PERI_GEOMETRY_NONLINEAR, 3 * H);
             (void)MUST(b, peri_add_box(b, unbreakable(b, YOUNG, DENSITY), lo, hi, H));
             (void)MUST(b, peri_build(b));
             CHECK(peri_point_count(b) == 35);

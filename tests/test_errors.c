@@ -310,7 +310,8 @@ static void wrong_sets_and_cracks(peri_body *b) {
     REFUSE(b, PERI_ERROR_CRACK, peri_cut_disc(b, PERI_CUT_INITIAL, third, third, 1)); /* 3D only */
     REFUSE(b, PERI_ERROR_CRACK, peri_cut_triangle(b, PERI_CUT_INITIAL, third, third, third));
     REFUSE(b, PERI_ERROR_CRACK, peri_cut_rectangle(b, PERI_CUT_INITIAL, third, third, third));
-    CHECK(peri_cut_polyline(b, PERI_CUT_INITIAL, 1, a) < 0 && peri_cut_polyline(b, PERI_CUT_INITIAL, -1, a) < 0 && peri_cut_polyline(b, PERI_CUT_INITIAL, 2, NULL) < 0);
+    CHECK(peri_cut_polyline(b, PERI_CUT_INITIAL, 1, a) < 0 && peri_cut_polyline(b, PERI_CUT_INITIAL, -1, a) < 0);
+    CHECK(peri_cut_polyline(b, PERI_CUT_INITIAL, 2, NULL) < 0);
     REFUSE(b, PERI_ERROR_PAIR, peri_cut_pairs(b, PERI_CUT_INITIAL, 2, pairs));
     CHECK(seen.index == 1);
     REFUSE(b, PERI_ERROR_INDEX, peri_cut_pairs(b, PERI_CUT_INITIAL, 2, beyond));

@@ -228,7 +228,8 @@ static int32_t count_break(void *user, int32_t i, int32_t j, double time, double
     return 0;
 }
 static int same(peri_body *a, peri_body *b) {
-    const int32_t fields[5] = {PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_FORCE_DENSITY, PERI_FIELD_ENERGY_DENSITY};
+    const int32_t fields[5] = {PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_FORCE_DENSITY,
+                               PERI_FIELD_ENERGY_DENSITY};
     peri_energy e[2];
     int k, equal = peri_broken_count(a) == peri_broken_count(b);
     for (k = 0; k < 5; ++k) {
@@ -348,7 +349,8 @@ static void same_bits_on_any_threads_long(void) {
     int32_t law, criterion, precision;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
         for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion)
-            for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) threads_do_not_matter(law, criterion, precision);
+            for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision)
+                threads_do_not_matter(law, criterion, precision);
 }
 
 /* SOURCE OF TRUTH: the textbook kernel. The same bonds break; displacements differ by what rounding grows to in 40 steps. */

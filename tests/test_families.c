@@ -366,8 +366,9 @@ static void one_perturbed(int dim, double spacing, double amount) {
     peri_body *body = perturbed(dim, spacing, amount, 7, 0), *twin = perturbed(dim, spacing, amount, 7, 0);
     peri_body *other = perturbed(dim, spacing, amount, 8, 0), *plain = perturbed(dim, spacing, amount, 7, 1);
     double *x = read_field(body, PERI_FIELD_POSITION), *v = read_field(body, PERI_FIELD_VOLUME);
-    double *x2 = read_field(twin, PERI_FIELD_POSITION), *v2 = read_field(twin, PERI_FIELD_VOLUME), *x3 = read_field(other, PERI_FIELD_POSITION);
-    double *x0 = read_field(plain, PERI_FIELD_POSITION), *v0 = read_field(plain, PERI_FIELD_VOLUME);
+    double *x2 = read_field(twin, PERI_FIELD_POSITION), *v2 = read_field(twin, PERI_FIELD_VOLUME);
+    double *x3 = read_field(other, PERI_FIELD_POSITION), *x0 = read_field(plain, PERI_FIELD_POSITION);
+    double *v0 = read_field(plain, PERI_FIELD_VOLUME);
     const int64_t n = peri_point_count(body);
     const double bound = amount / 4.0 * (dim == 2 ? 4.0 : 5.0) / 3.0;
     double sum = 0.0, size = 1.0, moment[3] = {0, 0, 0}, cell[3], square = 0.0;

@@ -16,7 +16,7 @@ static void closed_form(const solid *s, const double *h, double *strain, double 
         for (c = a; c < dim; ++c) {
             double sum = 0;
             for (d = 0; d < dim; ++d) sum += f[d][a] * f[d][c];
-            strain[packed(dim, a, c)] = s->geometry == PERI_GEOMETRY_LINEAR ? 0.5 * (h[a * dim + c] + h[c * dim + a]) : 0.5 * (sum - (a == c));
+            strain[packed(dim, a, c)] = 0.5 * (s->geometry == PERI_GEOMETRY_LINEAR ? h[a * dim + c] + h[c * dim + a] : sum - (a == c));
         }
     solid_stress(s, strain, s->geometry == PERI_GEOMETRY_LINEAR ? stress : sigma);
     if (s->geometry == PERI_GEOMETRY_LINEAR) return;
@@ -174,8 +174,8 @@ static void force_stress_is_the_stress(void) {
             closed_form(&s, h, strain, stress);
             stretch_by(b, h);
             if (test_long)
-                printf("    %-12s %-14s m %.0f uncorrected: bulk %5.1f %%, all %5.1f %%\n", space_name[space % 100], law_name[law % 100], s.ratio,
-                       100 * off(b, &s, PERI_FIELD_FORCE_STRESS, stress, cells, 3) / size,
+                printf("    %-12s %-14s m %.0f uncorrected: bulk %5.1f %%, all %5.1f %%\n", space_name[space % 100],
+                       law_name[law % 100], s.ratio, 100 * off(b, &s, PERI_FIELD_FORCE_STRESS, stress, cells, 3) / size,
                        100 * off(b, &s, PERI_FIELD_FORCE_STRESS, stress, cells, 0) / size);
             peri_body_destroy(b);
         }
@@ -384,10 +384,10 @@ static void static_pull(void) {
             stretch_by(b, h);
             x = get(b, PERI_FIELD_POSITION);
             v = get(b, PERI_FIELD_VOLUME);
-            load[0] = (int32_t)MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi)), PERI_AXIS_X, NULL,
-                                                                    pulled, x));
-            load[1] = (int32_t)MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo2, hi2)), PERI_AXIS_X, NULL,
-                                                                    pulled, x));
+            load[0] = (int32_t)MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi)),
+                                                                    PERI_AXIS_X, NULL, pulled, x));
+            load[1] = (int32_t)MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo2, hi2)),
+                                                                    PERI_AXIS_X, NULL, pulled, x));
             (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 1500, 0, 2.0);
             (void)MUST(b, peri_get_reaction(b, load[0], force[0]));
             (void)MUST(b, peri_get_reaction(b, load[1], force[1]));

@@ -533,8 +533,8 @@ static void stable_step_is_safe(void) {
                         least = fmin(least, ratio);
                         most = fmax(most, ratio);
                         if (ratio < 1)
-                            printf("    %s nu %.2f space %d correction %d influence %d cut %.2f: limit/stable step %.3f\n", law_name[law % 100],
-                                   nus[nu], (int)space, (int)correction, (int)weights[w / 3], cuts[w % 3], ratio);
+                            printf("    %s nu %.2f space %d correction %d influence %d cut %.2f: limit/stable step %.3f\n",
+                                   law_name[law % 100], nus[nu], (int)space, (int)correction, (int)weights[w / 3], cuts[w % 3], ratio);
                         CHECK(ratio >= 1);
                     }
             printf("    %-10s nu %5.2f: true limit/stable step %.3f to %.3f\n", law_name[law % 100], nus[nu], least, most);
