@@ -394,7 +394,7 @@ PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t
    as it was: add what is missing and build again. */
 PERI_API int32_t peri_build(peri_body *body);
 
-/* ---- the built body: functions named by a noun return that number, and 0 for NULL  */
+/* ---- the built body: nouns return that number; of NULL: PERI_ERROR_ARGUMENT */
 
 PERI_API int32_t peri_dimension(const peri_body *body); /* 2 or 3 */
 PERI_API int64_t peri_point_count(const peri_body *body);
@@ -476,7 +476,7 @@ PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 
 /* ---- initial state, supports, loads, obstacles: ids, or an error ------------ */
 
-typedef enum peri_axis { /* a sum (or) of these */
+typedef enum peri_axis { /* or-ed */
     PERI_AXIS_X = 0x1001,
     PERI_AXIS_Y = 0x1002,
     PERI_AXIS_Z = 0x1004,

@@ -34,7 +34,7 @@ awk -f - peri.h src/base/status.c << 'END' || fail "peri.h and src/base/status.c
 FILENAME == "peri.h" && !ended {
     entry = entry " " $0
     if (!/\*\/$/) next
-    if (match(entry, /PERI_[A-Z_]+ += +-?[0-9]+, \/\* /)) {
+    if (match(entry, /PERI_[A-Z_]+ += +-?[0-9]+,? +\/\* /)) {
         name = substr(entry, RSTART)
         said = substr(entry, RSTART + RLENGTH)
         sub(/ .*/, "", name); sub(/ \*\/$/, "", said); gsub(/ +/, " ", said)

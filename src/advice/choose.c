@@ -203,7 +203,8 @@ static int peri__recipe_serves(const peri__recipe *r, const peri_body_desc *body
 }
 
 /* What is wrong with the question, if anything is. */
-static int32_t peri__check_goal(const peri_choose_desc *g, const peri_body_desc *body, const peri_material_desc *material, peri_error *error) {
+static int32_t peri__check_goal(const peri_choose_desc *g, const peri_body_desc *body, const peri_material_desc *material,
+                                peri_error *error) {
     if (g->cookie != PERI_COOKIE_GOAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     if (material->cookie != PERI_COOKIE_MATERIAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
     if (!PERI_IS_ONE_OF(preset, g->preset)) return peri__set_error(error, PERI_ERROR_CHOICE, "preset", -1, g->preset);
@@ -223,8 +224,8 @@ static int32_t peri__check_goal(const peri_choose_desc *g, const peri_body_desc 
 
 /* The best of all recipes: by cost where an error is given, else by error. Where none will do: *best is 0, *value the least error that
    there is. */
-static int32_t peri__try_recipes(const peri_choose_desc *goal, double target, const peri_body_desc *body, const peri_material_desc *material,
-                                 peri__candidate *best, double *value, peri_error *error) {
+static int32_t peri__try_recipes(const peri_choose_desc *goal, double target, const peri_body_desc *body,
+                                 const peri_material_desc *material, peri__candidate *best, double *value, peri_error *error) {
     memset(best, 0, sizeof *best);
     *value = HUGE_VAL;
     for (int k = 0; k < PERI_RECIPES; ++k) {
@@ -248,7 +249,8 @@ static int32_t peri__try_recipes(const peri_choose_desc *goal, double target, co
     return PERI_OK;
 }
 
-PERI_API int32_t peri_choose(const peri_choose_desc *goal, peri_body_desc *body, peri_material_desc *material, peri_choose_report *choice, peri_error *error) {
+PERI_API int32_t peri_choose(const peri_choose_desc *goal, peri_body_desc *body, peri_material_desc *material,
+                             peri_choose_report *choice, peri_error *error) {
     peri__candidate best;
     peri_error local;
     peri_body_desc desc;
@@ -262,7 +264,9 @@ PERI_API int32_t peri_choose(const peri_choose_desc *goal, peri_body_desc *body,
     desc.influence = PERI_INFLUENCE_CONSTANT;
     desc.quadrature = PERI_QUADRATURE_FULL;
     desc.correction = PERI_CORRECTION_NONE;
-    desc.precision = !peri__without_precision(PERI_PRECISION_DOUBLE) ? PERI_PRECISION_DOUBLE : !peri__without_precision(PERI_PRECISION_SINGLE) ? PERI_PRECISION_SINGLE : PERI_PRECISION_MIXED;
+    desc.precision = !peri__without_precision(PERI_PRECISION_DOUBLE) ? PERI_PRECISION_DOUBLE
+                   : !peri__without_precision(PERI_PRECISION_SINGLE) ? PERI_PRECISION_SINGLE
+                                                                     : PERI_PRECISION_MIXED;
     int32_t status = peri__check_desc(&desc, error);
     if (status == PERI_OK) status = peri__check_goal(goal, &desc, material, error);
     if (status < 0) return status;

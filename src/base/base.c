@@ -6,10 +6,11 @@
 /* 2: AVX-512, 1: AVX2, 0: what the compiler takes for granted; no more than `most`, a peri_instructions. */
 static int32_t peri__isa(int32_t most) {
 #ifdef PERI_ISA
-    if ((most == PERI_INSTRUCTIONS_BEST || most >= PERI_INSTRUCTIONS_AVX512) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+    if (most == PERI_INSTRUCTIONS_BEST) most = PERI_INSTRUCTIONS_AVX512;
+    if (most >= PERI_INSTRUCTIONS_AVX512 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
         && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
         return 2;
-    if ((most == PERI_INSTRUCTIONS_BEST || most >= PERI_INSTRUCTIONS_AVX2) && __builtin_cpu_supports("avx2")) return 1;
+    if (most >= PERI_INSTRUCTIONS_AVX2 && __builtin_cpu_supports("avx2")) return 1;
 #endif
     (void)most;
     return 0;

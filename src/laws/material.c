@@ -61,7 +61,7 @@ static peri__law peri__law_of(const peri_material_desc *m, int32_t space, double
     double nu = peri__poisson(m, space);
     law.young = peri__young(m, space) / stress;
     law.mu = law.young / (2.0 * (1.0 + nu));
-    law.lambda = space == PERI_SPACE_PLANE_STRESS ? law.young * nu / ((1.0 - nu) * (1.0 + nu)) : law.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    law.lambda = law.young * nu / ((1.0 + nu) * (space == PERI_SPACE_PLANE_STRESS ? 1.0 - nu : 1.0 - 2.0 * nu));
     /* lambda + 2 mu/dim, by forms that cancel no digits near nu = -1 */
     law.bulk = space == PERI_SPACE_PLANE_STRESS ? law.young / (2.0 * (1.0 - nu))
              : space == PERI_SPACE_PLANE_STRAIN ? law.young / (2.0 * (1.0 + nu) * (1.0 - 2.0 * nu)) : law.young / (3.0 * (1.0 - 2.0 * nu));

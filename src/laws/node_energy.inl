@@ -12,7 +12,8 @@ static double peri__limit_node_energy(const peri__fracture *g) {
 #ifdef PERI_CRITERION_ROLE_OVER
 PERI_INLINE int PERI_FN(over_node_energy)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k];
-    return s->node && bond->along > 0 && 0.5 * (s->node[i] + s->node[j]) > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_NODE_ENERGY - peri__first_criterion];
+    const int at = PERI_CRITERION_NODE_ENERGY - peri__first_criterion;
+    return s->node && bond->along > 0 && 0.5 * (s->node[i] + s->node[j]) > PERI_FN(pair)(s, i, j)->limit[at];
 }
 #endif
 

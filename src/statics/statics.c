@@ -59,8 +59,9 @@ static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, 
     const peri__pair *pair = b->point_class ? &b->pairs[b->point_class[i] * b->classes + b->point_class[j]] : b->pairs;
     double excess = 0.0;
     if (!(peri__stretch(b, i, row, k) > 0.0)) return 0.0;
-#define PERI_CASE(name, number) \
-    if (pair->limit[(number) - peri__first_criterion] < PERI_NEVER) excess = fmax(excess, peri__excess_##name(b, i, row, k, pair->limit[number - peri__first_criterion]));
+#define PERI_CASE(name, number)                                                                                        \
+    if (pair->limit[(number) - peri__first_criterion] < PERI_NEVER)                                                    \
+        excess = fmax(excess, peri__excess_##name(b, i, row, k, pair->limit[(number) - peri__first_criterion]));
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
     return excess;

@@ -102,7 +102,8 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
     return peri__set_error(error, PERI_ERROR_LEFT_OUT, "PERI_NO_ADVICE", -1, 0.0);
 }
 
-PERI_API int32_t peri_choose(const peri_choose_desc *goal, peri_body_desc *body, peri_material_desc *material, peri_choose_report *choice, peri_error *error) {
+PERI_API int32_t peri_choose(const peri_choose_desc *goal, peri_body_desc *body, peri_material_desc *material,
+                             peri_choose_report *choice, peri_error *error) {
     (void)goal, (void)body, (void)material, (void)choice;
     return peri__set_error(error, PERI_ERROR_LEFT_OUT, "PERI_NO_ADVICE", -1, 0.0);
 }
