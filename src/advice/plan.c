@@ -468,9 +468,10 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
     if (report) memset(report, 0, sizeof *report);
     if (!plan || !report) return peri__set_error(error, PERI_ERROR_ARGUMENT, plan ? "report" : "desc", -1, 0.0);
     if (plan->cookie != PERI_COOKIE_PLAN) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
-    if (!plan->body) return peri__set_error(error, PERI_ERROR_ARGUMENT, "body", -1, 0.0);
+    if (!plan->body || !plan->material) return peri__set_error(error, PERI_ERROR_ARGUMENT, plan->body ? "material" : "body", -1, 0.0);
     int32_t status = peri__check_desc(plan->body, error);
     if (status < 0) return status;
+    if (plan->material->cookie != PERI_COOKIE_MATERIAL) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "material", -1, 0.0);
     status = peri__open_estimate(&s, plan);
     if (status == PERI_OK) status = peri__estimate_families(&s);
     if (status == PERI_OK) {
