@@ -6,10 +6,10 @@
 #include "published_laws.h"
 #include "equilibrium.h"
 
-#define ALL_LAWS 5 /* models[], and the four side by side */
+#define ALL_LAWS 5 /* laws[], and the four side by side */
 
-static inline int32_t law_of(int k) { return k < LAWS ? models[k] : 0; }
-static inline const char *law_text(int k) { return k < LAWS ? law_name[models[k % 100]] : "mixed"; }
+static inline int32_t law_of(int k) { return k < LAWS ? laws[k] : 0; }
+static inline const char *law_text(int k) { return k < LAWS ? law_name[laws[k] % 100] : "mixed"; }
 
 /* A random body force on all points, from the numbers in user; in statics `time` is the load factor. */
 typedef struct wind {
@@ -53,7 +53,7 @@ static inline task task_of(peri_body *b, int32_t space, double size) {
     t.u = (double *)calloc((size_t)t.n, sizeof(double));
     t.reaction = (double *)calloc((size_t)t.n, sizeof(double));
     for (i = 0; i < points; ++i) most = fmax(most, x[i * dim]);
-    t.grip = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, -1, 1.3 * H), (1 << dim) - 1, NULL, NULL, NULL));
+    t.grip = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, -1, 1.3 * H), all_axes(dim), NULL, NULL, NULL));
     t.roller = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, most - 0.5 * H, most + H), PERI_AXIS_X, moved, NULL, NULL));
     t.pull = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, -1, 0.8 * H), PERI_AXIS_Y, later, NULL, NULL));
     for (i = 0; i < points; ++i) {

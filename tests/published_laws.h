@@ -7,7 +7,7 @@
 
 #define LAWS 4
 
-static const int32_t models[LAWS] = {PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE};
+static const int32_t laws[LAWS] = {PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE};
 
 typedef struct scene {
     int32_t space, geometry, influence, correction, precision;
@@ -256,8 +256,7 @@ static inline peri_body *small_body(const scene *s, int32_t law, double nu, doub
         to[0] = H * (solid ? 4 : 6);
         to[1] = H * (solid ? 3 : 5);
         to[2] = H * 3;
-        (void)add_law(b, law, nu, stable);
-        (void)MUST(b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), from, to, H, 0.8, 7));
+        (void)MUST(b, peri_add_perturbed_box(b, add_law(b, law, nu, stable), from, to, H, 0.8, 7));
     } else {
         for (k = 0; k < LAWS; ++k) {
             double cells = solid ? 2 : 3;
@@ -266,7 +265,7 @@ static inline peri_body *small_body(const scene *s, int32_t law, double nu, doub
             to[0] = from[0] + H * cells;
             to[1] = from[1] + H * cells;
             to[2] = H * 3;
-            (void)MUST(b, peri_add_perturbed_box(b, add_law(b, models[k], 0.1 * (k + 1), -1), from, to, H, 0.8, 7 + (uint64_t)k));
+            (void)MUST(b, peri_add_perturbed_box(b, add_law(b, laws[k], 0.1 * (k + 1), -1), from, to, H, 0.8, 7 + (uint64_t)k));
         }
     }
     (void)MUST(b, peri_build(b));

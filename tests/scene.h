@@ -14,10 +14,12 @@
 
 static inline double thickness(int32_t space) { return space == PERI_SPACE_SOLID ? 1.0 : THICK; }
 
+/* By value % 100. */
 static const char *const law_name[] = {"", "bond-based", "LPS", "Oterkus", "correspondence"};
 static const char *const space_name[] = {"", "plane stress", "plane strain", "solid"};
 
 static inline int dim_of(int32_t space) { return space == PERI_SPACE_SOLID ? 3 : 2; }
+static inline int32_t all_axes(int dim) { return dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY; }
 
 /* Poisson ratio of central springs: 1/3 in plane stress, else 1/4 ([T] 1.2, [P] A). */
 static inline double bond_nu(int32_t space) { return space == PERI_SPACE_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }

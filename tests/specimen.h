@@ -33,7 +33,7 @@ static inline specimen specimen_of(int32_t space, int32_t law, double poisson, d
     return s;
 }
 
-/* Without points, with material 0. */
+/* Without points, with its material. */
 static inline peri_body *specimen_start(const specimen *s) {
     peri_body *b = NULL;
     (void)MUST(NULL, peri_body_create(&s->desc, &b, NULL));
@@ -44,8 +44,9 @@ static inline peri_body *specimen_start(const specimen *s) {
 /* With its box, built. */
 static inline peri_body *specimen_make(const specimen *s) {
     peri_body *b = specimen_start(s);
-    if (s->scatter > 0) (void)MUST(b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), s->lo, s->hi, s->spacing, s->scatter, s->seed));
-    else (void)MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), s->lo, s->hi, s->spacing));
+    const int32_t material = peri_id(b, PERI_KIND_MATERIAL, 1);
+    if (s->scatter > 0) (void)MUST(b, peri_add_perturbed_box(b, material, s->lo, s->hi, s->spacing, s->scatter, s->seed));
+    else (void)MUST(b, peri_add_box(b, material, s->lo, s->hi, s->spacing));
     (void)MUST(b, peri_build(b));
     return b;
 }

@@ -83,7 +83,8 @@ static void check_bulk(peri_body *b, const scene *s, int points, const int *poin
         if (all) f[4] = get(b, PERI_FIELD_DILATATION);
         for (a = 0; a < dim; ++a) trace += eps[a][a];
         for (k = 0; k < points; ++k, ++x) {
-            double w = 0, tol = x->tolerance + slack, *worst = &table[s->space % 100][x->law % 100][s->correction % 100][(int)(s->reach + 0.5)];
+            double *worst = &table[s->space % 100][x->law % 100][s->correction % 100][(int)(s->reach + 0.5)];
+            double w = 0, tol = x->tolerance + slack;
             contract(dim, &x->moduli, eps, sigma);
             contract(dim, &x->solid, eps, exact);
             for (a = 0; a < dim; ++a)
@@ -156,6 +157,7 @@ static void bulk_of(const scene *s, int32_t law, double nu) {
     int n[3] = {1, 1, 1}, point[8], k, points = 0;
     const double lo[3] = {0, 0, 0};
     double hi[3], centre[3];
+    int32_t material;
     expected x[8];
     sums o;
     peri_body *b = scene_body(s);
@@ -164,9 +166,9 @@ static void bulk_of(const scene *s, int32_t law, double nu) {
         hi[k] = H * n[k];
         centre[k] = H * (2 * reach + 0.5);
     }
-    (void)add_law(b, law, nu, -1);
-    if (dim == 3 && reach > 3) (void)MUST(b, peri_add_ball(b, 0, centre, centre[0], H));
-    else (void)MUST(b, peri_add_box(b, 0, lo, hi, H));
+    material = add_law(b, law, nu, -1);
+    if (dim == 3 && reach > 3) (void)MUST(b, peri_add_ball(b, material, centre, centre[0], H));
+    else (void)MUST(b, peri_add_box(b, material, lo, hi, H));
     lattice_sums(s, &o);
     if (build_or_refuse(b, s, law == PERI_LAW_BOND_BASED)) {
         double *at = get(b, PERI_FIELD_POSITION);
@@ -200,9 +202,10 @@ static void bulk_of_mixture(const scene *s) {
     lattice_sums(s, &o);
     points = inner_points(dim, n, margin, point);
     CHECK(points == MIXED);
-    (void)add_law(b, PERI_LAW_LPS, 0.2, -1);
+    material[0] = add_law(b, PERI_LAW_LPS, 0.2, -1);
+    for (k = 1; k < count; ++k) material[k] = material[0];
     for (k = 0; k < MIXED; ++k) {
-        x[k] = expect(s, &o, models[1 + k / NUS], nus[k % NUS]);
+        x[k] = expect(s, &o, laws[1 + k / NUS], nus[k % NUS]);
         material[point[k]] = add_law(b, x[k].law, x[k].nu, -1);
     }
     add_sites(b, dim, n, material);
@@ -224,7 +227,7 @@ static void bulk_sweep(int32_t space, int influences, const int32_t *functions, 
     }
 }
 
-static const int32_t every[15] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+static const int32_t every[15] = {401, 402, 403, 404, 405, 406, 407, 408, 409, 410, 411, 412, 413, 414, 415}; /* of peri_influence */
 static const int32_t some[5] = {PERI_INFLUENCE_CONSTANT, PERI_INFLUENCE_LINEAR, PERI_INFLUENCE_POWER_3, PERI_INFLUENCE_GAUSSIAN,
                                 PERI_INFLUENCE_INVERSE};
 
@@ -260,7 +263,7 @@ static void pure(int32_t space, int32_t correction) {
     scene s = scene_of(space, PERI_GEOMETRY_LINEAR, PERI_INFLUENCE_CUBIC, correction, 3);
     int k;
     for (s.geometry = PERI_GEOMETRY_NONLINEAR; s.geometry < peri__end_geometry; ++s.geometry)
-        for (k = 0; k < LAWS; ++k) bulk_of(&s, models[k], k % 2 ? 0.4 : 0.1);
+        for (k = 0; k < LAWS; ++k) bulk_of(&s, laws[k], k % 2 ? 0.4 : 0.1);
 }
 static void bulk_pure_plane(void) {
     int32_t correction;
@@ -336,8 +339,8 @@ static void same_law(int32_t space, int32_t geometry, int32_t bonds, int32_t sta
         if (k) s.influence = PERI_INFLUENCE_INVERSE;
         if (k) s.correction = states;
         b[k] = scene_body(&s);
-        (void)add_law(b[k], k ? PERI_LAW_LPS : PERI_LAW_BOND_BASED, bond_nu(space), -1);
-        (void)MUST(b[k], peri_add_perturbed_box(b[k], 0, lo, hi, H, 0.5, 3));
+        const int32_t material = add_law(b[k], k ? PERI_LAW_LPS : PERI_LAW_BOND_BASED, bond_nu(space), -1);
+        (void)MUST(b[k], peri_add_perturbed_box(b[k], material, lo, hi, H, 0.5, 3));
         (void)MUST(b[k], peri_build(b[k]));
         n = peri_size_of_field(b[k], PERI_FIELD_DISPLACEMENT);
         u = random_field(n, 0.05 * H, 11);

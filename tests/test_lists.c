@@ -1,15 +1,79 @@
-/* test_lists.c - whatever an enum of peri.h names is served, and the number after the last is refused by the name of its field.
+/* test_lists.c - whatever an enum of peri.h names is served, and any other number is refused by the name of its field.
 
-   SOURCE OF TRUTH: peri.h: every number below a PERI_..._COUNT_ is a choice, the count itself is none. A field does not depend on what was
-   in the caller's buffer. The moments of an influence function are those of the forces that it makes: [P] C.18, c I_2 = 3E/(pi h^3). */
+   SOURCE OF TRUTH: peri.h, whose text is read here: its enums name what there is, and have disjoint values, so that one in the wrong field
+   is refused. A field does not depend on what was in the caller's buffer. The moments of an influence function are those of the forces
+   that it makes: [P] C.18, c I_2 = 3E/(pi h^3). */
 #include "scene.h"
 
 #define UNWRITTEN 6.02214076e123
 
+/* ---- groups ------------------------------------------------------------------------------------------------------- */
+
+typedef struct group {
+    const char *name; /* of the enum, without peri_ */
+    int32_t     first, end, count;
+} group;
+
+#define GROUP(name) {#name, peri__first_##name, peri__end_##name, peri__count_##name}
+#define GROUPS      23
+static const group groups[GROUPS] = {
+    GROUP(status),      GROUP(space),      GROUP(precision), GROUP(geometry),     GROUP(influence), GROUP(quadrature), GROUP(break_timing),
+    GROUP(correction),  GROUP(kernel),     GROUP(law),       GROUP(instructions), GROUP(criterion), GROUP(integrator), GROUP(method),
+    GROUP(preconditioner), GROUP(loose),   GROUP(type),      GROUP(source),       GROUP(quantity),  GROUP(preset),     GROUP(field),
+    GROUP(standing),    GROUP(kind)};
+
+static int group_of(const char *name) {
+    for (int k = 0; k < GROUPS; ++k)
+        if (strcmp(groups[k].name, name) == 0) return k;
+    return -1;
+}
+
+/* Each enum of the header, but that of axes, is a group, and has the values of the group in order, one to a line, and no others. */
+static void groups_are_the_enums(void) {
+    FILE *file = fopen("peri.h", "r"); /* tests run at the root of the repository */
+    char line[256], name[64];
+    int seen[GROUPS] = {0}, value, k = -1;
+    CHECK(file != NULL);
+    if (!file) return;
+    while (fgets(line, sizeof line, file)) {
+        if (sscanf(line, "typedef enum peri_%63[a-z_]", name) == 1) {
+            k = group_of(name);
+            if (k < 0 && strcmp(name, "axis") != 0) {
+                test_bad++;
+                printf("    %s: no group\n", name);
+            }
+        } else if (line[0] == '}') {
+            k = -1;
+        } else if (k >= 0 && sscanf(line, " PERI_%63[A-Z0-9_] = %d", name, &value) == 2) {
+            if (value != (k == 0 ? groups[k].end - 1 - seen[k] : groups[k].first + seen[k])) {
+                test_bad++;
+                printf("    PERI_%s is %d\n", name, value);
+            }
+            seen[k]++;
+        }
+    }
+    (void)fclose(file);
+    for (k = 0; k < GROUPS; ++k) {
+        if (seen[k] == groups[k].count && seen[k] == groups[k].end - groups[k].first) continue;
+        test_bad++;
+        printf("    %s has %d values, its group %d\n", groups[k].name, seen[k], (int)groups[k].count);
+    }
+}
+
+/* Statuses lie below 100, and each other group has a hundred of its own, of which it leaves the first number, and those of the axes. */
+static void groups_are_disjoint(void) {
+    CHECK(groups[0].end <= 100);
+    for (int k = 1; k < GROUPS; ++k) {
+        CHECK(groups[k].first >= 100 && groups[k].first % 100 == 1 && groups[k].count < 100);
+        CHECK(groups[k].end <= PERI_AXIS_X || groups[k].first > PERI_AXIS_XYZ);
+        for (int other = 1; other < k; ++other) CHECK(groups[k].first / 100 != groups[other].first / 100);
+    }
+}
+
 /* ---- statuses ----------------------------------------------------------------------------------------------------- */
 
 static void statuses_have_texts(void) {
-    const int32_t last = PERI_STOPPED - peri__end_status + 1;
+    const int32_t last = peri__first_status;
     const char *unknown = peri_status_text(-1000);
     CHECK(strcmp(unknown, "unknown status") == 0);
     CHECK(peri_status_text(PERI_STOPPED + 1) == unknown && peri_status_text(last - 1) == unknown);
@@ -30,7 +94,7 @@ static peri_body *busy(int32_t space) {
     const int32_t left = (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi));
     if (space == PERI_SPACE_SOLID) MUST(b, peri_cut_disc(b, PERI_CUT_INITIAL, centre, up, 0.25));
     else MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, tip, mouth));
-    MUST(b, peri_prescribe_displacement(b, left, 1, NULL, NULL, NULL));
+    MUST(b, peri_prescribe_displacement(b, left, PERI_AXIS_X, NULL, NULL, NULL));
     MUST(b, peri_apply_body_force(b, PERI_ALL, pull, NULL, NULL));
     (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 5, 0, 0);
     return b;
@@ -59,22 +123,24 @@ static void field_is_served(peri_body *b, int32_t field) {
         CHECK(one[k] == v.offset[d] + v.scale * ((const double *)v.data)[at]);
     }
     CHECK(peri_get_field(b, field, one, n - 1) == PERI_ERROR_CAPACITY);
-    if (test_bad > bad) printf("    field %d of %d\n", (int)field, peri__end_field - 1);
+    if (test_bad > bad) printf("    field %d\n", (int)field);
     free(one);
     free(other);
 }
 
 static void every_field_is_served(void) {
+    static const int32_t none[4] = {0, 1, peri__first_field - 1, peri__end_field};
     for (int32_t space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space) {
         peri_body *b = busy(space);
         peri_view v;
         peri_error e;
         double x[4] = {0, 0, 0, 0};
-        for (int32_t field = 1; field < peri__end_field; ++field) field_is_served(b, field);
-        for (int32_t field = 0; field <= peri__end_field; field += peri__end_field) {
-            CHECK(peri_size_of_field(b, field) == PERI_ERROR_FIELD && peri_set_field(b, field, x, 4) == PERI_ERROR_FIELD);
-            CHECK(peri_get_field(b, field, x, 4) == PERI_ERROR_FIELD && peri_view_field(b, field, &v) == PERI_ERROR_FIELD);
-            CHECK(peri_get_error(b, &e) == PERI_OK && strcmp(e.field, "field") == 0 && e.index == field);
+        for (int32_t field = peri__first_field; field < peri__end_field; ++field) field_is_served(b, field);
+        for (int k = 0; k < 4; ++k) {
+            const int32_t field = none[k];
+            CHECK(peri_size_of_field(b, field) == PERI_ERROR_CHOICE && peri_set_field(b, field, x, 4) == PERI_ERROR_CHOICE);
+            CHECK(peri_get_field(b, field, x, 4) == PERI_ERROR_CHOICE && peri_view_field(b, field, &v) == PERI_ERROR_CHOICE);
+            CHECK(peri_get_error(b, &e) == PERI_OK && strcmp(e.field, "field") == 0 && e.value == field);
         }
         peri_body_destroy(b);
     }
@@ -139,12 +205,12 @@ static double moment_of_pulls(int32_t influence) {
 }
 
 static void moments_are_those_of_the_forces(void) {
-    for (int32_t w = 1; w < peri__end_influence; ++w) {
+    for (int32_t w = peri__first_influence; w < peri__end_influence; ++w) {
         const int none = w == PERI_INFLUENCE_INVERSE_4 || w == PERI_INFLUENCE_POLE_HALF || w == PERI_INFLUENCE_POLE_QUARTER;
         int bad = test_bad;
         if (none) CHECK(pull_of(w, 0.7) == 0);
         else CHECK_NEAR(moment_of_pulls(w), 3 * YOUNG / PI, 1e-11, 0);
-        if (test_bad > bad) printf("    influence function %d of %d\n", (int)w, peri__end_influence - 1);
+        if (test_bad > bad) printf("    influence function %d\n", (int)w);
     }
 }
 
@@ -157,68 +223,93 @@ static int32_t create(const peri_body_desc *d, peri_error *e) {
     return status;
 }
 
-/* peri_body_create takes every choice from `first` on in a member of the descriptor (but `hole`), and not the one after the last. */
-#define CREATES(member, first, count, hole)                                                                            \
+/* peri_body_create takes every choice in a member of the descriptor, and none that belongs in another. */
+#define CREATES(member)                                                                                                \
     do {                                                                                                               \
         peri_body_desc d;                                                                                              \
         peri_error e;                                                                                                  \
         peri_body_desc_init(&d);                                                                                       \
-        d.space = PERI_SPACE_PLANE_STRAIN;                                                                                   \
+        d.space = PERI_SPACE_PLANE_STRAIN;                                                                             \
         d.horizon = 1;                                                                                                 \
         d.influence_fn = falling;                                                                                      \
-        for (d.member = (first); d.member < (count); ++d.member)                                                       \
-            if (d.member != (hole)) CHECK(create(&d, &e) == PERI_OK);                                                  \
-        CHECK(create(&d, &e) == PERI_ERROR_ARGUMENT && strcmp(e.field, #member) == 0);                                 \
-        d.member = (first)-1;                                                                                          \
-        CHECK(create(&d, &e) == PERI_ERROR_ARGUMENT && strcmp(e.field, #member) == 0);                                 \
+        for (d.member = peri__first_##member; d.member < peri__end_##member; ++d.member)                               \
+            CHECK(create(&d, &e) == PERI_OK);                                                                          \
+        REFUSED(d.member, peri__end_##member, #member, create(&d, &e));                                                \
+        REFUSED(d.member, peri__first_##member - 1, #member, create(&d, &e));                                          \
+        for (int k = 0; k < GROUPS; ++k)                                                                               \
+            if (groups[k].first != peri__first_##member) REFUSED(d.member, groups[k].first, #member, create(&d, &e));  \
+    } while (0)
+
+/* The call with `what` in a member of its descriptor says in e that this is none of its choices. */
+#define REFUSED(member, what, name, call)                                                                              \
+    do {                                                                                                               \
+        (member) = (what);                                                                                             \
+        CHECK((call) == PERI_ERROR_CHOICE && e.code == PERI_ERROR_CHOICE && strcmp(e.field, name) == 0 && e.value == (member)); \
     } while (0)
 
 static void bodies_take_every_choice(void) {
-    CREATES(space, 1, peri__end_space, 0);
-    CREATES(precision, 1, peri__end_type, PERI_TYPE_I32);
-    CREATES(geometry, 1, peri__end_geometry, 0);
-    CREATES(influence, 1, peri__end_influence, 0);
-    CREATES(quadrature, 1, peri__end_quadrature, 0);
-    CREATES(break_timing, 1, peri__end_break_timing, 0);
-    CREATES(correction, 1, peri__end_correction, 0);
-    CREATES(kernel, 0, peri__end_kernel, -1);
-    CREATES(instructions, 0, peri__end_instructions, -1);
+    CREATES(space);
+    CREATES(precision);
+    CREATES(geometry);
+    CREATES(influence);
+    CREATES(quadrature);
+    CREATES(break_timing);
+    CREATES(correction);
+    CREATES(kernel);
+    CREATES(instructions);
 }
 
-/* The choice after the last, in a descriptor that is good otherwise. */
-#define BEYOND(desc, member, count, call)                                                                              \
+/* What is no choice, in a descriptor that is good otherwise. */
+#define BEYOND(desc, member, call)                                                                                     \
     do {                                                                                                               \
         const int32_t good = (desc).member;                                                                            \
-        (desc).member = (count);                                                                                       \
-        CHECK((call) == PERI_ERROR_ARGUMENT && peri_get_error(b, &e) == PERI_OK && strcmp(e.field, #member) == 0);    \
+        REFUSED((desc).member, peri__end_##member, #member, said(b, (call), &e));                                      \
+        REFUSED((desc).member, peri__first_##member - 1, #member, said(b, (call), &e));                                \
+        REFUSED((desc).member, 1, #member, said(b, (call), &e));                                                       \
         (desc).member = good;                                                                                          \
     } while (0)
 
-static void choices_after_the_last_are_refused(void) {
-    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1), *fresh = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 1);
+static int32_t said(const peri_body *b, int32_t result, peri_error *e) {
+    CHECK(peri_get_error(b, e) == PERI_OK);
+    return result;
+}
+
+static void other_choices_are_refused(void) {
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    peri_body *fresh = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 1);
+    const double from[2] = {0, 0}, to[2] = {1, 1};
+    int32_t choice;
     peri_error e;
     peri_advance_desc run;
     peri_solve_desc st;
     peri_material_desc m;
     peri_advance_desc_init(&run);
     run.steps = 1;
-    BEYOND(run, integrator, peri__end_integrator, peri_advance(b, &run));
+    BEYOND(run, integrator, peri_advance(b, &run));
     peri_solve_desc_init(&st);
-    BEYOND(st, method, peri__end_method, peri_solve(b, &st, NULL));
-    BEYOND(st, preconditioner, peri__end_preconditioner, peri_solve(b, &st, NULL));
-    BEYOND(st, loose, peri__end_loose, peri_solve(b, &st, NULL));
+    BEYOND(st, method, peri_solve(b, &st, NULL));
+    BEYOND(st, preconditioner, peri_solve(b, &st, NULL));
+    BEYOND(st, loose, peri_solve(b, &st, NULL));
+    for (int k = 0; k < 3; ++k) {
+        const int32_t standings[3] = {1, peri__first_standing - 1, peri__end_standing};
+        const int32_t kinds[3] = {1, peri__first_kind - 1, peri__end_kind};
+        const int32_t several[3] = {1, PERI_AXIS_X - 1, PERI_AXIS_XYZ}; /* no axis of a plane, none at all, and one too many */
+        REFUSED(choice, standings[k], "standing", said(b, (int32_t)peri_cut_segment(b, choice, from, to), &e));
+        REFUSED(choice, kinds[k], "kind", said(b, peri_id(b, choice, 1), &e));
+        REFUSED(choice, several[k], "axes", said(b, peri_prescribe_velocity(b, PERI_ALL, choice, NULL, NULL, NULL), &e));
+    }
     peri_body_destroy(b);
     b = fresh;
     peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
     m.young = m.density = 1;
-    BEYOND(m, law, peri__end_law, peri_add_material(b, &m));
-    BEYOND(m, criterion, peri__end_criterion, peri_add_material(b, &m));
-    CHECK(peri_add_material(b, &m) == 0);
+    BEYOND(m, law, peri_add_material(b, &m));
+    BEYOND(m, criterion, peri_add_material(b, &m));
+    CHECK(PERI_ID_INDEX(peri_add_material(b, &m)) == 1);
     peri_body_destroy(b);
 }
 
 /* The same of calls that have no body. */
-static void questions_after_the_last_are_refused(void) {
+static void other_questions_are_refused(void) {
     peri_body_desc d;
     peri_material_desc m;
     peri_plan_desc plan;
@@ -236,27 +327,31 @@ static void questions_after_the_last_are_refused(void) {
     plan.material = &m;
     plan.spacing = 1;
     plan.hi[0] = plan.hi[1] = 10;
-    for (plan.source = 1; plan.source < peri__end_source; ++plan.source) CHECK(peri_plan(&plan, &report, &e) == PERI_OK);
-    CHECK(peri_plan(&plan, &report, &e) == PERI_ERROR_ARGUMENT && strcmp(e.field, "source") == 0);
+    for (plan.source = peri__first_source; plan.source < peri__end_source; ++plan.source) CHECK(peri_plan(&plan, &report, &e) == PERI_OK);
+    REFUSED(plan.source, peri__end_source, "source", peri_plan(&plan, &report, &e));
+    REFUSED(plan.source, 1, "source", peri_plan(&plan, &report, &e));
     peri_choose_desc_init(&goal);
     goal.feature = 1;
     goal.hi[0] = goal.hi[1] = 10;
     goal.preset = PERI_PRESET_GAME;
-    for (goal.quantity = 1; goal.quantity < peri__end_quantity; ++goal.quantity)
+    for (goal.quantity = peri__first_quantity; goal.quantity < peri__end_quantity; ++goal.quantity)
         CHECK(peri_choose(&goal, &d, &m, &choice, &e) == PERI_OK && choice.text[0] != '\0');
-    CHECK(peri_choose(&goal, &d, &m, &choice, &e) == PERI_ERROR_ARGUMENT && strcmp(e.field, "quantity") == 0);
+    REFUSED(goal.quantity, peri__end_quantity, "quantity", peri_choose(&goal, &d, &m, &choice, &e));
+    REFUSED(goal.quantity, 1, "quantity", peri_choose(&goal, &d, &m, &choice, &e));
     goal.quantity = PERI_QUANTITY_DEFORMATION;
-    goal.preset = peri__end_preset;
-    CHECK(peri_choose(&goal, &d, &m, &choice, &e) == PERI_ERROR_ARGUMENT && strcmp(e.field, "preset") == 0);
+    REFUSED(goal.preset, peri__end_preset, "preset", peri_choose(&goal, &d, &m, &choice, &e));
+    REFUSED(goal.preset, 1, "preset", peri_choose(&goal, &d, &m, &choice, &e));
 }
 
 int main(int argc, char **argv) {
     test_begin(argc, argv);
+    RUN(groups_are_the_enums);
+    RUN(groups_are_disjoint);
     RUN(statuses_have_texts);
     RUN(every_field_is_served);
     RUN(moments_are_those_of_the_forces);
     RUN(bodies_take_every_choice);
-    RUN(choices_after_the_last_are_refused);
-    RUN(questions_after_the_last_are_refused);
+    RUN(other_choices_are_refused);
+    RUN(other_questions_are_refused);
     return test_end("test_lists");
 }

@@ -181,7 +181,7 @@ static void callbacks_get_the_right_calls(void) {
     (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 10, dt, 0);
     for (k = 0; k < 4; ++k) {
         int first = k < 3 ? 0 : 1;
-        CHECK(load[k] == k && r[k].bad == 0 && r[k].calls == 11 - first);
+        CHECK(PERI_ID_INDEX(load[k]) == k + 1 && r[k].bad == 0 && r[k].calls == 11 - first);
         for (s = 0; s < r[k].calls && s < 64; ++s) CHECK_NEAR(r[k].time[s], (s + first) * dt, 1e-13, 0);
     }
     (void)MUST(b, peri_get_reaction(b, load[0], f));
@@ -440,7 +440,8 @@ static void moving_obstacles_push(void) {
         double p[3], f[3], l[3], mass, *vol;
         int64_t i;
         peri_energy e;
-        peri_body *b = dim == 2 ? disc(PERI_PRECISION_DOUBLE) : empty(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 3 * H);
+        peri_body *b = dim == 2 ? disc(PERI_PRECISION_DOUBLE)
+                                : empty(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 3 * H);
         int32_t id;
         if (dim == 3) {
             (void)MUST(b, peri_add_box(b, unbreakable(b, YOUNG, DENSITY), lo, hi, H));

@@ -41,7 +41,7 @@ static plate plate_of(int32_t geometry, int32_t precision) {
     s.geometry = geometry;
     s.precision = precision;
     p.body = solid_block(&s, 14, 8, 1);
-    p.grip = (int32_t)MUST(p.body, peri_prescribe_displacement(p.body, slab(p.body, 0, 0, 3 * H), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+    p.grip = (int32_t)MUST(p.body, peri_prescribe_displacement(p.body, slab(p.body, 0, 0, 3 * H), PERI_AXIS_XY, NULL, NULL, NULL));
     p.roller = (int32_t)MUST(p.body, peri_prescribe_displacement(p.body, slab(p.body, 0, 12 * H, 14 * H), PERI_AXIS_Y, up, NULL, NULL));
     p.pull = (int32_t)MUST(p.body, peri_apply_layer_traction(p.body, slab(p.body, 0, 13 * H, 14 * H), 8 * H, right, NULL, NULL));
     return p;
@@ -80,7 +80,7 @@ static void factors_rows_and_units(void) {
     static const double ends[3][2] = {{0, 1}, {0.5, 2}, {1, -0.5}};
     int32_t precision;
     int k, i;
-    for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision)
+    for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; precision += 2)
         for (k = 0; k < 3; ++k) {
             double rows[6][6], tolerance = precision == PERI_PRECISION_DOUBLE ? 1e-7 : 3e-3;
             const double area = 14 * 4 * H * H * THICK;
@@ -226,12 +226,11 @@ static int32_t meddle_in_iteration(void *user, int64_t iteration, double residua
     if (iteration == 2) {
         CHECK(peri_add_displacement(p->body, PERI_ALL, v) == PERI_ERROR_ORDER);
         CHECK(peri_set_field(p->body, PERI_FIELD_DISPLACEMENT, u, dofs(p)) == PERI_ERROR_ORDER);
-        CHECK(peri_cut_segment(p->body, PERI_CUT_INITIAL, from, to) == PERI_ERROR_ORDER);
+        CHECK(peri_cut_segment(p->body, PERI_CUT_NOW, from, to) == PERI_ERROR_ORDER);
         CHECK(peri_remove_load(p->body, p->pull) == PERI_ERROR_ORDER);
         CHECK(peri_apply_body_force(p->body, PERI_ALL, v, NULL, NULL) == PERI_ERROR_ORDER);
         CHECK(peri_advance(p->body, &run) == PERI_ERROR_ORDER && peri_solve(p->body, &st, NULL) == PERI_ERROR_ORDER);
-        CHECK(peri_reset(p->body) == PERI_ERROR_ORDER);
-        CHECK(peri_multiply_stiffness(p->body, u, u, dofs(p)) == PERI_ERROR_ORDER);
+        CHECK(peri_reset(p->body) == PERI_ERROR_ORDER && peri_multiply_stiffness(p->body, u, u, dofs(p)) == PERI_ERROR_ORDER);
     }
     free(u);
     return 0;
@@ -242,14 +241,15 @@ static int32_t change_in_step(void *user, peri_body *b) { /* as on_frame: loads,
     peri_solve_desc st;
     peri_solve_desc_init(&st);
     if (p->count++ == 0) {
-        CHECK(MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, from, to)) > 10);
+        CHECK(MUST(b, peri_cut_segment(b, PERI_CUT_NOW, from, to)) > 10);
         CHECK(MUST(b, peri_remove_load(b, p->pull)) == PERI_OK);
         CHECK(peri_solve(b, &st, NULL) == PERI_ERROR_ORDER && peri_reset(b) == PERI_ERROR_ORDER);
     }
     return 0;
 }
 static void callbacks_may_and_may_not(void) {
-    plate p = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE), q = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE), c = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE);
+    plate p = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE), q = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE);
+    plate c = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE);
     const double from[2] = {7 * H, 5 * H}, to[2] = {7 * H, 9 * H};
     peri_solve_desc st = statics_of(1e-10), calm = statics_of(1e-10);
     double *u, *w;
@@ -325,28 +325,30 @@ static void at_rest_afterwards(void) {
     }
 }
 
-/* Loads stay at their last factor for what reads them: forces are in balance; a run takes them in full again. */
+/* Loads stay at their last factor, for what reads them, where forces are in balance, and for a run, unless that is given another. */
 static void loads_stay_at_the_last_factor(void) {
     plate p = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE);
     peri_solve_desc st = statics_of(1e-10);
     peri_advance_desc run;
-    double *f, force[2];
+    double force[2];
     st.load_to = 0.4;
     (void)solve(p.body, &st);
     (void)MUST(p.body, peri_get_reaction(p.body, p.pull, force));
     CHECK_NEAR(force[0], 0.4 * 4e-3 * 8 * H * THICK, 1e-12, 0);
-    f = get(p.body, PERI_FIELD_FORCE_DENSITY);
-    CHECK(largest(f, dofs(&p)) < 1e-9); /* loads of 4e-3/H */
-    free(f);
-    (void)MUST(p.body, peri_add_velocity(p.body, PERI_ALL, (const double[2]){0, 0})); /* forces are made anew */
-    f = get(p.body, PERI_FIELD_FORCE_DENSITY);
-    CHECK(largest(f, dofs(&p)) < 1e-9);
-    free(f);
+    for (int k = 0; k < 2; ++k) {
+        double *f = get(p.body, PERI_FIELD_FORCE_DENSITY);
+        CHECK(largest(f, dofs(&p)) < 1e-9); /* loads of 4e-3/H */
+        free(f);
+        (void)MUST(p.body, peri_add_velocity(p.body, PERI_ALL, (const double[2]){0, 0})); /* forces are made anew */
+    }
     peri_advance_desc_init(&run);
     run.steps = 1;
-    (void)MUST(p.body, peri_advance(p.body, &run));
-    (void)MUST(p.body, peri_get_reaction(p.body, p.pull, force));
-    CHECK_NEAR(force[0], 4e-3 * 8 * H * THICK, 1e-12, 0);
+    for (int k = 0; k < 3; ++k) { /* where the body stands, in full, and there again */
+        run.load_factor = k == 1 ? 1 : (double)NAN;
+        CHECK(peri_load_factor(p.body) == (k < 2 ? 0.4 : 1));
+        CHECK(peri_advance(p.body, &run) == PERI_OK && peri_get_reaction(p.body, p.pull, force) == PERI_OK);
+        CHECK_NEAR(force[0], (k < 1 ? 0.4 : 1) * 4e-3 * 8 * H * THICK, 1e-12, 0);
+    }
     peri_body_destroy(p.body);
 }
 
@@ -358,10 +360,10 @@ static void reset_and_clone(void) {
     double *u, *w, *zero;
     size_t bytes = (size_t)dofs(&p) * sizeof *u;
     (void)MUST(p.body, peri_body_clone(p.body, &before, NULL));
-    st.load_to = 0.5;
+    st.steps = 2;
+    st.load_to = 0.5; /* from 0, and on from where body and clone stand: below, the same said in numbers */
     (void)solve(p.body, &st);
     (void)MUST(p.body, peri_body_clone(p.body, &half, NULL));
-    st.load_from = 0.5;
     st.load_to = 1;
     (void)solve(p.body, &st);
     u = get(p.body, PERI_FIELD_DISPLACEMENT);
@@ -434,10 +436,10 @@ static void bad_fields_are_named(void) {
         int32_t     code;
     } bads[] = {
 #define BAD(field, kind, value, code) {#field, offsetof(peri_solve_desc, field), kind, value, code}
-        BAD(method, I32, 0, PERI_ERROR_ARGUMENT),           BAD(method, I32, 4, PERI_ERROR_ARGUMENT),
-        BAD(preconditioner, I32, 0, PERI_ERROR_ARGUMENT),   BAD(preconditioner, I32, 4, PERI_ERROR_ARGUMENT),
-        BAD(loose, I32, 0, PERI_ERROR_ARGUMENT),            BAD(loose, I32, 4, PERI_ERROR_ARGUMENT),
-        BAD(fracture, I32, 2, PERI_ERROR_ARGUMENT),         BAD(fracture, I32, -1, PERI_ERROR_ARGUMENT),
+        BAD(method, I32, 0, PERI_ERROR_CHOICE),             BAD(method, I32, 4, PERI_ERROR_CHOICE),
+        BAD(preconditioner, I32, 0, PERI_ERROR_CHOICE),     BAD(preconditioner, I32, 4, PERI_ERROR_CHOICE),
+        BAD(loose, I32, 0, PERI_ERROR_CHOICE),              BAD(loose, I32, 4, PERI_ERROR_CHOICE),
+        BAD(fracture, I32, 2, PERI_ERROR_CHOICE),           BAD(fracture, I32, -1, PERI_ERROR_CHOICE),
         BAD(criticality, F64, -0.1, PERI_ERROR_RANGE),      BAD(criticality, F64, 1.1, PERI_ERROR_RANGE),
         BAD(criticality, F64, NAN, PERI_ERROR_RANGE),       BAD(tolerance, F64, -1e-9, PERI_ERROR_RANGE),
         BAD(tolerance, F64, 1, PERI_ERROR_RANGE),           BAD(tolerance, F64, NAN, PERI_ERROR_RANGE),
@@ -447,7 +449,7 @@ static void bad_fields_are_named(void) {
         BAD(load_from, F64, INFINITY, PERI_ERROR_RANGE),    BAD(load_to, F64, NAN, PERI_ERROR_RANGE),
         BAD(steps, I64, 0, PERI_ERROR_ARGUMENT),            BAD(halvings, I64, -1, PERI_ERROR_ARGUMENT),
         BAD(halvings, I64, 61, PERI_ERROR_ARGUMENT),        BAD(curve_load, I32, 99, PERI_ERROR_ID_NONE),
-        BAD(curve_load, I32, -2, PERI_ERROR_ID_NONE),            BAD(curve_rows, I64, -1, PERI_ERROR_ARGUMENT),
+        BAD(curve_load, I32, -2, PERI_ERROR_ID_NONE),       BAD(curve_rows, I64, -1, PERI_ERROR_ARGUMENT),
         BAD(curve, CURVE, 0, PERI_ERROR_ARGUMENT),          BAD(cookie, COOKIE, 0, PERI_ERROR_DESCRIPTOR)};
     plate p = plate_of(PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE);
     peri_solve_desc st;
@@ -456,7 +458,7 @@ static void bad_fields_are_named(void) {
     size_t k;
     double *u;
     for (k = 0; k < sizeof bads / sizeof bads[0]; ++k) {
-        const char *want = bads[k].kind == COOKIE ? "statics" : strcmp(bads[k].name, "curve_rows") ? bads[k].name : "curve";
+        const char *want = bads[k].kind == COOKIE ? "desc" : strcmp(bads[k].name, "curve_rows") ? bads[k].name : "curve";
         int32_t code;
         peri_solve_desc_init(&st);
         if (bads[k].kind == I32) *(int32_t *)((char *)&st + bads[k].at) = (int32_t)bads[k].value;
@@ -511,7 +513,7 @@ static void nan_from_callbacks(void) {
             st.steps = 4;
             if (who == 0) id = (int32_t)MUST(p.body, peri_apply_body_force(p.body, slab(p.body, 0, 6 * H, 9 * H), NULL, jump, &bad));
             if (who == 1)
-                id = (int32_t)MUST(p.body, peri_prescribe_displacement(p.body, slab(p.body, 0, 0, H), PERI_AXIS_X | PERI_AXIS_Y, NULL, jump, &bad));
+                id = (int32_t)MUST(p.body, peri_prescribe_displacement(p.body, slab(p.body, 0, 0, H), PERI_AXIS_XY, NULL, jump, &bad));
             if (who == 2) id = (int32_t)MUST(p.body, peri_add_plane_obstacle(p.body, at, up, 0, wander, &bad));
             CHECK(peri_solve(p.body, &st, &r) == PERI_ERROR_CALLBACK);
             CHECK(peri_get_error(p.body, &e) == PERI_OK && e.code == PERI_ERROR_CALLBACK);

@@ -89,7 +89,8 @@ static void take_inertia_out(peri_body *b, double *density) {
 
 /* Momentum of the displacement, as if it were a velocity: over mass and the size of the body; 0 where the motion is left as it was. */
 static double drift(peri_body *b, const double *start) {
-    double *u = get(b, PERI_FIELD_DISPLACEMENT), *x = get(b, PERI_FIELD_POSITION), *v = get(b, PERI_FIELD_VOLUME), sum[3] = {0}, spin[3] = {0};
+    double *u = get(b, PERI_FIELD_DISPLACEMENT), *x = get(b, PERI_FIELD_POSITION), *v = get(b, PERI_FIELD_VOLUME);
+    double sum[3] = {0}, spin[3] = {0};
     int dim = peri_dimension(b), d, a;
     int64_t i, n = peri_point_count(b);
     for (i = 0; i < n; ++i) {
@@ -278,8 +279,8 @@ static void on_rollers(void) {
             if (k == 2) {
                 const int32_t first = 0, last = (int32_t)(peri_point_count(b) - 1), side = dim == 3 ? 6 : -1;
                 int32_t one = (int32_t)MUST(b, peri_select_points(b, NULL, 1, &first)), other;
-                int free_axes = ((1 << dim) - 1) & ~axes;
-                if (free_axes) (void)MUST(b, peri_prescribe_displacement(b, one, free_axes, NULL, NULL, NULL));
+                const int32_t none = PERI_AXIS_X & PERI_AXIS_Y, free_axes = all_axes(dim) & ~axes;
+                if (free_axes) (void)MUST(b, peri_prescribe_displacement(b, one, free_axes | none, NULL, NULL, NULL));
                 other = (int32_t)MUST(b, peri_select_points(b, NULL, 1, cases[c].axis == 9 ? &last : side > 0 ? &side : &last));
                 /* the turn left: of the floor about z, of a hinge about y */
                 if (cases[c].motions == 3) (void)MUST(b, peri_prescribe_displacement(b, other, PERI_AXIS_Y, NULL, NULL, NULL));
@@ -314,7 +315,8 @@ static void on_rollers(void) {
    s) in series: each becomes longer by F |xi|/(c V^2). Across the line nothing says where the points are. */
 static void a_chain(int32_t space, int count) {
     static const double line[3] = {0.6, 0.48, 0.64}, flat[2] = {0.6, 0.8}, side[3] = {0.8, -0.36, -0.48}, down[2] = {0.8, -0.6};
-    const double gap = 0.1, v = 2e-3, pull = 1e-4, *along = space == PERI_SPACE_SOLID ? line : flat, *across = space == PERI_SPACE_SOLID ? side : down;
+    const double gap = 0.1, v = 2e-3, pull = 1e-4;
+    const double *along = space == PERI_SPACE_SOLID ? line : flat, *across = space == PERI_SPACE_SOLID ? side : down;
     const int32_t first = 0, last = count;
     int dim = dim_of(space), k, d, way;
     double x[3 * 12], volumes[12], c = 0, density[3], *u, want;
@@ -332,7 +334,7 @@ static void a_chain(int32_t space, int count) {
         (void)MUST(b, peri_build(b));
         (void)MUST(b, peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), &c, NULL));
         support = (int32_t)MUST(b, peri_select_points(b, NULL, 1, &first));
-        support = (int32_t)MUST(b, peri_prescribe_displacement(b, support, (1 << dim) - 1, NULL, NULL, NULL));
+        support = (int32_t)MUST(b, peri_prescribe_displacement(b, support, all_axes(dim), NULL, NULL, NULL));
         for (d = 0; d < dim; ++d) density[d] = pull * (along[d] + (way == 2 ? 0.7 * across[d] : 0)) / (v * thickness(space));
         (void)MUST(b, peri_apply_body_force(b, (int32_t)MUST(b, peri_select_points(b, NULL, 1, &last)), density, NULL, NULL));
         CHECK(solve_loose(b, PERI_LOOSE_REFUSED, 1e-10, &r) == PERI_ERROR_LOOSE);
@@ -387,7 +389,7 @@ static void a_point_on_one_bond(void) {
                 peri_body *b = solid_block(&s, 6, 5, 4);
                 n = peri_point_count(b) * dim;
                 CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, all_but_one, &other)) > 3);
-                support = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 4 * H, 6 * H), (1 << dim) - 1, NULL, NULL, NULL));
+                support = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 4 * H, 6 * H), all_axes(dim), NULL, NULL, NULL));
                 (void)MUST(b, peri_apply_body_force(b, (int32_t)MUST(b, peri_select_points(b, NULL, 1, &first)), density, NULL, NULL));
                 for (d = 0; d < dim; ++d) want[d] = whole ? density[d] * volume : d < 2 ? along : 0;
                 if (way == 0 && !whole) {

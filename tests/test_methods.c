@@ -58,7 +58,8 @@ static void methods(int32_t geometry, double size, double tolerance) {
                 u = get(t.body, PERI_FIELD_DISPLACEMENT);
                 if (!first) { /* at the equilibrium, for the softness and the scale there */
                     int64_t n;
-                    double *a = dense_stiffness(t.body, &n), *held = get(t.body, PERI_FIELD_REACTION), *force = forces_of(t.body, held, space);
+                    double *a = dense_stiffness(t.body, &n), *held = get(t.body, PERI_FIELD_REACTION);
+                    double *force = forces_of(t.body, held, space);
                     memcpy(t.reaction, force, (size_t)n * sizeof *force);
                     CHECK(factorise(a, n, t.held));
                     bound = 1.1 * softness(a, n, t.held) * scale_of(&t) * tolerance;
@@ -73,8 +74,8 @@ static void methods(int32_t geometry, double size, double tolerance) {
                 seen = residual_of(&t);
                 if (test_long)
                     printf("    %-12s %-14s %-10s iterations %5d, Newton %2d, residual %.1e (told %.1e), off %.1e (bound %.1e) of %.1e\n",
-                           space_name[space % 100], law_text(k), ways[w].name, (int)r.iterations, (int)r.newton, seen, r.residual, off, bound,
-                           most);
+                           space_name[space % 100], law_text(k), ways[w].name, (int)r.iterations, (int)r.newton, seen, r.residual, off,
+                           bound,                            most);
                 CHECK(off <= (geometry == PERI_GEOMETRY_LINEAR ? 1 : 2) * bound);
                 CHECK(seen <= 1.001 * tolerance && r.residual <= tolerance && r.steps == 1 && r.load_factor == 1 && r.loose == 0);
                 CHECK(r.iterations > 0 && (r.passes > r.iterations || w == 3) && r.broken == 0 && r.curve_rows == 0);

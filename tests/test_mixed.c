@@ -170,7 +170,8 @@ static int32_t swept(void *user, double time, int64_t count, const int32_t *poin
    counted: on the left, across, on the right. */
 static void breaks_as_told(int32_t first, int32_t second, void (*touch)(peri_material_desc *, peri_material_desc *), const double *s0,
                            const double *g0) {
-    solid a = solid_of(PERI_SPACE_PLANE_STRAIN, first, PERI_CORRECTION_NONE), z = solid_of(PERI_SPACE_PLANE_STRAIN, second, PERI_CORRECTION_NONE);
+    solid a = solid_of(PERI_SPACE_PLANE_STRAIN, first, PERI_CORRECTION_NONE);
+    solid z = solid_of(PERI_SPACE_PLANE_STRAIN, second, PERI_CORRECTION_NONE);
     int count[3][2] = {{0}}, i, j, n;
     double *x, *m, horizon, big_b, lambda, mu, both_s = fmin(s0[0], s0[1]), both_g = fmin(g0[0], g0[1]), u[4];
     int32_t pair[2] = {0, 1};

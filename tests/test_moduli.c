@@ -190,7 +190,8 @@ static void tensor_method(const plate *p, moduli *m) {
 
 /* NaN where the plate has no internal nodes. */
 static void node_methods(const plate *p, moduli *m) {
-    double *x = get(p->body, PERI_FIELD_POSITION), *u = get(p->body, PERI_FIELD_DISPLACEMENT), strain[METHODS][2] = {{0}}, count[2] = {0, 0};
+    double *x = get(p->body, PERI_FIELD_POSITION), *u = get(p->body, PERI_FIELD_DISPLACEMENT);
+    double strain[METHODS][2] = {{0}}, count[2] = {0, 0};
     int i, k;
     strain[DOUBLE_NODE][0] = u[2 * (p->centre + p->ratio)] / p->horizon; /* the central point is at rest */
     strain[DOUBLE_NODE][1] = u[2 * (p->centre + p->ratio * p->cols) + 1] / p->horizon;

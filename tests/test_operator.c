@@ -29,7 +29,8 @@ static void derivative(const scene *s, int32_t law, double nu, int broken, int r
     peri_body *b = regular ? lattice_body(s, law, nu, broken) : small_body(s, law, nu, -1, broken);
     int dim = peri_dimension(b), d;
     int64_t n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT), i;
-    double *u = random_field(n, 0.06 * H, 17), *f = random_field(n, 0, 1), *v = get(b, PERI_FIELD_VOLUME), *x = get(b, PERI_FIELD_POSITION), most;
+    double *u = random_field(n, 0.06 * H, 17), *f = random_field(n, 0, 1), *v = get(b, PERI_FIELD_VOLUME);
+    double *x = get(b, PERI_FIELD_POSITION), most;
     double total[3] = {0, 0, 0}, torque[3] = {0, 0, 0};
     put(b, PERI_FIELD_DISPLACEMENT, u);
     read_forces(b, v, f);
@@ -69,8 +70,8 @@ static void derivatives(int32_t space) {
             for (k = 0; k <= LAWS; ++k)
                 for (broken = 0; broken < 2; ++broken) {
                     scene s = small_scene(space, geometry, correction);
-                    derivative(&s, k ? models[k - 1] : 0, 0.15 + 0.2 * broken, broken, 0);
-                    if (k && correction == PERI_CORRECTION_NONE) derivative(&s, models[k - 1], 0.15 + 0.2 * broken, broken, 1);
+                    derivative(&s, k ? laws[k - 1] : 0, 0.15 + 0.2 * broken, broken, 0);
+                    if (k && correction == PERI_CORRECTION_NONE) derivative(&s, laws[k - 1], 0.15 + 0.2 * broken, broken, 1);
                 }
 }
 static void force_plane_stress(void) { derivatives(PERI_SPACE_PLANE_STRESS); }
@@ -219,8 +220,8 @@ static void operator_of(const scene *linear, int32_t law, double nu, int broken,
         CHECK(zeros == rigid);
         CHECK(least > -1e-12);
         CHECK(next > 1e-6);
-        if (test_long) printf("    %-12s %-14s nu %5.2f  skew %.0e  far %.0e  zeros %d  least %8.1e  next %.1e\n", space_name[s.space % 100],
-                              law ? law_name[law % 100] : "mixture", nu, skew, far, zeros, least, next);
+        if (test_long) printf("    %-12s %-14s nu %5.2f  skew %.0e  far %.0e  zeros %d  least %8.1e  next %.1e\n",
+                              space_name[s.space % 100], law ? law_name[law % 100] : "mixture", nu, skew, far, zeros, least, next);
     }
     free(k[0]);
     free(k[1]);
@@ -311,9 +312,9 @@ static void rigid_rotation(void) {
             for (k = 0; k <= LAWS; ++k)
                 for (broken = 0; broken < 2; ++broken) {
                     scene s = small_scene(space, PERI_GEOMETRY_NONLINEAR, correction);
-                    rotate(&s, k ? models[k - 1] : 0, broken, up, PI / 2);
-                    rotate(&s, k ? models[k - 1] : 0, broken, up, 1);
-                    if (space == PERI_SPACE_SOLID) rotate(&s, k ? models[k - 1] : 0, broken, skew, 1);
+                    rotate(&s, k ? laws[k - 1] : 0, broken, up, PI / 2);
+                    rotate(&s, k ? laws[k - 1] : 0, broken, up, 1);
+                    if (space == PERI_SPACE_SOLID) rotate(&s, k ? laws[k - 1] : 0, broken, skew, 1);
                 }
 }
 
@@ -394,7 +395,7 @@ static void finite_strain(void) {
     int k;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
         for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; correction += 3)
-            for (k = 0; k < LAWS; ++k) finite_of(space, models[k], correction);
+            for (k = 0; k < LAWS; ++k) finite_of(space, laws[k], correction);
 }
 
 /* ---- families that do not span the space -------------------------------------------------------------------------- */
@@ -464,7 +465,7 @@ static void single_precision(void) {
                         peri_body *b;
                         double *u;
                         s.precision = p ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE;
-                        b = small_body(&s, k ? models[k - 1] : 0, 0.4, -1, 0);
+                        b = small_body(&s, k ? laws[k - 1] : 0, 0.4, -1, 0);
                         n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
                         u = random_field(n, 0.1 * H, 13);
                         for (i = 0; i < n; ++i) u[i] = floor(u[i] * 1048576) / 1048576;

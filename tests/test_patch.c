@@ -217,8 +217,9 @@ static void exact(const solid *s, int cloud, int nx, int ny, int nz) {
         errors e = patch_errors(s, cloud, nx, ny, nz, state, 1, 0);
         int bad = !(e.strain <= 1e-10 && e.bent <= 1e-10);
         if (bad || (test_long && state == 0))
-            printf("    %-12s %-9s w %2d m %.1f k %.1f state %d: strain %.1e, displacement %.1e, %d iterations\n", space_name[s->space % 100],
-                   cloud_name[cloud], (int)s->influence, s->ratio, s->stabilization, state, e.strain, e.bent, (int)e.iterations);
+            printf("    %-12s %-9s w %2d m %.1f k %.1f state %d: strain %.1e, displacement %.1e, %d iterations\n",
+                   space_name[s->space % 100], cloud_name[cloud], (int)s->influence % 100, s->ratio, s->stabilization, state,
+                   e.strain, e.bent, (int)e.iterations);
         test_bad += bad;
     }
 }
@@ -322,8 +323,8 @@ static void pressed(const solid *s, int cloud, int n, int way) {
         grown = fmax(grown, damage[i]);
     }
     if (test_long || !(error <= 1e-10 && worst <= 1e-10))
-        printf("    %-12s %-9s m %.1f: strain %.1e, stress %.1e; damage beside the crack %.2f\n", space_name[s->space % 100], cloud_name[cloud],
-               s->ratio, error, worst, grown);
+        printf("    %-12s %-9s m %.1f: strain %.1e, stress %.1e; damage beside the crack %.2f\n",
+               space_name[s->space % 100], cloud_name[cloud], s->ratio, error, worst, grown);
     CHECK(error <= 1e-10 && worst <= 1e-10 && bent_error(&p, eps) <= 1e-10 && grown > 0.2);
     free(stress);
     free(damage);
@@ -395,7 +396,7 @@ static void totals_are_value_times_area(void) {
     int d;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
         for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
-            for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
+            for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; precision += 2) {
                 solid s = solid_of(space, law, law == PERI_LAW_LPS ? PERI_CORRECTION_MOMENT : PERI_CORRECTION_NONE);
                 const double value[3] = {0.3, -0.2, 0.5}, normal[3] = {7, 0, 0};
                 double force[3], area, length = precision == PERI_PRECISION_DOUBLE ? 1e-12 : 1e-5;
@@ -522,7 +523,7 @@ static void wrong_loads_are_refused(void) {
     REFUSED(PERI_ERROR_RANGE, peri_apply_pressure(b, set, INFINITY, NULL, NULL));
     REFUSED(PERI_ERROR_ID_NONE, peri_apply_pressure(b, -1, 1, NULL, NULL));
     REFUSED(PERI_ERROR_RANGE, peri_apply_bond_pressure_for_comparison(b, set, NAN, NULL, NULL));
-    CHECK(peri_apply_traction(b, set, 12 * H, n, v, NULL, NULL) == 0); /* the first load: nothing was left behind */
+    CHECK(PERI_ID_INDEX(peri_apply_traction(b, set, 12 * H, n, v, NULL, NULL)) == 1); /* the first load: nothing was left behind */
     peri_body_destroy(b);
     b = solid_new(&s); /* two materials in one set */
     other = (int32_t)MUST(b, peri_add_material(b, &m));

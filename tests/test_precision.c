@@ -35,7 +35,7 @@ static void statics_as_in_double(void) {
                 peri_body_destroy(b);
             }
             const double apart = furthest(u[0], u[1], n) / largest(u[0], n);
-            printf("    law %d, %s, %s: apart by %.1e of the deflection\n", (int)law, way & 1 ? "linear" : "nonlinear",
+            printf("    law %d, %s, %s: apart by %.1e of the deflection\n", (int)law % 100, way & 1 ? "linear" : "nonlinear",
                    way >> 1 ? "cloud" : "lattice", apart);
             CHECK(largest(u[0], n) > 1e-6 && apart <= 1e-4);
             free(u[0]);

@@ -87,7 +87,8 @@ static void weights(peri_body *body, int dim, double thickness, int64_t j, doubl
     double c;
     int64_t i;
     int k, l;
-    MUST(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), &c, NULL));
+    const int32_t material = peri_id(body, PERI_KIND_MATERIAL, 1);
+    MUST(body, peri_get_bond_constants(body, material, material, &c, NULL));
     if (dim == 2) c *= thickness;
     for (i = 0; i < n; ++i) beta[i] = 0;
     memset(u_, 0, sizeof u_);
@@ -484,7 +485,8 @@ static void momentum(void) {
             const double *w = worst[kind][rule % 100];
             const int exempt = rule == PERI_QUADRATURE_PARTIAL_CENTROID;
             if (w[0] <= 1e-13 && (w[1] <= 1e-12 || exempt)) continue;
-            printf("    kind %d, %s: |sum V f| %.1e, |sum V y x f| %.1e of the sum of magnitudes\n", kind, rule_name[rule % 100], w[0], w[1]);
+            printf("    kind %d, %s: |sum V f| %.1e, |sum V y x f| %.1e of the sum of magnitudes\n", kind, rule_name[rule % 100],
+                   w[0], w[1]);
             CHECK(w[0] <= 1e-13);
             CHECK(w[1] <= 1e-12 || exempt);
         }
@@ -503,7 +505,8 @@ static void one_sided_parts(void) {
     int32_t rule;
     for (rule = PERI_QUADRATURE_FULL; rule < peri__end_quadrature; ++rule) {
         body[rule % 100] = new_body(2, 2.6, 1.0, rule, PERI_GEOMETRY_LINEAR);
-        MUST(body[rule % 100], peri_add_perturbed_box(body[rule % 100], peri_id(body[rule % 100], PERI_KIND_MATERIAL, 1), lo, hi, 1.0, 0.7, 1));
+        const int32_t material = peri_id(body[rule % 100], PERI_KIND_MATERIAL, 1);
+        MUST(body[rule % 100], peri_add_perturbed_box(body[rule % 100], material, lo, hi, 1.0, 0.7, 1));
         n = finish(body[rule % 100], 2);
         if (rule == PERI_QUADRATURE_FULL) whole = peri_stable_step(body[rule % 100]);
         CHECK(peri_stable_step(body[rule % 100]) > 0.5 * whole && peri_stable_step(body[rule % 100]) < 2.0 * whole);

@@ -33,18 +33,18 @@ static int32_t tell(void *user, int32_t i, int32_t j, double time, double stretc
     return 0;
 }
 
-static void cut_somewhere(peri_body *b) {
+static void cut_somewhere(peri_body *b, int32_t standing) {
     const double from[3] = {real_in(0, 9), real_in(0, 5), 0}, to[3] = {real_in(0, 9), real_in(0, 5), 0}, normal[3] = {0, 1, 0.2};
     const double radius = real_in(1, 3);
-    if (peri_dimension(b) == 2) MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
-    else MUST(b, peri_cut_disc(b, PERI_CUT_INITIAL, from, normal, radius));
+    if (peri_dimension(b) == 2) MUST(b, peri_cut_segment(b, standing, from, to));
+    else MUST(b, peri_cut_disc(b, standing, from, normal, radius));
 }
 
 static int32_t frame(void *user, peri_body *b) {
     peri_energy e;
     (void)user;
     MUST(b, peri_get_energy(b, &e));
-    if (whole_below(3) == 0) cut_somewhere(b);
+    if (whole_below(3) == 0) cut_somewhere(b, PERI_CUT_NOW);
     return whole_below(20) == 0;
 }
 
@@ -57,7 +57,7 @@ static int32_t material_of(peri_body *b) {
     return (int32_t)MUST(b, peri_add_material(b, &m));
 }
 
-static peri_body *shape_of(int32_t reference, double *lo, double *hi, uint64_t seed, int *after_drift, int32_t *rounded) {
+static peri_body *shape_of(int32_t kernel, double *lo, double *hi, uint64_t seed, int *after_drift, int32_t *rounded) {
     const double middle[3] = {5, 5, 5}, wave[2] = {real_in(0, 3), real_in(0, 3)};
     double next[3], end[3];
     peri_body_desc d;
@@ -65,18 +65,18 @@ static peri_body *shape_of(int32_t reference, double *lo, double *hi, uint64_t s
     int32_t material = 0;
     int shape, k;
     peri_body_desc_init(&d);
-    d.space = 1 + whole_below(3);
+    d.space = PERI_SPACE_PLANE_STRESS + whole_below(3);
     d.precision = whole_below(3) ? PERI_PRECISION_DOUBLE : whole_below(2) ? PERI_PRECISION_SINGLE : PERI_PRECISION_MIXED;
     d.geometry = whole_below(4) ? PERI_GEOMETRY_NONLINEAR : PERI_GEOMETRY_LINEAR;
-    d.influence = 1 + whole_below(6);
-    d.quadrature = 1 + whole_below(d.space == PERI_SPACE_SOLID ? 3 : 5);
+    d.influence = PERI_INFLUENCE_CONSTANT + whole_below(6);
+    d.quadrature = PERI_QUADRATURE_FULL + whole_below(d.space == PERI_SPACE_SOLID ? 3 : 5);
     d.horizon = real_in(1.2, 3.2);
-    d.break_timing = 1 + whole_below(2);
+    d.break_timing = PERI_BREAK_AT_STEP_END + whole_below(2);
     *rounded = d.precision != PERI_PRECISION_DOUBLE;
     *after_drift = d.break_timing == PERI_BREAK_AFTER_DRIFT;
     d.thickness = real_in(0.1, 1.1);
     d.threads = 1 + whole_below(2);
-    d.kernel = reference;
+    d.kernel = kernel;
     CHECK(peri_body_create(&d, &b, NULL) == PERI_OK);
     for (k = whole_below(4) ? 1 : 2; k > 0; --k) material = material_of(b);
     for (k = 0; k < 3; ++k) {
@@ -103,7 +103,7 @@ static void load(peri_body *b, const double *lo, const double *hi, int *dim) {
     if (left < 0 || right < 0) return; /* a shape may have no point there */
     switch (whole_below(4)) {
     case 0:
-        MUST(b, peri_prescribe_velocity(b, left, 1 + whole_below(3), pull_left, NULL, NULL));
+        MUST(b, peri_prescribe_velocity(b, left, PERI_AXIS_X + whole_below(3), pull_left, NULL, NULL));
         MUST(b, peri_prescribe_velocity(b, right, PERI_AXIS_X, pull_right, fn, dim));
         break;
     case 1: MUST(b, peri_prescribe_displacement(b, left, PERI_AXIS_X | PERI_AXIS_Y, NULL, sway, dim)); break;
@@ -114,7 +114,7 @@ static void load(peri_body *b, const double *lo, const double *hi, int *dim) {
     if (whole_below(3) == 0) MUST(b, peri_add_ball_obstacle(b, ball, 2, 0, NULL, NULL));
 }
 
-static outcome play(uint64_t seed, int32_t reference, double safety) {
+static outcome play(uint64_t seed, int32_t kernel, double safety) {
     outcome o;
     double lo[3], hi[3];
     peri_energy e;
@@ -125,14 +125,14 @@ static outcome play(uint64_t seed, int32_t reference, double safety) {
     int dim, after_drift;
     memset(&o, 0, sizeof o);
     dice = seed * 7919;
-    b = shape_of(reference, lo, hi, seed, &after_drift, &o.rounded);
+    b = shape_of(kernel, lo, hi, seed, &after_drift, &o.rounded);
     o.status = peri_build(b);
     if (o.status < 0) { /* a lonely point, for one: both kernels must say so */
         peri_body_destroy(b);
         return o;
     }
     dim = peri_dimension(b);
-    if (whole_below(2)) cut_somewhere(b);
+    if (whole_below(2)) cut_somewhere(b, PERI_CUT_INITIAL);
     load(b, lo, hi, &dim);
     if (whole_below(2)) MUST(b, peri_on_break(b, tell, &o.told));
     else o.told = -1;
@@ -142,7 +142,7 @@ static outcome play(uint64_t seed, int32_t reference, double safety) {
     MUST(b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, o.u, o.size));
     peri_advance_desc_init(&run);
     run.safety = safety;
-    run.integrator = 1 + whole_below(2);
+    run.integrator = PERI_INTEGRATOR_VELOCITY_VERLET + whole_below(2);
     run.damping = whole_below(2) ? real_in(0, 0.1) : 0.0;
     run.frame_steps = 1 + whole_below(7);
     run.on_frame = frame;
@@ -171,7 +171,7 @@ static outcome play(uint64_t seed, int32_t reference, double safety) {
 static void compare(uint64_t first, int count, double safety) {
     int built = 0, broke = 0, k;
     for (k = 0; k < count; ++k) {
-        outcome a = play(first + (uint64_t)k, 0, safety), b = play(first + (uint64_t)k, 1, safety);
+        outcome a = play(first + (uint64_t)k, PERI_KERNEL_BEST, safety), b = play(first + (uint64_t)k, PERI_KERNEL_REFERENCE, safety);
         double worst = 0, largest = 0;
         int64_t i;
         CHECK(a.status == b.status && a.size == b.size);

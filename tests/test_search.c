@@ -274,17 +274,25 @@ static void act(const cloud *c, const scene *s, double *force, double *damage, i
 
 static void renumbered(void) {
     static const scene scenes[] = {
-        { "bond-based", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 3 },
-        { "bond-based f32", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_SINGLE, PERI_INFLUENCE_CUBIC, 1, 3 },
-        { "bond-based 2D", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_GAUSSIAN, 1, 2 },
+        { "bond-based", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL,
+          PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 3 },
+        { "bond-based f32", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL,
+          PERI_CORRECTION_NONE, PERI_PRECISION_SINGLE, PERI_INFLUENCE_CUBIC, 1, 3 },
+        { "bond-based 2D", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL,
+          PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_GAUSSIAN, 1, 2 },
         { "ramp", PERI_LAW_BOND_BASED, PERI_QUADRATURE_RAMP, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
-        { "partial", PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_LINEAR, 1, 2 },
-        { "centroid", PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL_CENTROID, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 0, 2 },
+        { "partial", PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL,
+          PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_LINEAR, 1, 2 },
+        { "centroid", PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL_CENTROID,
+          PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 0, 2 },
         { "LPS", PERI_LAW_LPS, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 3 },
         { "Oterkus", PERI_LAW_OTERKUS, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_INVERSE, 1, 2 },
-        { "correspondence", PERI_LAW_CORRESPONDENCE, PERI_QUADRATURE_FULL, PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
-        { "volume correction", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL, PERI_CORRECTION_VOLUME, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
-        { "moment correction", PERI_LAW_LPS, PERI_QUADRATURE_FULL, PERI_CORRECTION_MOMENT, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
+        { "correspondence", PERI_LAW_CORRESPONDENCE, PERI_QUADRATURE_FULL,
+          PERI_CORRECTION_NONE, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
+        { "volume correction", PERI_LAW_BOND_BASED, PERI_QUADRATURE_FULL,
+          PERI_CORRECTION_VOLUME, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
+        { "moment correction", PERI_LAW_LPS, PERI_QUADRATURE_FULL,
+          PERI_CORRECTION_MOMENT, PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, 1, 2 },
     };
     static double force[2][3 * N_MAX], damage[2][N_MAX];
     size_t k;
@@ -373,7 +381,8 @@ static void pairs_found(void) {
         }
     pair[0] = 200;
     CHECK(wrong == 0 && peri_bond_count(body) == bonds);
-    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 1 && peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 0 && peri_cut_count(body) == 1);
+    CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 1 && peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 0);
+    CHECK(peri_cut_count(body) == 1);
     CHECK(peri_bond_is_intact(body, pair[1], pair[0]) == 0);
     peri_body_destroy(body);
 }
@@ -442,7 +451,7 @@ static void lattices(void) {
                 given.dim = dim;
                 given.horizon = 2.3;
                 desc = desc_of(&given);
-                desc.kernel = reference;
+                desc.kernel = reference ? PERI_KERNEL_REFERENCE : PERI_KERNEL_BEST;
                 body = test_unit_body(&desc, 0.0);
                 if (kind == 0) MUST(body, peri_add_ball(body, peri_id(body, PERI_KIND_MATERIAL, 1), centre, dim == 2 ? 24.0 : 7.5, 1.0));
                 else MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
@@ -489,7 +498,7 @@ static void lattices(void) {
 /* Groups of a lattice with the same columns share the constants of their law, and bounds of the frequency are taken by columns, as long as
    all bonds are whole. Truth: the constants of each point by itself, which the textbook kernel (desc.kernel) uses on rows. */
 static void constants_shared(void) {
-    static const int32_t models[3] = { PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE };
+    static const int32_t laws[3] = { PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE };
     static double u[3 * N_MAX], force[2][3 * N_MAX];
     int dim, k, ball;
     for (k = 0; k < 12; ++k) {
@@ -508,9 +517,9 @@ static void constants_shared(void) {
             d.space = dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS;
             d.horizon = 2.3;
             d.threads = 1;
-            d.kernel = reference;
+            d.kernel = reference ? PERI_KERNEL_REFERENCE : PERI_KERNEL_BEST;
             CHECK(peri_body_create(&d, &body, NULL) == PERI_OK);
-            peri_material_desc_init(&m, models[k % 3]);
+            peri_material_desc_init(&m, laws[k % 3]);
             m.young = m.density = 1.0;
             m.poisson = 0.4; /* theta adds to the stiffness */
             MUST(body, peri_add_material(body, &m));

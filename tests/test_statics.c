@@ -85,7 +85,7 @@ static void supports_that_turn(void) {
 static void supports_that_move_alike(void) {
     int32_t geometry, precision;
     for (geometry = PERI_GEOMETRY_NONLINEAR; geometry < peri__end_geometry; ++geometry)
-        for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
+        for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; precision += 2) {
             const double way[2] = {0.37, -0.21};
             solid s = large(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS);
             peri_solve_desc st;
@@ -143,8 +143,8 @@ static void strip_of_large_strain(void) {
             a.dim = dim;
             a.x = x;
             a.map = pull_strip;
-            (void)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 0, 4 * H), (1 << dim) - 1, NULL, follow, &a));
-            load = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 12 * H, 16 * H), (1 << dim) - 1, NULL, follow, &a));
+            (void)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 0, 4 * H), all_axes(dim), NULL, follow, &a));
+            load = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 12 * H, 16 * H), all_axes(dim), NULL, follow, &a));
             st.steps = (int64_t)4 << turn_;
             r = solve(b, &st);
             e = get(b, PERI_FIELD_STRAIN);
@@ -163,8 +163,8 @@ static void strip_of_large_strain(void) {
             CHECK_NEAR(energy.elastic, w, 1e-9, 0);
             CHECK(r.steps == st.steps && r.newton <= 6 * r.steps);
             if (turn_ == 0)
-                printf("    %-12s strain off by %.1e, force by %.1e; %.1f Newton and %.0f linear iterations a step\n", space_name[space % 100],
-                       worst, fabs(force[0] / (1.3 * sxx * area) - 1), (double)r.newton / (double)r.steps,
+                printf("    %-12s strain off by %.1e, force by %.1e; %.1f Newton and %.0f linear iterations a step\n",
+                       space_name[space % 100], worst, fabs(force[0] / (1.3 * sxx * area) - 1), (double)r.newton / (double)r.steps,
                        (double)r.iterations / (double)r.steps);
             free(x);
             free(e);
@@ -177,8 +177,8 @@ static void strip_of_large_strain(void) {
             peri_body *b = solid_block(&s, 16, 5, 4);
             peri_solve_desc st = statics_of(tight ? 1e-12 : 1e-6);
             const double far[3] = {0.3 * 16 * H, 0, 0};
-            (void)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 0, 4 * H), (1 << dim) - 1, NULL, NULL, NULL));
-            (void)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 12 * H, 16 * H), (1 << dim) - 1, far, NULL, NULL));
+            (void)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 0, 4 * H), all_axes(dim), NULL, NULL, NULL));
+            (void)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 12 * H, 16 * H), all_axes(dim), far, NULL, NULL));
             newton[tight] = solve(b, &st).newton;
             if (tight) CHECK(newton[1] - newton[0] <= 2 && newton[1] <= 12);
             peri_body_destroy(b);
@@ -289,7 +289,7 @@ static void a_column_buckles(void) {
         double force[2] = {0, 0}, *u;
         int32_t code, grip;
         (void)MUST(b, peri_prescribe_displacement(b, slab(b, 0, 0, 4 * H), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
-        grip = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, (cells + 4) * H, (cells + 8) * H), PERI_AXIS_X | PERI_AXIS_Y, shorter, NULL,
+        grip = (int32_t)MUST(b, peri_prescribe_displacement(b, slab(b, 0, (cells + 4) * H, (cells + 8) * H), PERI_AXIS_XY, shorter, NULL,
                                                             NULL));
         if (imperfect) (void)MUST(b, peri_apply_body_force(b, slab(b, 0, (cells / 2 + 3) * H, (cells / 2 + 5) * H), push, NULL, NULL));
         st.steps = 8;
@@ -365,7 +365,7 @@ static void a_ball_that_sinks(void) {
     int32_t geometry, method, precision;
     for (geometry = PERI_GEOMETRY_NONLINEAR; geometry < peri__end_geometry; ++geometry)
         for (method = PERI_METHOD_NEWTON; method < peri__end_method; ++method)
-            for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
+            for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; precision += 2) {
                 const double centre[2] = {0.6, 0.75 + 0.35}, tolerance = precision == PERI_PRECISION_DOUBLE ? 1e-7 : 3e-3;
                 double force[2], held[2], last = 0, asked = -1;
                 solid s = large(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS);

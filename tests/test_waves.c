@@ -34,7 +34,8 @@ static peri_body *cube(const solid *s) {
 static double operator_speed(peri_body *b, const solid *s, double per_wave, int kind, int diagonal) {
     int64_t n = peri_point_count(b), middle = n / 2, i;
     int dim = peri_dimension(b), d;
-    double *x = get(b, PERI_FIELD_POSITION), *u = get(b, PERI_FIELD_DISPLACEMENT), *f, k = 2 * PI / (per_wave * s->spacing), along = 0, across = 0;
+    double *x = get(b, PERI_FIELD_POSITION), *u = get(b, PERI_FIELD_DISPLACEMENT), *f;
+    double k = 2 * PI / (per_wave * s->spacing), along = 0, across = 0;
     double dir[3], a[3];
     directions(dim, kind, diagonal, dir, a);
     for (i = 0; i < n; ++i) {
@@ -177,8 +178,8 @@ static double dispersion(const solid *s, double *order) {
     order[0] = log2(fabs(e[2][0] / e[3][0]));
     order[1] = log2(fabs(e[2][1] / e[3][1]));
     if (test_long) {
-        printf("    %-12s %-14s %-6s m %.0f w %d ", space_name[s->space % 100], law_name[s->law % 100], correction_name[s->correction % 100], s->ratio,
-               (int)s->influence);
+        printf("    %-12s %-14s %-6s m %.0f w %d ", space_name[s->space % 100], law_name[s->law % 100],
+               correction_name[s->correction % 100], s->ratio, (int)s->influence % 100);
         if (s->law == PERI_LAW_CORRESPONDENCE) printf("k %.2f", s->stabilization < 0 ? 0.2 : s->stabilization);
         printf(" P");
         for (k = 0; k < 4; ++k) printf(" %6.3f", 100 * e[k][0]);
