@@ -334,7 +334,7 @@ double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri
     s.node = (node *)malloc((size_t)s.points * sizeof *s.node);
     if (s.rows) (void)extreme_fails(o, b, peri_get_families(b, 0, s.points, s.rows, s.points * s.width));
     if (s.rows && s.node && o->status >= 0) {
-        for (i = 0; i < s.points; ++i) respond(&s, i, &m[(int)s.material[i]]);
+        for (i = 0; i < s.points; ++i) respond(&s, i, &m[(int)s.material[i] - 1]);
         worst = compare(&s);
     }
     free(s.x), free(s.u), free(s.volume), free(s.material), free(s.force), free(s.energy), free(s.rows), free(s.node);
@@ -354,7 +354,7 @@ peri_body *dense_box(outcome *o, const peri_body_desc *d, const peri_material_de
     const double lo[3] = {0, 0, 0}, hi[3] = {n, n, n};
     peri_body *b = NULL;
     (void)(extreme_fails(o, NULL, peri_body_create(d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, m))
-           || extreme_fails(o, b, peri_add_box(b, 0, lo, hi, 1)));
+           || extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1)));
     return built(o, b);
 }
 

@@ -96,7 +96,7 @@ static peri_body *block(outcome *o, int32_t space, int32_t precision, int32_t la
     d.log_user = remarks;
     extreme_material(&m, law, nu, 0);
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m))
-        || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1)))
+        || extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1)))
         return b;
     (void)extreme_fails(o, b, peri_build(b));
     return b;
@@ -235,7 +235,7 @@ static outcome bulk_for_young(const extreme *row, int32_t precision) {
                     if (way) m.young = 0;
                     (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
                     (void)extreme_fails(&o, b, peri_add_material(b, &m));
-                    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+                    (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
                     if (!extreme_fails(&o, b, peri_build(b))) {
                         extreme_affine(&o, b, space == PERI_SPACE_SOLID ? gradient : flat, NULL);
                         if (!extreme_fails(&o, b, peri_get_energy(b, &e))) energy[way] = e.elastic;
@@ -281,8 +281,8 @@ static outcome contrast(const extreme *row, int32_t precision) {
             m.young = young;
             m.density = density;
             (void)extreme_fails(&o, b, peri_add_material(b, &m));
-            (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
-            (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 2), lo2, hi2, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 2), lo2, hi2, 1));
             if (extreme_fails(&o, b, peri_build(b))) {
                 o = extreme_end(o, b);
                 if (row->other == 1 && precision != PERI_PRECISION_DOUBLE && o.status == PERI_ERROR_RANGE) o.status = PERI_OK;
@@ -421,7 +421,7 @@ static outcome sheared(const extreme *row, int32_t precision) {
                 extreme_material(&m, row->choice, ratio, 0);
                 (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
                 (void)extreme_fails(&o, b, peri_add_material(b, &m));
-                (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+                (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
                 if (!extreme_fails(&o, b, peri_build(b))) x = extreme_read(&o, b, PERI_FIELD_POSITION);
                 points = x ? (int32_t)peri_point_count(b) : 0;
                 table[0] = dim;
@@ -434,7 +434,7 @@ static outcome sheared(const extreme *row, int32_t precision) {
                     }
                     if (!inside) rim[count++] = i;
                 }
-                (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, count, rim), dim == 3 ? 7 : 3, NULL,
+                (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, count, rim), dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY, NULL,
                                                                        hold_affine, table));
                 peri_solve_desc_init(&s);
                 status = o.status == PERI_OK ? peri_solve(b, &s, &r) : o.status;
@@ -467,7 +467,7 @@ static const extreme rows[] = {
     {"ratios of -1, 1/2 and beyond", "peri.h: poisson in (-1, 1/2)", ratios_refused, 0, 0, 0, PERI_ERROR_RANGE, "poisson", NONE},
     {"other ratios of bond-based solids", "peri.h: fixed by the space, others are refused", ratios_refused, 0, 0, 1, PERI_ERROR_POISSON,
      "poisson", NONE},
-    {"both moduli, or neither", "peri.h: give E or K, not both", moduli_refused, 0, 0, 0, PERI_ERROR_MATERIAL, "young, bulk", NONE},
+    {"both moduli, or neither", "peri.h: give E or K, not both", moduli_refused, 0, 0, 0, PERI_ERROR_MATERIAL, "bulk", NONE},
     {"E of no solid", "peri.h: E > 0", moduli_refused, 0, 0, 1, PERI_ERROR_RANGE, "young", NONE},
     {"K of no solid", "peri.h: K > 0", moduli_refused, 0, 0, 2, PERI_ERROR_RANGE, "bulk", NONE},
     {"uniform strain, bond-based", HOOKE, uniform_strain, PERI_LAW_BOND_BASED, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, SUMS},

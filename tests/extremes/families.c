@@ -22,8 +22,8 @@ static peri_body *lattice(scene *s, int nx, int ny, int nz) {
     peri_body *b = NULL;
     outcome *o = s->o;
     if (extreme_fails(o, NULL, peri_body_create(&s->desc, &b, NULL))) return NULL;
-    (void)(extreme_fails(o, b, peri_add_material(b, &s->material)) || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1))
-           || (s->shape == GRADED && extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), fine_lo, fine_hi, s->desc.space == PERI_SPACE_SOLID ? 0.5 : 0.25)))
+    (void)(extreme_fails(o, b, peri_add_material(b, &s->material)) || extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1))
+           || (s->shape == GRADED && extreme_fails(o, b, peri_add_box(b, material_id(b, 1), fine_lo, fine_hi, s->desc.space == PERI_SPACE_SOLID ? 0.5 : 0.25)))
            || extreme_fails(o, b, peri_build(b)));
     if (o->status >= 0) return b;
     peri_body_destroy(b);
@@ -180,7 +180,7 @@ static outcome shell(const extreme *row, int32_t precision) {
                 hi[d] = lo[d] + n * h;
             }
             (void)(extreme_fails(&o, NULL, peri_body_create(&desc, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))
-                   || extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, h)) || extreme_fails(&o, b, peri_build(b)));
+                   || extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, h)) || extreme_fails(&o, b, peri_build(b)));
             if (o.status >= 0)
                 dense_note(&o, fabs(peri_family_width(b) - (space == PERI_SPACE_SOLID ? row->other : row->choice)), space, PERI_LAW_LPS);
             o = extreme_end(o, b);
@@ -301,7 +301,7 @@ static double pulled_probe(scene *s) {
     hold = peri_apply_body_force(s->body, peri_select_if(s->body, NULL, first_end, &shape), back, NULL, NULL);
     if (extreme_fails(s->o, s->body, pull) || extreme_fails(s->o, s->body, hold)) return NAN;
     peri_solve_desc_init(&p);
-    p.loose = s->row->choice / 10;
+    p.loose = PERI_LOOSE_REFUSED - 1 + s->row->choice / 10;
     if (extreme_fails(s->o, s->body, peri_solve(s->body, &p, NULL))) return NAN;
     (void)(extreme_fails(s->o, s->body, peri_remove_load(s->body, pull)) || extreme_fails(s->o, s->body, peri_remove_load(s->body, hold)));
     f = extreme_read(s->o, s->body, PERI_FIELD_FORCE_DENSITY);
@@ -526,7 +526,7 @@ static const extreme rows[] = {
     {"all pairs of 64 points", "the laws written out", given, 64, 2, ALL_PAIRS, PERI_OK, NULL, ROUNDINGS(100)},
     {"a family that is one-sided", "peri.h: not mutual", given, 9, 2, ONE_SIDED, PERI_ERROR_IBOND, "ibond", REFUSED},
     {"a neighbour given twice", "peri.h: given twice", given, 9, 2, TWICE, PERI_ERROR_IBOND, "ibond", REFUSED},
-    {"a neighbour that is no point", "peri.h: id out of range", given, 9, 2, NO_SUCH, PERI_ERROR_IBOND, "ibond", REFUSED},
+    {"a neighbour that is no point", "peri.h: number out of range", given, 9, 2, NO_SUCH, PERI_ERROR_IBOND, "ibond", REFUSED},
     {"a point without a bond", "peri.h: a point has no neighbour", given, 9, 2, LONELY, PERI_ERROR_FAMILY, NULL, REFUSED},
     {"points after families", "peri.h: the given families are not valid", given, 9, 2, MORE_POINTS, PERI_ERROR_IBOND, "ibond", REFUSED},
     {"bonds beyond w", "peri.h: no neighbour with a weight", given, 9, 0.5, NO_WEIGHT, PERI_ERROR_FAMILY, NULL, REFUSED},

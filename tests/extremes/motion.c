@@ -244,7 +244,7 @@ static outcome turned_linear(const extreme *row, int32_t precision) {
             extreme_material(&m, law, nu, 0);
             (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
             (void)extreme_fails(&o, b, peri_add_material(b, &m));
-            (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
             (void)extreme_fails(&o, b, peri_build(b));
             for (k = 0; k < 3 && o.status == PERI_OK; ++k) {
                 const double c = cos(by[k]) - 1, s = sin(by[k]), solid[9] = {c, -s, 0, s, c, 0, 0, 0, 0}, plane[4] = {c, -s, s, c};
@@ -351,7 +351,7 @@ static outcome revolved(const extreme *row, int32_t precision) {
     extreme_material(&m, row->choice, 0.3, 0);
     (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
     (void)extreme_fails(&o, b, peri_add_material(b, &m));
-    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+    (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     if (extreme_fails(&o, b, peri_build(b))) return extreme_end(o, b);
     deform(&o, b, pull, NULL, NULL);
     show(&o, b, &home);

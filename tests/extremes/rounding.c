@@ -88,7 +88,7 @@ static peri_body *body_of(outcome *o, int32_t law, int32_t precision, int32_t ru
     extreme_material(&m, law, 0.2, s0);
     if (!cloud) return extreme_box(o, &d, &m, hi, 1);
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m)) ||
-        extreme_fails(o, b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, 0.8, 5)))
+        extreme_fails(o, b, peri_add_perturbed_box(b, material_id(b, 1), lo, hi, 1, 0.8, 5)))
         return b;
     (void)extreme_fails(o, b, peri_build(b));
     return b;

@@ -18,8 +18,8 @@ static peri_body *mix(scene *s, int edge) {
     outcome *o = s->o;
     peri_body *b = NULL;
     (void)(extreme_fails(o, NULL, peri_body_create(&s->desc, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &s->material[0]))
-           || extreme_fails(o, b, peri_add_material(b, &s->material[1])) || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, half, 1))
-           || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 2), middle, hi, 1)) || extreme_fails(o, b, peri_build(b)));
+           || extreme_fails(o, b, peri_add_material(b, &s->material[1])) || extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, half, 1))
+           || extreme_fails(o, b, peri_add_box(b, material_id(b, 2), middle, hi, 1)) || extreme_fails(o, b, peri_build(b)));
     if (o->status >= 0) return b;
     peri_body_destroy(b);
     return NULL;
@@ -58,9 +58,9 @@ static outcome each(const extreme *row, int32_t precision, int32_t geometry, dou
                 s.mixture = kind == 4;
                 extreme_desc(&s.desc, space, precision, space == PERI_SPACE_SOLID ? 2 : 3);
                 s.desc.geometry = geometry;
-                s.desc.kernel = kind < 3 ? kind : PERI_KERNEL_BEST;
+                s.desc.kernel = kind < 3 ? PERI_KERNEL_BEST + kind : PERI_KERNEL_BEST;
                 extreme_material(&s.material[0], law, 0.3, stretch);
-                extreme_material(&s.material[1], law % 4 + 1, 0.1, stretch);
+                extreme_material(&s.material[1], law == PERI_LAW_CORRESPONDENCE ? PERI_LAW_BOND_BASED : law + 1, 0.1, stretch);
                 s.body = make(&s);
                 error = s.body ? probe(&s) : NAN;
                 dense_note(&o, error, space, law);
@@ -293,7 +293,7 @@ static double shaken_probe(scene *s) {
     int part;
     stretch_by(s, stretch, stretch, stretch);
     rim = peri_select_if(s->body, "rim", is_rim, s);
-    rim = peri_prescribe_velocity(s->body, rim, peri_dimension(s->body) == 3 ? 7 : 3, NULL, NULL, NULL);
+    rim = peri_prescribe_velocity(s->body, rim, peri_dimension(s->body) == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY, NULL, NULL, NULL);
     if (extreme_fails(s->o, s->body, rim)) return NAN;
     for (i = 0; i < n; ++i) v[i] = 2 * test_random(&seed) - 1;
     if (extreme_fails(s->o, s->body, peri_set_field(s->body, PERI_FIELD_VELOCITY, v, n))) return NAN;
@@ -349,7 +349,7 @@ static double drawn_probe(scene *s) {
     const int dim = peri_dimension(s->body);
     double right = inside(s);
     const double away[3] = {(s->row->value - 1) * (right + 1), 0, 0};
-    const int32_t axes = dim == 3 ? 7 : 3;
+    const int32_t axes = dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY;
     int32_t load[2];
     peri_solve_desc p;
     double error;
@@ -376,9 +376,9 @@ static double wild_probe(scene *s) {
     if (s->row->choice == 0) stretch_by(s, 0, 0, 0);
     else if (s->row->choice == 1) stretch_by(s, -1, 1, 1);
     if (s->row->choice > 0) dense_scatter(s->o, s->body, s->row->value, 79);
-    load[0] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_left, NULL), dim == 3 ? 7 : 3, NULL, NULL, NULL);
+    load[0] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_left, NULL), dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY, NULL, NULL, NULL);
     load[2] = peri_apply_body_force(s->body, PERI_ALL, force, NULL, NULL);
-    load[1] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_right, &right), dim == 3 ? 7 : 3, NULL, NULL, NULL);
+    load[1] = peri_prescribe_velocity(s->body, peri_select_if(s->body, NULL, at_right, &right), dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY, NULL, NULL, NULL);
     peri_solve_desc_init(&p);
     p.iterations = 100;
     p.newton = 12;

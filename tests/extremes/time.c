@@ -51,8 +51,8 @@ static peri_body *body_of(outcome *o, int32_t precision, int32_t space, int32_t 
             v[n++] = 0.5 + test_random(&seed);
         }
         (void)extreme_fails(o, b, peri_add_points(b, n, x, v, NULL));
-    } else if (k == MOVED) (void)extreme_fails(o, b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, 1, 5));
-    else (void)extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+    } else if (k == MOVED) (void)extreme_fails(o, b, peri_add_perturbed_box(b, material_id(b, 1), lo, hi, 1, 1, 5));
+    else (void)extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     if (extreme_fails(o, b, peri_build(b))) return b;
     if (k == CUT) (void)extreme_fails(o, b, peri_cut_if(b, PERI_CUT_INITIAL, cut_some, NULL));
     if (k == TRAPPED) { /* from both sides, all points deep in both: springs of twice the stiffness to the middle */
