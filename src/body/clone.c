@@ -105,17 +105,15 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
 
 /* ---- counts ------------------------------------------------------------------------------------------------------- */
 
-PERI_API int32_t peri_dimension(const peri_body *b) { return b ? b->dim : PERI_ERROR_ARGUMENT; }
+PERI_API int32_t peri_dimension(const peri_body *b) { return b ? b->dim : 0; }
 
 PERI_API int64_t peri_point_count(const peri_body *b) {
-    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->points : b->setup.point_count;
+    return !b ? 0 : b->model ? b->model->points : b->setup.point_count;
 }
 
-PERI_API int32_t peri_family_width(const peri_body *b) {
-    return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->width : 0;
-}
+PERI_API int32_t peri_family_width(const peri_body *b) { return b && b->model ? b->model->width : 0; }
 
-PERI_API int64_t peri_bond_count(const peri_body *b) { return !b ? PERI_ERROR_ARGUMENT : b->model ? b->model->bonds : 0; }
+PERI_API int64_t peri_bond_count(const peri_body *b) { return b && b->model ? b->model->bonds : 0; }
 
 #ifdef PERI_GENERIC
 #define PERI_OTHER_VECTORS "16 bytes"
@@ -141,11 +139,11 @@ PERI_API const char *peri_kernel_text(const peri_body *b) {
     return names[m->stencil.columns ? 0 : listed][m->stencil.isa];
 }
 
-PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->now.cut / 2 : PERI_ERROR_ARGUMENT; }
+PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->now.cut / 2 : 0; }
 
-PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->now.broken / 2 : PERI_ERROR_ARGUMENT; }
+PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->now.broken / 2 : 0; }
 
-PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->now.steps : PERI_ERROR_ARGUMENT; }
+PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->now.steps : 0; }
 
 PERI_API double peri_time(const peri_body *b) { return b ? b->now.time : 0.0; }
 

@@ -321,8 +321,8 @@ static outcome off_by_one(const extreme *row, int32_t precision) {
                 ENDS(PERI_ERROR_FIELD, peri_set_field(b, field, x, n));
             free(x);
         }
-        ENDS(PERI_ERROR_FIELD, peri_size_of_field(b, PERI_FIELD_REACTION + 1));
-        ENDS(PERI_ERROR_FIELD, peri_size_of_field(b, 0));
+        ENDS(PERI_ERROR_CHOICE, peri_size_of_field(b, PERI_FIELD_REACTION + 1));
+        ENDS(PERI_ERROR_CHOICE, peri_size_of_field(b, 0));
         const int32_t edge = peri_find_set(b, "edge"), foreign = edge ^ 1 << 20;
         const int64_t n = peri_point_count(b), width = peri_family_width(b), held = peri_size_of_set(b, edge);
         int32_t *ids = (int32_t *)malloc((size_t)(n * width + 1) * sizeof *ids);
@@ -544,7 +544,7 @@ static const extreme rows[] = {
     {"cells of 5e-324", large, spacing_of, 5e-324, PERI_SPACE_PLANE_STRAIN, 0, PERI_ERROR_TOO_LARGE, "spacing", {0, 0, 0}},
     {"cells of 1e300: one, which is 4 wide", "peri.h: at least one cell, that tiles the box; smaller than the horizon 3 it is not",
      spacing_of, 1e300, PERI_SPACE_SOLID, 0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
-    {"nothing asked for, 2D", "peri.h: PERI_ERROR_CAPACITY, _ID, _SET, _ARGUMENT, or no work done; nothing changed", nothing, 0, 0,
+    {"nothing asked for, 2D", "peri.h: PERI_ERROR_CAPACITY, _INDEX, _EMPTY, _ARGUMENT, or no work done; nothing changed", nothing, 0, 0,
      PERI_SPACE_PLANE_STRAIN, PERI_OK, NULL, {0, 0, 0}},
     {"nothing asked for, 3D", "the same", nothing, 0, 0, PERI_SPACE_SOLID, PERI_OK, NULL, {0, 0, 0}},
     {"one entry less and more, 2D", "peri.h: PERI_ERROR_CAPACITY with the size; what fits is filled to its end and no further", off_by_one,
