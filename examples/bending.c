@@ -43,7 +43,7 @@ int main(void) {
     const int32_t hinge = must(beam, peri_select_ball(beam, "left support", left, 0.6 * h));
     const int32_t roller = must(beam, peri_select_ball(beam, "right support", right, 0.6 * h));
     const int32_t pushed = must(beam, peri_select_ball(beam, "load", top, 0.6 * h));
-    must(beam, peri_prescribe_displacement(beam, hinge, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+    must(beam, peri_prescribe_displacement(beam, hinge, PERI_AXIS_XY, NULL, NULL, NULL));
     must(beam, peri_prescribe_displacement(beam, roller, PERI_AXIS_Y, NULL, NULL, NULL));
     const int32_t load = must(beam, peri_prescribe_displacement(beam, pushed, PERI_AXIS_Y, down, NULL, NULL));
 

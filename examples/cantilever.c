@@ -38,7 +38,7 @@ int main(void) {
     must(bar, peri_build(bar));
 
     /* The wall holds two horizons of bar: points feel what moves that far away. The force is spread over the end face likewise. */
-    const int32_t held = must(bar, peri_prescribe_displacement(bar, must(bar, peri_select_box(bar, "wall", lo, wall)), PERI_AXIS_X | PERI_AXIS_Y,
+    const int32_t held = must(bar, peri_prescribe_displacement(bar, must(bar, peri_select_box(bar, "wall", lo, wall)), PERI_AXIS_XY,
                                                                NULL, NULL, NULL));
     must(bar, peri_apply_traction(bar, must(bar, peri_select_box(bar, "end", end, hi)), depth, out, traction, NULL, NULL));
 

@@ -44,8 +44,8 @@ int main(void) {
     }
     const int32_t top = must(plates, peri_select_box(plates, "top", head, upper));
     const int32_t bottom = must(plates, peri_select_box(plates, "bottom", lower, foot));
-    must(plates, peri_prescribe_velocity(plates, top, PERI_AXIS_X | PERI_AXIS_Y, up, NULL, NULL));
-    must(plates, peri_prescribe_velocity(plates, bottom, PERI_AXIS_X | PERI_AXIS_Y, down, NULL, NULL));
+    must(plates, peri_prescribe_velocity(plates, top, PERI_AXIS_XY, up, NULL, NULL));
+    must(plates, peri_prescribe_velocity(plates, bottom, PERI_AXIS_XY, down, NULL, NULL));
     must(plates, peri_set_no_fail(plates, top, 1));
     must(plates, peri_set_no_fail(plates, bottom, 1));
 

@@ -55,7 +55,7 @@ int main(void) {
     must(plate, peri_add_box(plate, must(plate, peri_add_material(plate, &glass)), lo, hi, h));
     must(plate, peri_build(plate));
     must(plate, peri_prescribe_velocity(plate, must(plate, peri_select_if(plate, "rim", on_rim, NULL)),
-                                        PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z, NULL, NULL, NULL));
+                                        PERI_AXIS_XYZ, NULL, NULL, NULL));
     ball_place(NULL, 0, place);
     w.ball = must(plate, peri_add_ball_obstacle(plate, place, radius, 0, ball_place, NULL));
 

@@ -8,7 +8,7 @@
    does the same run by itself. Both break the same bonds and agree in every displacement, up to rounding. */
 #include "example.h"
 
-enum { N = 32 * 8 * 8, M = 122, STEPS = 200, XYZ = PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z }; /* points, whole family, time steps */
+enum { N = 32 * 8 * 8, M = 122, STEPS = 200, XYZ = PERI_AXIS_XYZ }; /* points, whole family, time steps */
 static const double h = 1e-3, dt = 1e-7, speed = 8;   /* spacing [m], time step [s], speed of the two ends [m/s] */
 static double x[3 * N], u[3 * N], before[3 * N];      /* places, displacements u(t) and u(t-dt) [m] */
 static double a[3 * N], library[3 * N];               /* accelerations [m/s^2]; u as peri_advance finds it */

@@ -57,7 +57,7 @@ int main(void) {
     must(block, peri_cut_segment(block, PERI_CUT_INITIAL, left, right));
     must(block, peri_apply_pressure(block, must(block, peri_select_box(block, "crack", near_lo, near_hi)), P, NULL, NULL));
     const int32_t edge = must(block, peri_select_if(block, "edge", outside, &limit));
-    must(block, peri_prescribe_displacement(block, edge, PERI_AXIS_X | PERI_AXIS_Y, NULL, far_field, NULL));
+    must(block, peri_prescribe_displacement(block, edge, PERI_AXIS_XY, NULL, far_field, NULL));
     peri_solve_desc_init(&statics);
     must(block, peri_solve(block, &statics, NULL));
     must(block, peri_get_field(block, PERI_FIELD_DISPLACEMENT, u[0], 2 * N * N));

@@ -190,13 +190,14 @@ static uint64_t meddled_life(outcome *o, int which, int32_t law, int32_t precisi
         *o = extreme_end(*o, b);
         return 0;
     }
-    const int32_t axes = PERI_AXIS_X | PERI_AXIS_Y, set = peri_select_box(b, NULL, still, edge), right = peri_select_box(b, NULL, half, end);
+    const int32_t axes = PERI_AXIS_XY, set = peri_select_box(b, NULL, still, edge), right = peri_select_box(b, NULL, half, end);
     (void)extreme_fails(o, b, peri_prescribe_velocity(b, set, axes, still, which == SUPPORT ? in_load : NULL, &c));
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, still, which == LOAD ? in_load : NULL, &c));
     (void)extreme_fails(o, b, peri_add_plane_obstacle(b, below, up, 1, which == MOTION ? in_motion : NULL, &c));
     (void)extreme_fails(o, b, peri_add_velocity(b, right, pull));
     if (which == BREAK) (void)extreme_fails(o, b, peri_on_break(b, in_break, &c));
-    if (which == LOG && peri_dimension(b) == 2) (void)extreme_fails(o, b, peri_cut_segment(b, PERI_CUT_INITIAL, nowhere, gone)); /* misses: a remark */
+    if (which == LOG && peri_dimension(b) == 2) /* misses: a remark */
+        (void)extreme_fails(o, b, peri_cut_segment(b, PERI_CUT_INITIAL, nowhere, gone));
     if (which == WRITE) (void)extreme_fails(o, b, peri_export_vtu_to(b, in_write, &c));
     if (which == WRITE) (void)extreme_fails(o, b, peri_export_history_to(b, 1, in_write, &c));
     if (which == POINT) (void)extreme_fails(o, b, peri_select_if(b, NULL, in_point, &c));
@@ -287,7 +288,8 @@ static outcome influence_meddles(const extreme *row, int32_t precision) {
             m.fracture_energy = 1e-3;
             (void)extreme_fails(&o, NULL, peri_body_create(&d, &c.body, NULL));
             (void)extreme_fails(&o, c.body, peri_add_material(c.body, &m));
-            (void)extreme_fails(&o, c.body, peri_get_bond_constants(c.body, material_id(c.body, 1), material_id(c.body, 1), NULL, &s0[quiet]));
+            (void)extreme_fails(&o, c.body, peri_get_bond_constants(c.body, material_id(c.body, 1), material_id(c.body, 1), NULL,
+                                                                    &s0[quiet]));
             (void)extreme_fails(&o, c.body, peri_add_box(c.body, material_id(c.body, 1), lo, hi, 1));
             (void)extreme_fails(&o, c.body, peri_build(c.body));
             step[quiet] = peri_stable_step(c.body);

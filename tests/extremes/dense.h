@@ -17,7 +17,8 @@ double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri
 peri_body *dense_box(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int n);
 
 /* A built body of points of yours. */
-peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int64_t count, const double *x, const double *volume);
+peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int64_t count, const double *x,
+                       const double *volume);
 
 /* Adds random numbers within +-size to each component of the displacements. */
 void dense_scatter(outcome *o, peri_body *b, double size, uint64_t seed);

@@ -23,7 +23,8 @@ static peri_body *lattice(scene *s, int nx, int ny, int nz) {
     outcome *o = s->o;
     if (extreme_fails(o, NULL, peri_body_create(&s->desc, &b, NULL))) return NULL;
     (void)(extreme_fails(o, b, peri_add_material(b, &s->material)) || extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1))
-           || (s->shape == GRADED && extreme_fails(o, b, peri_add_box(b, material_id(b, 1), fine_lo, fine_hi, s->desc.space == PERI_SPACE_SOLID ? 0.5 : 0.25)))
+           || (s->shape == GRADED && extreme_fails(o, b, peri_add_box(b, material_id(b, 1), fine_lo, fine_hi,
+                                                                      s->desc.space == PERI_SPACE_SOLID ? 0.5 : 0.25)))
            || extreme_fails(o, b, peri_build(b)));
     if (o->status >= 0) return b;
     peri_body_destroy(b);
@@ -89,7 +90,8 @@ static void each(outcome *o, const extreme *row, int32_t precision, const settin
                 s.o = o;
                 s.shape = (enum shape)shape;
                 if (space != PERI_SPACE_SOLID && (shape == PLANE || shape == TILTED)) continue;
-                if (law != PERI_LAW_BOND_BASED && c->correction != PERI_CORRECTION_NONE && c->correction != PERI_CORRECTION_MOMENT) continue;
+                if (law != PERI_LAW_BOND_BASED && c->correction != PERI_CORRECTION_NONE
+                    && c->correction != PERI_CORRECTION_MOMENT) continue;
                 extreme_desc(&s.desc, space, precision, c->horizon);
                 s.desc.geometry = c->geometry;
                 s.desc.quadrature = c->quadrature;
@@ -487,8 +489,8 @@ static outcome weights_in_2d(const extreme *row, int32_t precision) {
 #define EXACT {0, 0, 0}
 static const extreme rows[] = {
     {"one point", "peri.h: no neighbour within its horizon", alone, 3, 0, PERI_SPACE_SOLID, PERI_ERROR_FAMILY, "horizon", REFUSED},
-    {"one point, a short horizon", "peri.h: smaller than the spacing", alone, 0.5, 0, PERI_SPACE_PLANE_STRESS, PERI_ERROR_HORIZON, "horizon",
-     REFUSED},
+    {"one point, a short horizon", "peri.h: smaller than the spacing", alone, 0.5, 0, PERI_SPACE_PLANE_STRESS, PERI_ERROR_HORIZON,
+     "horizon", REFUSED},
     {"two points", "closed forms of omega; Verlet's amplitude is (omega dt)^2/8 larger; 500 steps of rounding", swing, 3, 0, 0, PERI_OK,
      NULL,
      {1.24e-6, 3e-5, 3e-5}},
@@ -537,7 +539,8 @@ static const extreme rows[] = {
     {"weights of a tilted plane", "Newton's third law, closed forms, W >= 0", weights, 3, TILTED, TILTED, PERI_OK, NULL, ROUNDINGS(500)},
     {"weights at 8 spacings, thin bodies", "Newton's third law, closed forms, W >= 0", weights, 8, PAIR, OBLIQUE, PERI_OK, NULL,
      ROUNDINGS(500)},
-    {"centroid rule", "nothing moves at rest; W >= 0", weights_in_2d, 2, CLOUD, PERI_QUADRATURE_PARTIAL_CENTROID, PERI_OK, NULL, ROUNDINGS(500)},
+    {"centroid rule", "nothing moves at rest; W >= 0", weights_in_2d, 2, CLOUD, PERI_QUADRATURE_PARTIAL_CENTROID, PERI_OK, NULL,
+     ROUNDINGS(500)},
     {"moment rule", "Newton's third law, W >= 0", weights_in_2d, 2, -1, PERI_QUADRATURE_PARTIAL_MOMENT, PERI_OK, NULL, ROUNDINGS(500)},
 };
 const extreme_table extreme_families = EXTREME_TABLE("families", rows);

@@ -85,8 +85,8 @@ static outcome torn_far(const extreme *row, int32_t precision) {
                 peri_energy e;
                 for (k = 0; k < 3; ++k) s.origin[k] = at;
                 b = small_body(&o, &s);
-                (void)extreme_fails(&o, b,
-                                    space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+                (void)extreme_fails(&o, b, space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2)
+                                                                     : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
                 (void)extreme_fails(&o, b, peri_add_velocity(b, peri_select_box(b, NULL, lo, hi), right));
                 (void)extreme_fails(&o, b, peri_add_plane_obstacle(b, place, up, 0.5, NULL, NULL));
                 peri_advance_desc_init(&run);
@@ -406,6 +406,7 @@ static const extreme rows[] = {
     {"1e4 revolutions, then pulled, bond-based", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
     {"1e4 revolutions, then pulled, LPS", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_LPS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
     {"1e4 revolutions, then pulled, Oterkus", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_OTERKUS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
-    {"1e4 revolutions, then pulled, correspondence", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, correspondence", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL,
+     {5e-13, 4e-4, 4e-4}},
 };
 const extreme_table extreme_motion = EXTREME_TABLE("motion", rows);

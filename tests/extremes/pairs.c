@@ -30,7 +30,8 @@ static peri_body *pair_of(outcome *o, int32_t precision, int32_t law, int32_t ge
     m.density = rho;
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, materials[0] = peri_add_material(b, &m))) return b;
     m.density = other;
-    if (extreme_fails(o, b, materials[1] = peri_add_material(b, &m)) || extreme_fails(o, b, peri_add_points(b, 2, x, v, materials))) return b;
+    if (extreme_fails(o, b, materials[1] = peri_add_material(b, &m)) || extreme_fails(o, b, peri_add_points(b, 2, x, v, materials)))
+        return b;
     (void)extreme_fails(o, b, peri_build(b));
     return b;
 }
@@ -38,12 +39,14 @@ static peri_body *pair_of(outcome *o, int32_t precision, int32_t law, int32_t ge
 /* Elongation e and its rate, with its centre of mass at rest. */
 static void pull(outcome *o, peri_body *b, double e, double rate, double share) {
     const double u[6] = {-e * share, 0, 0, e * (1 - share), 0, 0}, v[6] = {-rate * share, 0, 0, rate * (1 - share), 0, 0};
-    if (!extreme_fails(o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 6))) (void)extreme_fails(o, b, peri_set_field(b, PERI_FIELD_VELOCITY, v, 6));
+    if (!extreme_fails(o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 6)))
+        (void)extreme_fails(o, b, peri_set_field(b, PERI_FIELD_VELOCITY, v, 6));
 }
 
 static void elongation(outcome *o, peri_body *b, double *e, double *rate) {
     double u[6] = {0}, v[6] = {0};
-    if (!extreme_fails(o, b, peri_get_field(b, PERI_FIELD_DISPLACEMENT, u, 6))) (void)extreme_fails(o, b, peri_get_field(b, PERI_FIELD_VELOCITY, v, 6));
+    if (!extreme_fails(o, b, peri_get_field(b, PERI_FIELD_DISPLACEMENT, u, 6)))
+        (void)extreme_fails(o, b, peri_get_field(b, PERI_FIELD_VELOCITY, v, 6));
     *e = u[3] - u[0];
     *rate = v[3] - v[0];
 }
@@ -328,8 +331,10 @@ static outcome frames(const extreme *row, int32_t precision) {
 static const extreme rows[] = {
     {"two points, 0.1 of the limit", CLOSED, oscillate, 0.1, 0, 0, PERI_OK, NULL, {8, 8, 8}},
     {"two points, 0.999 of the limit", CLOSED, oscillate, 0.999, 0, 0, PERI_OK, NULL, {8, 8, 8}},
-    {"two points, from rest at the limit, 100 steps", CLOSED, sharp, 1, PERI_INTEGRATOR_VELOCITY_VERLET, 100, PERI_OK, NULL, {5e-12, 2.4e-3, 2.4e-3}},
-    {"two points, 1.01 of the limit, forced", GROWTH, sharp, 1.01, PERI_INTEGRATOR_VELOCITY_VERLET, 1000, PERI_ERROR_UNSTABLE, "peri_time", NONE},
+    {"two points, from rest at the limit, 100 steps", CLOSED, sharp, 1, PERI_INTEGRATOR_VELOCITY_VERLET, 100, PERI_OK, NULL,
+     {5e-12, 2.4e-3, 2.4e-3}},
+    {"two points, 1.01 of the limit, forced", GROWTH, sharp, 1.01, PERI_INTEGRATOR_VELOCITY_VERLET, 1000, PERI_ERROR_UNSTABLE, "peri_time",
+     NONE},
     {"the same, central difference", GROWTH, sharp, 1.01, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, 1000, PERI_ERROR_UNSTABLE, "peri_time", NONE},
     {"two points, 10^6 steps (f32, mixed: 200,000)", CLOSED, long_run, 2e5, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {8, 8, 8}},
     {"the same, central difference", CLOSED, long_run, 2e5, 0, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, PERI_OK, NULL, {8, 8, 8}},

@@ -183,7 +183,8 @@ static outcome pairs_far_apart(const extreme *row, int32_t precision) {
             extreme_fails(&o, b, peri_add_points(b, 2 * PAIRS, x, volume, NULL)))
             return extreme_end(o, b);
         built = peri_build(b);
-        if (built != PERI_OK && precision == PERI_PRECISION_SINGLE && built != PERI_ERROR_MEMORY) { /* places beyond its digits: refused, not wrong */
+        /* places beyond its digits: refused, not wrong */
+        if (built != PERI_OK && precision == PERI_PRECISION_SINGLE && built != PERI_ERROR_MEMORY) {
             peri_body_destroy(b);
             continue;
         }
@@ -458,7 +459,8 @@ static outcome many_obstacles(const extreme *row, int32_t precision) {
         after = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         for (int64_t i = 0; before && after && i < peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY); ++i) HOLDS(before[i] == after[i]);
         o.error = extreme_worst(o.error, fabs(peri_stable_step(b) * sqrt(4 / (step * step) + row->value) / 2 - 1));
-        for (int i = 0; i < (int)row->value; ++i) (void)extreme_fails(&o, b, peri_remove_obstacle(b, peri_id(b, PERI_KIND_OBSTACLE, i + 1)));
+        for (int i = 0; i < (int)row->value; ++i)
+            (void)extreme_fails(&o, b, peri_remove_obstacle(b, peri_id(b, PERI_KIND_OBSTACLE, i + 1)));
         HOLDS(peri_stable_step(b) == step);
         free(before);
         free(after);
@@ -536,8 +538,8 @@ static const extreme rows[] = {
     {"pairs 1e9 horizons apart, in space", "the same", pairs_far_apart, 1e9, 0, 3, PERI_OK, NULL, {1e-12, 1e-6, 1e-3}},
     {"pairs 1e3 horizons apart, in space", "the same; single precision: bonds of length 1 at places of 6e3, which are exact",
      pairs_far_apart, 1e3, 0, 3, PERI_OK, NULL, {1e-12, 1e-6, 1e-3}},
-    {"a horizon of 1e-200 spacings", "peri.h: the horizon is smaller than the spacing of the points", horizon_of, 1e-200, PERI_SPACE_SOLID, 0,
-     PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
+    {"a horizon of 1e-200 spacings", "peri.h: the horizon is smaller than the spacing of the points", horizon_of, 1e-200, PERI_SPACE_SOLID,
+     0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
     {"a horizon of 1e-200 spacings, 2D", "the same", horizon_of, 1e-200, PERI_SPACE_PLANE_STRESS, 0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
     {"a horizon of 5e-324 spacings", "the same", horizon_of, 5e-324, PERI_SPACE_SOLID, 0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
     {"cells of 1e-300", large, spacing_of, 1e-300, PERI_SPACE_SOLID, 0, PERI_ERROR_TOO_LARGE, "spacing", {0, 0, 0}},

@@ -1,7 +1,9 @@
 /* solids.c - equilibria of bodies: against factorised matrices, uniform stress; floating, breaking. */
 #include "extremes.h"
 
-static double tolerance_of(int32_t precision) { return precision == PERI_PRECISION_DOUBLE ? 1e-8 : precision == PERI_PRECISION_MIXED ? 1e-5 : 1e-4; }
+static double tolerance_of(int32_t precision) {
+    return precision == PERI_PRECISION_DOUBLE ? 1e-8 : precision == PERI_PRECISION_MIXED ? 1e-5 : 1e-4;
+}
 
 static double value_of(const peri_body *b) {
     peri_error e;
@@ -177,8 +179,8 @@ static void compare(outcome *o, const dense *a, const solid *s, const peri_solve
     int64_t k;
     int32_t code;
     if (o->status >= 0) {
-        (void)extreme_fails(o, b, peri_prescribe_displacement(b, extreme_slab(o, b, 0, 0, 2), s->space == PERI_SPACE_SOLID ? PERI_AXIS_XYZ : PERI_AXIS_XY,
-            NULL, NULL, NULL));
+        const int32_t axes = s->space == PERI_SPACE_SOLID ? PERI_AXIS_XYZ : PERI_AXIS_XY;
+        (void)extreme_fails(o, b, peri_prescribe_displacement(b, extreme_slab(o, b, 0, 0, 2), axes, NULL, NULL, NULL));
         (void)extreme_fails(o, b, peri_apply_body_force(b, extreme_slab(o, b, 0, s->nx - 1, s->nx), force, NULL, NULL));
     }
     if (o->status >= 0) {

@@ -119,11 +119,12 @@ static void keep_all(record *r, outcome *o, peri_body *b, const units *s, const 
     numbers[0] = (double)r->broken;
     numbers[1] = (double)peri_cut_count(b);
     keep(r, "broken and cut", numbers, 2, 1);
-    if (c->law == PERI_LAW_BOND_BASED && !extreme_fails(o, b, peri_get_bond_constants(b, material_id(b, 1), material_id(b, 1), &numbers[0], &numbers[1]))) {
+    const int32_t id = material_id(b, 1);
+    if (c->law == PERI_LAW_BOND_BASED && !extreme_fails(o, b, peri_get_bond_constants(b, id, id, &numbers[0], &numbers[1]))) {
         keep(r, "micromodulus", numbers, 1, s->stress / (s->length * cube(s, c)));
         keep(r, "critical stretch", numbers + 1, 1, 1);
     }
-    if (c->criterion != PERI_CRITERION_STRETCH && !extreme_fails(o, b, peri_get_critical_energy(b, material_id(b, 1), numbers)))
+    if (c->criterion != PERI_CRITERION_STRETCH && !extreme_fails(o, b, peri_get_critical_energy(b, id, numbers)))
         keep(r, "critical energy", numbers, 1, s->stress / cube(s, c));
 }
 
@@ -189,7 +190,8 @@ static int32_t slab(outcome *o, peri_body *b, const units *s, double from, doubl
 static void notch(outcome *o, peri_body *b, const units *s, const scene *c) {
     const double l = s->length, lo[3] = {3 * l, 2.3 * l, -l}, edge1[3] = {0, 9 * l, 0}, edge2[3] = {0, 0, 9 * l};
     const double from[2] = {6 * l, 3.3 * l}, to[2] = {6 * l, 9 * l};
-    (void)extreme_fails(o, b, c->space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, lo, edge1, edge2) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+    (void)extreme_fails(o, b, c->space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, lo, edge1, edge2)
+                                                           : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
 }
 
 /* Pulled apart by its ends, loaded, damped, thrown at a plane and a ball: everything that acts has other units. */
@@ -210,9 +212,8 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
         for (k = 0; k < 2; ++k) (void)extreme_fails(o, b, peri_set_no_fail(b, sets[k], 1));
     loads[0] = peri_prescribe_velocity(b, sets[0], PERI_AXIS_X, left, NULL, NULL);
     (void)extreme_fails(o, b, loads[0]);
-    (void)extreme_fails(o, b, peri_prescribe_velocity(b, sets[1], PERI_AXIS_X | PERI_AXIS_Y, right, NULL, NULL));
-    loads[1] = peri_apply_layer_traction(b, slab(o, b, s, 2, 4), (c->space == PERI_SPACE_SOLID ? 2 : 1) * l * (dim_of(c) == 3 ? l : 1), pressure,
-                                   NULL, NULL);
+    (void)extreme_fails(o, b, peri_prescribe_velocity(b, sets[1], PERI_AXIS_XY, right, NULL, NULL));
+    loads[1] = peri_apply_layer_traction(b, slab(o, b, s, 2, 4), (dim_of(c) == 3 ? 2 * l : 1) * l, pressure, NULL, NULL);
     (void)extreme_fails(o, b, loads[1]);
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, weight, NULL, NULL));
     (void)extreme_fails(o, b, peri_add_velocity(b, PERI_ALL, down));
@@ -240,7 +241,7 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
 static peri_body *hold(outcome *o, const units *s, const scene *c, record *r) {
     const double l = s->length, width = c->space == PERI_SPACE_SOLID ? 7 : 12, high = c->space == PERI_SPACE_SOLID ? 4 : 5;
     const double along[3] = {1, 0, 0}, value[3] = {1e-3 * s->stress, 2e-4 * s->stress, 0}, area = high * l * (dim_of(c) == 3 ? 3 * l : 1);
-    const int32_t axes = PERI_AXIS_X | PERI_AXIS_Y | (c->space == PERI_SPACE_SOLID ? PERI_AXIS_Z : 0);
+    const int32_t axes = PERI_AXIS_XY | (c->space == PERI_SPACE_SOLID ? PERI_AXIS_Z : 0);
     double *u, force[3];
     int64_t n;
     int32_t held;
@@ -379,7 +380,8 @@ static outcome far_units(const extreme *row, int32_t precision) {
     memset(want, 0, sizeof want);
     for (k = 0; k < 2; ++k)
         for (space = 0; space < 3; ++space) {
-            const scene c = {PERI_SPACE_PLANE_STRESS + space, precision, k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+            const scene c = {PERI_SPACE_PLANE_STRESS + space, precision, k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED,
+                             PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
             o = extreme_end(o, pull(&o, &one, &c, &want[k][space]));
         }
     for (a = -most; a <= most; ++a)
@@ -387,7 +389,8 @@ static outcome far_units(const extreme *row, int32_t precision) {
             for (d = -most; d <= most && o.status == PERI_OK; ++d) {
                 const double ten = pow(10, row->value);
                 const units s = {pow(ten, a), pow(ten, e), pow(ten, d), pow(ten, a)};
-                scene c = {PERI_SPACE_PLANE_STRESS + (a + e + d + 3 * most) % 3, precision, 0, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+                scene c = {PERI_SPACE_PLANE_STRESS + (a + e + d + 3 * most) % 3, precision, 0, PERI_GEOMETRY_NONLINEAR,
+                           PERI_CRITERION_STRETCH, 0, 0};
                 k = (a + d + 2 * most) % 2;
                 c.law = k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED;
                 compare(&o, row, pull, &s, &c, &want[k][c.space - PERI_SPACE_PLANE_STRESS]);
@@ -407,7 +410,8 @@ static outcome one_far_unit(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     units s = one;
     record r = {{0}, {0}, {0}, 0, 0};
-    const scene c = {row->other == 2 ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_SOLID, precision, PERI_LAW_LPS, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+    const scene c = {row->other == 2 ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_SOLID, precision, PERI_LAW_LPS, PERI_GEOMETRY_NONLINEAR,
+                     PERI_CRITERION_STRETCH, 0, 0};
     double *const which[4] = {&s.length, &s.stress, &s.density, &s.thickness};
     *which[row->choice] = pow(10, row->value);
     o = extreme_end(o, pull(&o, &s, &c, &r));
@@ -468,7 +472,8 @@ static outcome constants(const extreme *row, int32_t precision) {
         m.fracture_energy = row->other;
     }
     if (!extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) && !extreme_fails(&o, b, peri_add_material(b, &m)))
-        (void)extreme_fails(&o, b, row->choice ? peri_get_critical_energy(b, material_id(b, 1), &got) : peri_get_bond_constants(b, material_id(b, 1), material_id(b, 1), &got, NULL));
+        (void)extreme_fails(&o, b, row->choice ? peri_get_critical_energy(b, material_id(b, 1), &got)
+                                               : peri_get_bond_constants(b, material_id(b, 1), material_id(b, 1), &got, NULL));
     /* c = 18 K/(pi h^4), K = E/1.5; w0 = 4 G0/(pi h^4) */
     want = (row->choice ? 4 * row->other : 12 * row->other) / 3.14159265358979323846 / h / h / h / h;
     if (o.status == PERI_OK) extreme_note(&o, row, precision, fabs(got / want - 1), "%g, not %g", got, want);
@@ -548,13 +553,16 @@ static const extreme rows[] = {
     {"motion in all units, Oterkus", TRUTH, every_unit, PERI_CRITERION_STRETCH, 0, PERI_LAW_OTERKUS, PERI_OK, NULL, MOTION},
     {"motion in all units, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
     {"motion in all units, bonds break by energy", TRUTH, every_unit, PERI_CRITERION_BOND_ENERGY, 0, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, nodes break by energy", TRUTH, every_unit, PERI_CRITERION_NODE_ENERGY, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
+    {"motion in all units, nodes break by energy", TRUTH, every_unit, PERI_CRITERION_NODE_ENERGY, 0, PERI_LAW_CORRESPONDENCE, PERI_OK,
+     NULL, MOTION},
     {"motion in all units, clouds and weights, LPS", TRUTH, every_unit, PERI_CRITERION_STRETCH, 2, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, clouds and weights, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 2, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
+    {"motion in all units, clouds and weights, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 2, PERI_LAW_CORRESPONDENCE,
+     PERI_OK, NULL, MOTION},
     {"equilibrium in all units, bond-based", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_BOND_BASED, PERI_OK, NULL, REST},
     {"equilibrium in all units, LPS", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_LPS, PERI_OK, NULL, REST},
     {"equilibrium in all units, Oterkus", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_OTERKUS, PERI_OK, NULL, REST},
-    {"equilibrium in all units, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, REST},
+    {"equilibrium in all units, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL,
+     REST},
     {"motion in powers of two", "such scaling rounds nothing: the same bits", same_bits, 0, 0, 0, PERI_OK, NULL, NONE},
     {"equilibrium in powers of two", "such scaling rounds nothing: the same bits", same_bits, 0, 1, 0, PERI_OK, NULL, NONE},
     {"plates of any thickness", "energies, forces, momenta by thickness; motion the same", every_thickness, 0, 0, 0, PERI_OK, NULL, MOTION},
