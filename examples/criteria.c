@@ -34,7 +34,8 @@ int main(void) {
         plexiglas.density = 1180;        /* [kg/m^3] */
         plexiglas.fracture_energy = 300; /* [J/m^2] */
         plexiglas.criterion = criterion[k];
-        must(plates, peri_add_box(plates, must(plates, peri_add_material(plates, &plexiglas)), lo, hi, h));
+        const int32_t material = must(plates, peri_add_material(plates, &plexiglas));
+        must(plates, peri_add_box(plates, material, lo, hi, h));
     }
     must(plates, peri_build(plates));
     for (k = 0; k < 3; ++k) { /* a notch in the middle, at 45 degrees */
