@@ -82,13 +82,18 @@ static int64_t cut(program *p, int s) {
     const int64_t cut_before = peri_cut_count(o->body), broken_before = peri_broken_count(o->body);
     const int32_t standing = some_standing(p, o);
     int64_t status, k;
+    double radius;
     for (k = 0; k < 4; ++k) place(p, o, &p->in[k * o->dim]);
     switch (kind < 6 ? turn + kind % 3 : kind == 6 ? 6 + below(p, 2) : below(p, 6)) {
     case 0: status = CALL(p, s, peri_cut_segment(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 2))); break;
     case 1: case 2:
-        status = CALL(p, s, peri_cut_polyline(o->body, standing, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 2 + kind % 3, GIVEN(0, p->in)));
+        k = p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 2 + kind % 3;
+        status = CALL(p, s, peri_cut_polyline(o->body, standing, k, GIVEN(0, p->in)));
         break;
-    case 3: status = CALL(p, s, peri_cut_disc(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 3), number(p, o->length, 4.0 * o->length))); break;
+    case 3:
+        radius = number(p, o->length, 4.0 * o->length);
+        status = CALL(p, s, peri_cut_disc(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 3), radius));
+        break;
     case 4: status = CALL(p, s, peri_cut_triangle(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
     case 5: status = CALL(p, s, peri_cut_rectangle(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
     case 6: status = CALL(p, s, peri_cut_if(o->body, standing, GIVEN(0, on_pair), new_hook(p, s, 5))); break;
@@ -146,7 +151,8 @@ static int64_t write_state(program *p, int s) {
     const int kind = draw(p);
     const double size = (kind % 2 ? o->length : speed_of(o)) * (kind / 2 % 2 ? 0.01 : 0.2), step = 0.1 + below(p, 32);
     const int64_t n = points_of(o) * o->dim;
-    const int32_t field = p->mood == MOOD_CHOICES ? choice(p, PERI_FIELD_POSITION, 17) : kind % 2 ? PERI_FIELD_DISPLACEMENT : PERI_FIELD_VELOCITY;
+    const int32_t field = p->mood == MOOD_CHOICES ? choice(p, PERI_FIELD_POSITION, 17)
+                        : kind % 2 ? PERI_FIELD_DISPLACEMENT : PERI_FIELD_VELOCITY;
     int64_t k;
     for (k = 0; k < n; ++k) p->in[k] = size * sin(step * (double)(k % 97) + (double)(k % o->dim));
     k = draw(p);
