@@ -12,7 +12,7 @@ static void release(textbook_input *t) {
 /* The textbook in double and single precision and the library in each precision, in turns, on the same body: the textbook's force pass
    alone against whole steps of the library, its breaking included on both sides. The textbook's forces must be those of the library. */
 static void textbook_rows(bench_run *run, table *t, int32_t law, int32_t space, int64_t edge, double bar_single) {
-    static const int32_t reals[3] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
+    static const int32_t reals[3] = { PERI_PRECISION_DOUBLE, PERI_PRECISION_MIXED, PERI_PRECISION_SINGLE };
     const suite *s = &cases_plain;
     bench_case c = { law, space, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 1, 0.5, 0, { edge, edge, edge }, 3 };
     peri_body *body[3];

@@ -28,9 +28,10 @@
 
 void case_name(const bench_case *c, char *out, size_t capacity) {
     static const char *const laws[] = { "?", "bond-based", "LPS", "Oterkus", "correspondence" };
-    static const char *const reals[] = { "?", "f64", "f32", "?", "mixed" };
+    static const char *const reals[] = { "?", "f64", "mixed", "f32" };
     char text[128];
-    (void)sprintf(text, "%s %s m=%g %s %s", laws[c->law], c->space == PERI_SPACE_SOLID ? "3D" : "2D", c->m, reals[c->precision],
+    (void)sprintf(text, "%s %s m=%g %s %s", laws[c->law % 100], c->space == PERI_SPACE_SOLID ? "3D" : "2D", c->m,
+                  reals[c->precision % 100],
                   c->cloud ? "cloud" : "lattice");
     if (capacity > 0) {
         strncpy(out, text, capacity - 1);
@@ -151,7 +152,7 @@ static void bench_cases(bench_run *run) {
         { "share %", "share_percent", 7, 0 }, { "by", "limited_by", -5, 0 },
     };
     static const int32_t laws[] = { PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_CORRESPONDENCE };
-    static const int32_t reals[] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
+    static const int32_t reals[] = { PERI_PRECISION_DOUBLE, PERI_PRECISION_MIXED, PERI_PRECISION_SINGLE };
     static const struct grid { int32_t space; int64_t edge; double m; } grids[] = {
         { PERI_SPACE_PLANE_STRESS, 300, 3 }, { PERI_SPACE_SOLID, 36, 3 }, { PERI_SPACE_SOLID, 20, 5 }
     };

@@ -55,7 +55,8 @@ static void read_textbook(peri_body *body, const bench_case *c, textbook_input *
     t->u = field(body, PERI_FIELD_DISPLACEMENT);
     t->force = field(body, PERI_FIELD_FORCE_DENSITY);
     t->volume = field(body, PERI_FIELD_VOLUME);
-    need(body, peri_get_bond_constants(body, peri_id(body, PERI_KIND_MATERIAL, 1), peri_id(body, PERI_KIND_MATERIAL, 1), t->lps ? NULL : &t->c, &t->s0));
+    const int32_t id = peri_id(body, PERI_KIND_MATERIAL, 1);
+    need(body, peri_get_bond_constants(body, id, id, t->lps ? NULL : &t->c, &t->s0));
     if (t->dim == 3) { /* E = 1; the table of laws in peri.h */
         t->a = 3.0 * bulk - 5.0 * mu;
         t->b = 15.0 * mu;

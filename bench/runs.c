@@ -40,7 +40,8 @@ void bench_operator(bench_run *run) {
         { "case", "case", -40, 0 }, { "product", "product_ns_per_bond", 8, 2 }, { "step", "step_ns_per_bond", 8, 2 },
         { "bytes/pt", "bytes_per_point", 8, 0 },
     };
-    static const int32_t laws[] = { PERI_LAW_BOND_BASED, PERI_LAW_LPS }, reals[] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
+    static const int32_t laws[] = { PERI_LAW_BOND_BASED, PERI_LAW_LPS };
+    static const int32_t reals[] = { PERI_PRECISION_DOUBLE, PERI_PRECISION_MIXED, PERI_PRECISION_SINGLE };
     table t;
     printf("\nLinear geometry, elastic: ns per bond of peri_multiply_stiffness, its vectors turned from and to the caller's layout, and\n"
            "of a step");
@@ -100,7 +101,8 @@ static void unused_rows(bench_run *run, table *t, int32_t precision, const char 
     };
     double ns = 0.0, bytes = 0.0;
     for (size_t k = 0; k < sizeof uses / sizeof uses[0]; ++k) {
-        const bench_case c = { uses[k].law, PERI_SPACE_SOLID, precision, PERI_GEOMETRY_NONLINEAR, 1, uses[k].critical, 0, { 40, 40, 40 }, 3 };
+        const bench_case c = { uses[k].law, PERI_SPACE_SOLID, precision, PERI_GEOMETRY_NONLINEAR, 1, uses[k].critical, 0,
+                               { 40, 40, 40 }, 3 };
         bench_facts facts;
         peri_body *body = scene_build(&c, &facts);
         const char *part;
@@ -152,7 +154,7 @@ void bench_unused(bench_run *run) {
            "what it does per point, by steps of bodies with 6 and 18 bonds a point");
     table_open(&t, "out/unused.csv", columns, (int)(sizeof columns / sizeof columns[0]));
     unused_rows(run, &t, PERI_PRECISION_DOUBLE, "f64");
-    unused_rows(run, &t, BENCH_MIXED, "mixed");
+    unused_rows(run, &t, PERI_PRECISION_MIXED, "mixed");
     unused_rows(run, &t, PERI_PRECISION_SINGLE, "f32");
     table_close(&t);
 }
@@ -166,7 +168,8 @@ void bench_unused(bench_run *run) {
    runs is that of the same work. Frames are told apart by whether no bond is broken yet, some break in them, or only before them. */
 static void play(bench_run *run, table *t, double speed) {
     static const char *const names[] = { "whole", "breaking", "in pieces" };
-    const bench_case c = { PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR, 1, 0.02, 0, { 22, 22, 21 }, 3 };
+    const bench_case c = { PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR, 1, 0.02, 0,
+                          { 22, 22, 21 }, 3 };
     const double floor_at[3] = { 0, 0, -0.5 }, up[3] = { 0, 0, 1 }, down[3] = { 0, 0, -speed };
     double best[FRAMES], mean[3] = { 0, 0, 0 }, worst[3] = { 0, 0, 0 }, *rest;
     int64_t broken[FRAMES + 1], frames[3] = { 0, 0, 0 };
@@ -242,7 +245,7 @@ void bench_branching(bench_run *run) {
         { "branching", "precision", -10, 0 }, { "points", "points", 8, 0 }, { "steps", "steps", 6, 0 },
         { "s", "seconds", 8, 3 },             { "ns/bond", "ns_per_bond", 8, 2 }, { "broken", "broken", 8, 0 },
     };
-    static const int32_t reals[] = { PERI_PRECISION_DOUBLE, BENCH_MIXED, PERI_PRECISION_SINGLE };
+    static const int32_t reals[] = { PERI_PRECISION_DOUBLE, PERI_PRECISION_MIXED, PERI_PRECISION_SINGLE };
     static const char *const names[] = { "f64", "mixed", "f32" };
     table t;
     (void)run;
@@ -297,7 +300,8 @@ void bench_large(bench_run *run) {
         { "ns/bond", "ns_per_bond", 8, 2 },     { "held MB", "held_mb", 8, 0 },   { "most MB", "most_mb", 8, 0 },
         { "VmHWM MB", "vmhwm_mb", 9, 0 },       { "bar", "bar_mb", 6, 0 },
     };
-    const bench_case c = { PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR, 1, 0.5, 0, { 200, 200, 200 }, 3 };
+    const bench_case c = { PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR, 1, 0.5, 0,
+                          { 200, 200, 200 }, 3 };
     const double slow[3] = { 1e-3, 0, 0 };
     bench_facts facts;
     peri_body *body = scene_build(&c, &facts);

@@ -42,7 +42,7 @@ static inline peri_body *scene_build(const bench_case *c, bench_facts *facts) {
     desc.allocate = count_allocate;
     desc.release = count_release;
     if (peri_body_create(&desc, &body, NULL) < 0) {
-        if (c->precision == BENCH_MIXED) return NULL;
+        if (c->precision == PERI_PRECISION_MIXED) return NULL;
         exit(1);
     }
     peri_material_desc_init(&material, c->law);
@@ -51,11 +51,12 @@ static inline peri_body *scene_build(const bench_case *c, bench_facts *facts) {
     material.density = 1.0;
     material.critical_stretch = c->critical;
     need(body, peri_add_material(body, &material));
-    need(body, c->cloud ? peri_add_perturbed_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0, 1.0, 7) : peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
+    const int32_t id = peri_id(body, PERI_KIND_MATERIAL, 1);
+    need(body, c->cloud ? peri_add_perturbed_box(body, id, lo, hi, 1.0, 1.0, 7) : peri_add_box(body, id, lo, hi, 1.0));
     bytes_most = bytes_now;
     start = c->threads == 1 ? processor_seconds() : seconds();
     const int32_t built = peri_build(body);
-    if (built < 0 && c->precision == BENCH_MIXED) {
+    if (built < 0 && c->precision == PERI_PRECISION_MIXED) {
         peri_body_destroy(body);
         return NULL;
     }
@@ -84,7 +85,8 @@ static inline void scene_harm(peri_body *body, bench_facts *facts) {
     const uint64_t before = bytes_now;
     need(body, peri_reset(body));
     need(body, peri_cut_if(body, PERI_CUT_INITIAL, scene_harmed, NULL));
-    need(body, dim == 2 ? peri_cut_segment(body, PERI_CUT_INITIAL, left, middle) : peri_cut_disc(body, PERI_CUT_INITIAL, middle, up, 0.4 * edge));
+    need(body, dim == 2 ? peri_cut_segment(body, PERI_CUT_INITIAL, left, middle)
+                        : peri_cut_disc(body, PERI_CUT_INITIAL, middle, up, 0.4 * edge));
     scene_shake(body);
     facts->bytes += ((double)bytes_now - (double)before) / (double)facts->points;
 }

@@ -107,8 +107,9 @@ static void run_case(int32_t space, int32_t precision, int32_t threads, int64_t 
     const double again = best_build(space, precision, threads, points, repeats, &warm, &bonds);
     const uint64_t bytes = warm.used;
     free(warm.memory);
-    printf("%s %s %8lld %7d %12.1f %8.2f %8.2f %8.2f\n", space == PERI_SPACE_SOLID ? "3D" : "2D", precision == PERI_PRECISION_DOUBLE ? "f64" : "f32",
-           (long long)points, (int)threads, (double)bonds / (double)points, fresh * 1e9 / (double)bonds,
+    printf("%s %s %8lld %7d %12.1f %8.2f %8.2f %8.2f\n", space == PERI_SPACE_SOLID ? "3D" : "2D",
+           precision == PERI_PRECISION_DOUBLE ? "f64" : "f32", (long long)points, (int)threads, (double)bonds / (double)points,
+               fresh * 1e9 / (double)bonds,
            best_pages(bytes, repeats) * 1e9 / (double)bonds, again * 1e9 / (double)bonds);
     (void)fflush(stdout);
 }
@@ -116,8 +117,10 @@ static void run_case(int32_t space, int32_t precision, int32_t threads, int64_t 
 int main(int argc, char **argv) {
     const int64_t repeats = argc > 1 ? atol(argv[1]) : 7;
     printf("\nBuild of random clouds, ns per directed bond\n         points threads bonds/point    fresh    pages     warm\n");
-    for (int64_t points = 10000; points <= 1000000; points *= 10) run_case(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, 1, points, repeats);
-    for (int64_t points = 10000; points <= 1000000; points *= 10) run_case(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 1, points, repeats);
+    for (int64_t points = 10000; points <= 1000000; points *= 10)
+        run_case(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, 1, points, repeats);
+    for (int64_t points = 10000; points <= 1000000; points *= 10)
+        run_case(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, 1, points, repeats);
     run_case(PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, 1, 1000000, repeats);
     run_case(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, 2, 1000000, repeats);
     return 0;

@@ -87,25 +87,27 @@ static void plates(FILE *csv) {
             peri_body *body;
             if (p != PERI_PRECONDITIONER_MULTILEVEL && edge > 400) continue;
             body = block(PERI_SPACE_PLANE_STRESS, edge, 0.3, PERI_PRECISION_DOUBLE);
-            need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+            need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_AXIS_XY, NULL, NULL, NULL));
             need(body, peri_apply_layer_traction(body, layers(body, edge, edge - 1, edge), 1.0, pull, NULL, NULL));
             peri_solve_desc_init(&statics);
             statics.tolerance = 1e-8;
             statics.preconditioner = p;
             (void)sprintf(scene, "plate %lld^2", (long long)edge);
-            row(csv, scene, body, names[p], &statics);
+            row(csv, scene, body, names[p % 100], &statics);
             peri_body_destroy(body);
         }
 }
 
 static void blocks_of(FILE *csv, int64_t edge) {
     const double pull[3] = { 1e-3, 0, 0 };
-    for (int32_t precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision) {
+    static const int32_t precisions[2] = { PERI_PRECISION_DOUBLE, PERI_PRECISION_SINGLE };
+    for (int k = 0; k < 2; ++k) {
+        const int32_t precision = precisions[k];
         char scene[32];
         peri_solve_desc statics;
         peri_body *body = block(PERI_SPACE_SOLID, edge, 0.25, precision);
-        need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z, NULL, NULL, NULL));
-        need(body, peri_prescribe_displacement(body, layers(body, edge, edge - 3, edge), PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z, pull, NULL, NULL));
+        need(body, peri_prescribe_displacement(body, layers(body, edge, 0, 3), PERI_AXIS_XYZ, NULL, NULL, NULL));
+        need(body, peri_prescribe_displacement(body, layers(body, edge, edge - 3, edge), PERI_AXIS_XYZ, pull, NULL, NULL));
         peri_solve_desc_init(&statics);
         statics.tolerance = precision == PERI_PRECISION_DOUBLE ? 1e-6 : 1e-4;
         (void)sprintf(scene, "block %lld^3", (long long)edge);

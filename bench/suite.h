@@ -10,9 +10,6 @@
 
 #include "bench.h"
 
-#define BENCH_MIXED 4 /* peri_body_desc.precision = PERI_PRECISION_MIXED: state in double, bonds in single precision. Rows that a library refuses
-                         show "-" */
-
 typedef struct bench_case {
     int32_t law, space, precision, geometry, threads;
     double  critical; /* critical stretch: 0 = elastic; 0.5 = never reached, but the state of every bond is kept and asked for  */

@@ -113,7 +113,7 @@ outcome run_cantilever(const knobs *k) {
     held = trial_box(&t, -deep, -1, 0, 1);
     end = trial_box(&t, l - 2 * k->m * h, -1, l, 1);
     if (trial_fine(&t))
-        trial_note(&t, peri_prescribe_displacement(t.body, held, PERI_AXIS_X | PERI_AXIS_Y | (dim == 3 ? PERI_AXIS_Z : 0), NULL, root, &b));
+        trial_note(&t, peri_prescribe_displacement(t.body, held, PERI_AXIS_XY | (dim == 3 ? PERI_AXIS_Z : 0), NULL, root, &b));
     if (trial_fine(&t))
         trial_note(&t, peri_apply_traction(t.body, end, 1, out, force, dim == 3 ? couple : NULL, &b));
     trial_solve(&t, PERI_LOOSE_REFUSED, 0);
@@ -139,8 +139,8 @@ double work_cantilever(const knobs *k) {
 
 /* A hole of radius 1 in an infinite plate under tension along y: Kirsch's displacements on a frame two horizons wide outside of a square
    of half side 3, plane stress. Families at the rim lie on one side and average over a horizon, and the rim is made of cells, so what is
-   compared is the stress (PERI_FIELD_STRESS) of all points 1.3 to 2.5 radii from the middle. Error: the root of the mean square of what it is
-   off, over that of Kirsch's. (What comes to the rim itself by extrapolation, the factor 3, has up to 1.2/across of the cells in it,
+   compared is the stress (PERI_FIELD_STRESS) of all points 1.3 to 2.5 radii from the middle. Error: the root of the mean square of what
+   it is off, over that of Kirsch's. (What comes to the rim itself by extrapolation, the factor 3, has up to 1.2/across of the cells in it,
    of either sign, whatever the law: tests/test_hole.c.) */
 static const double far_stress = 1e-4;
 static const double band[2] = { 1.3, 2.5 };
@@ -196,7 +196,7 @@ outcome run_hole(const knobs *k) {
     plate.x = x = trial_read(&t, PERI_FIELD_POSITION);
     trial_resume(&t);
     if (trial_fine(&t)) trial_note(&t, frame = peri_select_if(t.body, NULL, in_frame, NULL));
-    if (trial_fine(&t)) trial_note(&t, peri_prescribe_displacement(t.body, frame, PERI_AXIS_X | PERI_AXIS_Y, NULL, kirsch_support, &plate));
+    if (trial_fine(&t)) trial_note(&t, peri_prescribe_displacement(t.body, frame, PERI_AXIS_XY, NULL, kirsch_support, &plate));
     trial_solve(&t, PERI_LOOSE_REFUSED, 0);
     sigma = trial_read(&t, PERI_FIELD_STRESS);
     trial_pause(&t);

@@ -34,7 +34,7 @@ row *table_find(const table *t, const knobs *k) {
     return NULL;
 }
 
-double seconds_expected(const problem *p, const knobs *k) { return p->work(k) * PER_BOND[k->law]; }
+double seconds_expected(const problem *p, const knobs *k) { return p->work(k) * PER_BOND[k->law % 100]; }
 
 outcome run_best(const problem *p, const knobs *k) {
     outcome best = p->run(k);
@@ -287,20 +287,21 @@ void table_fill(table *t) {
 static const char *const law_name[] = { "", "bond-based", "LPS", "Oterkus", "correspondence" };
 static const char *const correction_name[] = { "", "none", "volume", "energy", "moment" };
 static const char *const quadrature_name[] = { "", "whole", "ramp", "partial", "centroid", "partial moment" };
-static const char *const precision_name[] = { "", "double", "single", "", "mixed" };
+static const char *const precision_name[] = { "", "double", "mixed", "single" };
 static const char *const space_name[] = { "", "plane stress", "plane strain", "3D" };
-static const char *const influence_name[] = { [PERI_INFLUENCE_CONSTANT] = "constant", [PERI_INFLUENCE_LINEAR] = "linear",
-                                              [PERI_INFLUENCE_CUBIC] = "cubic",       [PERI_INFLUENCE_POWER_2] = "power 2",
-                                              [PERI_INFLUENCE_POWER_3] = "power 3",   [PERI_INFLUENCE_GAUSSIAN] = "gaussian",
-                                              [PERI_INFLUENCE_INVERSE] = "inverse" };
+static const char *const influence_name[] = { [PERI_INFLUENCE_CONSTANT % 100] = "constant", [PERI_INFLUENCE_LINEAR % 100] = "linear",
+                                              [PERI_INFLUENCE_CUBIC % 100] = "cubic",       [PERI_INFLUENCE_POWER_2 % 100] = "power 2",
+                                              [PERI_INFLUENCE_POWER_3 % 100] = "power 3",   [PERI_INFLUENCE_GAUSSIAN % 100] = "gaussian",
+                                              [PERI_INFLUENCE_INVERSE % 100] = "inverse" };
 
 void table_csv(const table *t, FILE *file) {
     for (int i = 0; i < t->count; ++i) {
         const row *r = &t->rows[i];
         const knobs *k = &r->k;
         const outcome *o = &r->out;
-        fprintf(file, "%s,%s,%s,%s,%g,%g,%s,%s,%s,%s,", t->p->name, space_name[k->space], law_name[k->law], correction_name[k->correction],
-                k->m, k->across, influence_name[k->influence], quadrature_name[k->quadrature], precision_name[k->precision],
+        fprintf(file, "%s,%s,%s,%s,%g,%g,%s,%s,%s,%s,", t->p->name, space_name[k->space % 100], law_name[k->law % 100],
+                correction_name[k->correction % 100], k->m, k->across, influence_name[k->influence % 100],
+                quadrature_name[k->quadrature % 100], precision_name[k->precision % 100],
                 k->geometry == PERI_GEOMETRY_LINEAR ? "linear" : "nonlinear");
         if (k->law == PERI_LAW_CORRESPONDENCE) fprintf(file, "%g", k->stabilization < 0 ? 0.2 : k->stabilization);
         fprintf(file, ",");
@@ -309,7 +310,8 @@ void table_csv(const table *t, FILE *file) {
             else fprintf(file, "default");
         }
         fprintf(file, ",");
-        if (t->p->moves) fprintf(file, "%s,%g,", k->integrator == PERI_INTEGRATOR_VELOCITY_VERLET ? "Verlet" : "central difference", k->safety);
+        const char *integrator = k->integrator == PERI_INTEGRATOR_VELOCITY_VERLET ? "Verlet" : "central difference";
+        if (t->p->moves) fprintf(file, "%s,%g,", integrator, k->safety);
         else fprintf(file, ",,");
         fprintf(file, "%.6g,%lld,%lld,%lld,", k->poisson, (long long)o->points, (long long)o->bonds, (long long)o->bytes);
         if (o->status == PERI_OK) fprintf(file, "%.4g,%.4g,%.4g,", o->seconds, o->error, r->guarded);
@@ -320,13 +322,14 @@ void table_csv(const table *t, FILE *file) {
 
 void name_series(const knobs *k, int32_t moves, char *text, size_t capacity) {
     const knobs usual = { k->space, k->law, PERI_CORRECTION_NONE, PERI_INFLUENCE_CONSTANT, PERI_QUADRATURE_FULL, PERI_PRECISION_DOUBLE,
-                          moves ? PERI_GEOMETRY_NONLINEAR : PERI_GEOMETRY_LINEAR, PERI_INTEGRATOR_VELOCITY_VERLET, k->m, k->across, k->poisson, -1, 0, 0.9 };
-    int n = snprintf(text, capacity, "%s, m = %g", law_name[k->law], k->m);
+                          moves ? PERI_GEOMETRY_NONLINEAR : PERI_GEOMETRY_LINEAR, PERI_INTEGRATOR_VELOCITY_VERLET,
+                          k->m, k->across, k->poisson, -1, 0, 0.9 };
+    int n = snprintf(text, capacity, "%s, m = %g", law_name[k->law % 100], k->m);
 #define ADD(...) do { if (n >= 0 && (size_t)n < capacity) n += snprintf(text + n, capacity - (size_t)n, __VA_ARGS__); } while (0)
-    if (k->correction != usual.correction) ADD(", %s correction", correction_name[k->correction]);
-    if (k->influence != usual.influence) ADD(", %s", influence_name[k->influence]);
-    if (k->quadrature != usual.quadrature) ADD(", %s volumes", quadrature_name[k->quadrature]);
-    if (k->precision != usual.precision) ADD(", %s", precision_name[k->precision]);
+    if (k->correction != usual.correction) ADD(", %s correction", correction_name[k->correction % 100]);
+    if (k->influence != usual.influence) ADD(", %s", influence_name[k->influence % 100]);
+    if (k->quadrature != usual.quadrature) ADD(", %s volumes", quadrature_name[k->quadrature % 100]);
+    if (k->precision != usual.precision) ADD(", %s", precision_name[k->precision % 100]);
     if (k->geometry != usual.geometry) ADD(", %s geometry", k->geometry == PERI_GEOMETRY_LINEAR ? "linear" : "nonlinear");
     if (k->stabilization >= 0) ADD(", stabilization %g", k->stabilization);
     if (k->tolerance > 0) ADD(", tolerance %g", k->tolerance);

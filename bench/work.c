@@ -47,8 +47,10 @@ static double of(count k, int32_t dim) { return k.c + k.l * dim + k.q * dim * di
 
 /* Bytes of a step per point, and to *set those of its arrays, each once. */
 static double traffic(const bench_case *c, const bench_facts *f, double *set) {
-    const int32_t dim = c->space == PERI_SPACE_SOLID ? 3 : 2, states = c->law != PERI_LAW_BOND_BASED, tensors = c->law == PERI_LAW_CORRESPONDENCE;
-    const double state = c->precision == PERI_PRECISION_SINGLE ? 4 : 8, real = c->precision == PERI_PRECISION_DOUBLE ? 8 : 4; /* of PERI_PRECISION_MIXED 8 and 4 */
+    const int32_t dim = c->space == PERI_SPACE_SOLID ? 3 : 2, states = c->law != PERI_LAW_BOND_BASED;
+    const int32_t tensors = c->law == PERI_LAW_CORRESPONDENCE;
+    /* of mixed precision 8 and 4 */
+    const double state = c->precision == PERI_PRECISION_SINGLE ? 4 : 8, real = c->precision == PERI_PRECISION_DOUBLE ? 8 : 4;
     const double family = (double)f->bonds / (double)f->points;
     const double packed = tensors ? dim * (dim + 1) / 2 : 0, planes = tensors ? dim * dim : 1;
     /* march.inl: the first kick reads and writes u, v, f; the second v, and reads f; a byte of material each. Force: u read, f read and
@@ -81,7 +83,7 @@ bench_work work_of(const bench_case *c, const bench_facts *f) {
         w.mul += of(p->mul, dim);
         w.root += p->root;
         w.div += p->div;
-        w.wide += c->precision == BENCH_MIXED ? of(p->wide, dim) : 0.0;
+        w.wide += c->precision == PERI_PRECISION_MIXED ? of(p->wide, dim) : 0.0;
         w.flop -= of(p->compare, dim);
     }
     w.flop += w.add + w.mul + w.root + w.div;

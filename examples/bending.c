@@ -23,7 +23,7 @@ int main(void) {
 
     peri_body_desc_init(&desc);
     desc.space = PERI_SPACE_PLANE_STRESS;
-    desc.geometry = PERI_GEOMETRY_LINEAR; /* the deflection is 1/10000 of the span                                                  */
+    desc.geometry = PERI_GEOMETRY_LINEAR; /* the deflection is 1/10000 of the span                                         */
     desc.horizon = 3 * h;
     desc.thickness = thickness;
     desc.threads = 1; /* few points: threads would wait for each other                                                     */
@@ -32,7 +32,8 @@ int main(void) {
     concrete.young = young;
     concrete.density = 2400;
     concrete.fracture_energy = fracture_energy;
-    must(beam, peri_add_box(beam, must(beam, peri_add_material(beam, &concrete)), lo, hi, h)); /* 124 x 30 points          */
+    const int32_t material = must(beam, peri_add_material(beam, &concrete));
+    must(beam, peri_add_box(beam, material, lo, hi, h)); /* 124 x 30 points          */
     must(beam, peri_build(beam));
     must(beam, peri_cut_segment(beam, PERI_CUT_INITIAL, below, tip));
 
@@ -43,7 +44,7 @@ int main(void) {
     const int32_t hinge = must(beam, peri_select_ball(beam, "left support", left, 0.6 * h));
     const int32_t roller = must(beam, peri_select_ball(beam, "right support", right, 0.6 * h));
     const int32_t pushed = must(beam, peri_select_ball(beam, "load", top, 0.6 * h));
-    must(beam, peri_prescribe_displacement(beam, hinge, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+    must(beam, peri_prescribe_displacement(beam, hinge, PERI_AXIS_XY, NULL, NULL, NULL));
     must(beam, peri_prescribe_displacement(beam, roller, PERI_AXIS_Y, NULL, NULL, NULL));
     const int32_t load = must(beam, peri_prescribe_displacement(beam, pushed, PERI_AXIS_Y, down, NULL, NULL));
 

@@ -32,7 +32,8 @@ int main(void) {
     glass.young = 72e9;          /* [Pa] */
     glass.density = 2440;        /* [kg/m^3] */
     glass.fracture_energy = 3.8; /* [J/m^2] */
-    must(pane, peri_add_box(pane, must(pane, peri_add_material(pane, &glass)), lo, hi, h)); /* 300 x 120 points */
+    const int32_t material = must(pane, peri_add_material(pane, &glass));
+    must(pane, peri_add_box(pane, material, lo, hi, h)); /* 300 x 120 points */
     must(pane, peri_build(pane));
     must(pane, peri_cut_segment(pane, PERI_CUT_INITIAL, edge, middle));
 
@@ -41,8 +42,10 @@ int main(void) {
     const int32_t lower = must(pane, peri_select_box(pane, "lower row", lo, lower_row));
     must(pane, peri_apply_layer_traction(pane, upper, 0.1, up, NULL, NULL));
     must(pane, peri_apply_layer_traction(pane, lower, 0.1, down, NULL, NULL));
-    must(pane, peri_set_no_fail(pane, must(pane, peri_select_box(pane, "upper zone", upper_zone, hi)), 1));
-    must(pane, peri_set_no_fail(pane, must(pane, peri_select_box(pane, "lower zone", lo, lower_zone)), 1));
+    const int32_t near_upper = must(pane, peri_select_box(pane, "upper zone", upper_zone, hi));
+    const int32_t near_lower = must(pane, peri_select_box(pane, "lower zone", lo, lower_zone));
+    must(pane, peri_set_no_fail(pane, near_upper, 1));
+    must(pane, peri_set_no_fail(pane, near_lower, 1));
 
     peri_advance_desc_init(&run);
     run.time_step = 67e-9; /* [s], 642 steps: 43 us */

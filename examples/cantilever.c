@@ -34,13 +34,14 @@ int main(void) {
     steel.poisson = poisson;
     steel.density = 7850; /* [kg/m^3] */
     steel.stabilization = 0.4;
-    must(bar, peri_add_box(bar, must(bar, peri_add_material(bar, &steel)), lo, hi, h));
+    const int32_t material = must(bar, peri_add_material(bar, &steel));
+    must(bar, peri_add_box(bar, material, lo, hi, h));
     must(bar, peri_build(bar));
 
     /* The wall holds two horizons of bar: points feel what moves that far away. The force is spread over the end face likewise. */
-    const int32_t held = must(bar, peri_prescribe_displacement(bar, must(bar, peri_select_box(bar, "wall", lo, wall)), PERI_AXIS_X | PERI_AXIS_Y,
-                                                               NULL, NULL, NULL));
-    must(bar, peri_apply_traction(bar, must(bar, peri_select_box(bar, "end", end, hi)), depth, out, traction, NULL, NULL));
+    const int32_t in_wall = must(bar, peri_select_box(bar, "wall", lo, wall)), at_end = must(bar, peri_select_box(bar, "end", end, hi));
+    const int32_t held = must(bar, peri_prescribe_displacement(bar, in_wall, PERI_AXIS_XY, NULL, NULL, NULL));
+    must(bar, peri_apply_traction(bar, at_end, depth, out, traction, NULL, NULL));
 
     peri_solve_desc_init(&statics);
     must(bar, peri_solve(bar, &statics, &report));

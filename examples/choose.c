@@ -15,7 +15,7 @@ static peri_choose_desc goal_of(int32_t preset, double seconds, int64_t bytes) {
     goal.seconds = seconds; /* of one step, on this machine */
     goal.bytes = bytes;
     goal.quantity = PERI_QUANTITY_FRACTURE; /* when does the crack run? */
-    goal.feature = crack;              /* the length that the resolution goes by */
+    goal.feature = crack;                   /* the length that the resolution goes by */
     goal.hi[0] = pane[0];
     goal.hi[1] = pane[1];
     return goal;
@@ -24,8 +24,8 @@ static peri_choose_desc goal_of(int32_t preset, double seconds, int64_t bytes) {
 int main(void) {
     const char *names[6] = {"game", "teaching", "engineering", "reference", "0.3 ms per step", "1 MB"};
     const peri_choose_desc goals[6] = {goal_of(PERI_PRESET_GAME, 0, 0),        goal_of(PERI_PRESET_TEACHING, 0, 0),
-                                goal_of(PERI_PRESET_ENGINEERING, 0, 0), goal_of(PERI_PRESET_REFERENCE, 0, 0),
-                                goal_of(0, 0.3e-3, 0),                  goal_of(0, 0, 1000000)};
+                                       goal_of(PERI_PRESET_ENGINEERING, 0, 0), goal_of(PERI_PRESET_REFERENCE, 0, 0),
+                                       goal_of(PERI_PRESET_NONE, 0.3e-3, 0),   goal_of(PERI_PRESET_NONE, 0, 1000000)};
     peri_body_desc desc;
     peri_material_desc glass;
     peri_choose_report choice;
@@ -48,13 +48,14 @@ int main(void) {
     const double lo[2] = {0, 0}, edge[2] = {-crack, pane[1] / 2}, tip[2] = {crack, pane[1] / 2};
     peri_body *body;
     if (peri_body_create(&desc, &body, &error) < 0) stop(&error);
-    peri_add_box(body, peri_add_material(body, &glass), lo, pane, choice.spacing);
+    const int32_t material = peri_add_material(body, &glass);
+    peri_add_box(body, material, lo, pane, choice.spacing);
     if (peri_build(body) < 0) {
         peri_get_error(body, &error);
         stop(&error);
     }
-    printf("built: %ld points, %ld bonds cut, step %.0f ns\n", (long)peri_point_count(body), (long)peri_cut_segment(body, PERI_CUT_INITIAL, edge, tip),
-           1e9 * peri_stable_step(body));
+    const int64_t cut = peri_cut_segment(body, PERI_CUT_INITIAL, edge, tip);
+    printf("built: %ld points, %ld bonds cut, step %.0f ns\n", (long)peri_point_count(body), (long)cut, 1e9 * peri_stable_step(body));
     peri_body_destroy(body);
     return 0;
 }

@@ -34,7 +34,8 @@ int main(void) {
         plexiglas.density = 1180;        /* [kg/m^3] */
         plexiglas.fracture_energy = 300; /* [J/m^2] */
         plexiglas.criterion = criterion[k];
-        must(plates, peri_add_box(plates, must(plates, peri_add_material(plates, &plexiglas)), lo, hi, h));
+        const int32_t material = must(plates, peri_add_material(plates, &plexiglas));
+        must(plates, peri_add_box(plates, material, lo, hi, h));
     }
     must(plates, peri_build(plates));
     for (k = 0; k < 3; ++k) { /* a notch in the middle, at 45 degrees */
@@ -44,8 +45,8 @@ int main(void) {
     }
     const int32_t top = must(plates, peri_select_box(plates, "top", head, upper));
     const int32_t bottom = must(plates, peri_select_box(plates, "bottom", lower, foot));
-    must(plates, peri_prescribe_velocity(plates, top, PERI_AXIS_X | PERI_AXIS_Y, up, NULL, NULL));
-    must(plates, peri_prescribe_velocity(plates, bottom, PERI_AXIS_X | PERI_AXIS_Y, down, NULL, NULL));
+    must(plates, peri_prescribe_velocity(plates, top, PERI_AXIS_XY, up, NULL, NULL));
+    must(plates, peri_prescribe_velocity(plates, bottom, PERI_AXIS_XY, down, NULL, NULL));
     must(plates, peri_set_no_fail(plates, top, 1));
     must(plates, peri_set_no_fail(plates, bottom, 1));
 

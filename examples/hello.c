@@ -17,18 +17,21 @@ int main(void) {
 
     peri_body_desc_init(&desc);
     desc.space = PERI_SPACE_PLANE_STRESS;
-    desc.horizon = 3 * h;                  /* every point is joined to all points within it */
+    desc.horizon = 3 * h;                      /* every point is joined to all points within it */
     desc.quadrature = PERI_QUADRATURE_PARTIAL; /* cells across the edge of the horizon count in part */
     if (peri_body_create(&desc, &bar, NULL) < 0) return 1;
     peri_material_desc_init(&steel, PERI_LAW_BOND_BASED);
     steel.young = 210e9;  /* [Pa] */
     steel.density = 7850; /* [kg/m^3] */
-    peri_add_box(bar, peri_add_material(bar, &steel), lo, hi, h);
+    const int32_t material = peri_add_material(bar, &steel);
+    peri_add_box(bar, material, lo, hi, h);
     peri_build(bar);
 
     /* 100 MPa on the end faces (0.04 m long in 2D), that is on the outermost columns of points. */
-    peri_apply_layer_traction(bar, peri_select_box(bar, "left", lo, left_hi), 0.04, left, NULL, NULL);
-    peri_apply_layer_traction(bar, peri_select_box(bar, "right", right_lo, hi), 0.04, right, NULL, NULL);
+    const int32_t left_end = peri_select_box(bar, "left", lo, left_hi);
+    const int32_t right_end = peri_select_box(bar, "right", right_lo, hi);
+    peri_apply_layer_traction(bar, left_end, 0.04, left, NULL, NULL);
+    peri_apply_layer_traction(bar, right_end, 0.04, right, NULL, NULL);
 
     peri_advance_desc_init(&run);
     run.duration = 1e-4; /* [s]: a wave crosses the bar five times */

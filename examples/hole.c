@@ -27,14 +27,15 @@ int main(void) {
 
     peri_body_desc_init(&desc);
     desc.space = PERI_SPACE_PLANE_STRESS;
-    desc.geometry = PERI_GEOMETRY_LINEAR; /* small strains                                                                          */
+    desc.geometry = PERI_GEOMETRY_LINEAR; /* small strains                                                                 */
     desc.horizon = 3 * h;
     peri_body *strip = must_create(&desc);
     peri_material_desc_init(&steel, PERI_LAW_CORRESPONDENCE);
     steel.young = 200e9;
     steel.poisson = 0.3;
     steel.density = 7850;
-    must(strip, peri_add_shape(strip, must(strip, peri_add_material(strip, &steel)), lo, hi, h, outside_hole, NULL));
+    const int32_t material = must(strip, peri_add_material(strip, &steel));
+    must(strip, peri_add_shape(strip, material, lo, hi, h, outside_hole, NULL));
     must(strip, peri_build(strip));
 
     /* On the ends: spread over the two horizons that feel them, such that a strip without a hole would be strained evenly. */
@@ -43,14 +44,14 @@ int main(void) {
     must(strip, peri_apply_traction(strip, at_left, width, left, pull_left, NULL, NULL));
     must(strip, peri_apply_traction(strip, at_right, width, right, pull_right, NULL, NULL));
     peri_solve_desc_init(&statics);
-    statics.loose = PERI_LOOSE_PINNED; /* nothing holds the strip: the loads balance each other                            */
+    statics.loose = PERI_LOOSE_PINNED; /* nothing holds the strip: the loads balance each other                           */
     must(strip, peri_solve(strip, &statics, &report));
 
     const int64_t n = peri_point_count(strip);
     double *x = (double *)malloc((size_t)n * 2 * sizeof *x), *stress = (double *)malloc((size_t)n * 3 * sizeof *x);
     if (x == NULL || stress == NULL) return 1;
     must(strip, peri_get_field(strip, PERI_FIELD_POSITION, x, 2 * n));
-    must(strip, peri_get_field(strip, PERI_FIELD_STRESS, stress, 3 * n)); /* xx yy xy                                                 */
+    must(strip, peri_get_field(strip, PERI_FIELD_STRESS, stress, 3 * n)); /* xx yy xy                                           */
     printf("%ld points, %ld iterations\n", (long)n, (long)report.iterations);
     printf("  r/a   stress/S   Kirsch   Kirsch with the width\n");
     for (int64_t i = 0, row = 0; i < n; ++i) { /* the column at x = h/2, upwards                                            */

@@ -52,11 +52,12 @@ int main(void) {
     glass.young = 72e9;          /* [Pa] */
     glass.density = 2440;        /* [kg/m^3] */
     glass.fracture_energy = 135; /* [J/m^2]; for glass, values from 3.8 to 135 are in use */
-    must(plate, peri_add_box(plate, must(plate, peri_add_material(plate, &glass)), lo, hi, h));
+    const int32_t material = must(plate, peri_add_material(plate, &glass));
+    must(plate, peri_add_box(plate, material, lo, hi, h));
     must(plate, peri_build(plate));
-    must(plate, peri_prescribe_velocity(plate, must(plate, peri_select_if(plate, "rim", on_rim, NULL)),
-                                        PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z, NULL, NULL, NULL));
-    ball_place(NULL, 0, place);
+    const int32_t rim = must(plate, peri_select_if(plate, "rim", on_rim, NULL));
+    must(plate, peri_prescribe_velocity(plate, rim, PERI_AXIS_XYZ, NULL, NULL, NULL));
+    (void)ball_place(NULL, 0, place);
     w.ball = must(plate, peri_add_ball_obstacle(plate, place, radius, 0, ball_place, NULL));
 
     peri_advance_desc_init(&run);

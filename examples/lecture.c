@@ -8,7 +8,7 @@
    does the same run by itself. Both break the same bonds and agree in every displacement, up to rounding. */
 #include "example.h"
 
-enum { N = 32 * 8 * 8, M = 122, STEPS = 200, XYZ = PERI_AXIS_X | PERI_AXIS_Y | PERI_AXIS_Z }; /* points, whole family, time steps */
+enum { N = 32 * 8 * 8, M = 122, STEPS = 200 };        /* points, whole family, time steps */
 static const double h = 1e-3, dt = 1e-7, speed = 8;   /* spacing [m], time step [s], speed of the two ends [m/s] */
 static double x[3 * N], u[3 * N], before[3 * N];      /* places, displacements u(t) and u(t-dt) [m] */
 static double a[3 * N], library[3 * N];               /* accelerations [m/s^2]; u as peri_advance finds it */
@@ -49,10 +49,10 @@ int main(void) {
     peri_body *body = must_create(&desc);
     peri_material_desc_init(&glass, PERI_LAW_BOND_BASED);
     glass.young = 72e9;  glass.density = 2440;  glass.critical_stretch = 2e-3; /* [Pa], [kg/m^3] */
-    must(body, peri_add_box(body, must(body, peri_add_material(body, &glass)), lo, hi, h));
-    must(body, peri_build(body));
+    const int32_t id = must(body, peri_add_material(body, &glass));
+    must(body, peri_add_box(body, id, lo, hi, h));  must(body, peri_build(body));
     must(body, peri_get_field(body, PERI_FIELD_POSITION, x, 3 * N));
-    must(body, peri_get_bond_constants(body, 0, 0, &c, &s0));
+    must(body, peri_get_bond_constants(body, id, id, &c, &s0));
     must(body, peri_get_families(body, 0, N, family[0], (int64_t)N * M)); /* N rows of peri_family_width(body) = M */
     for (int k = 0; k < N * M; ++k) mu[k / M][k % M] = 1;
 
@@ -63,12 +63,12 @@ int main(void) {
             before[k] = u[k];
             u[k] = x0 < left[0] ? -end : x0 > right[0] ? end : next;
         }
-    must(body, peri_prescribe_velocity(body, peri_select_box(body, NULL, lo, left), XYZ, minus_v, NULL, NULL));
-    must(body, peri_prescribe_velocity(body, peri_select_box(body, NULL, right, hi), XYZ, v, NULL, NULL));
+    const int32_t at_left = peri_select_box(body, "left", lo, left), at_right = peri_select_box(body, "right", right, hi);
+    must(body, peri_prescribe_velocity(body, at_left, PERI_AXIS_XYZ, minus_v, NULL, NULL));
+    must(body, peri_prescribe_velocity(body, at_right, PERI_AXIS_XYZ, v, NULL, NULL));
     peri_advance_desc_init(&run);
     run.integrator = PERI_INTEGRATOR_CENTRAL_DIFFERENCE;  run.time_step = dt;  run.steps = STEPS;
-    must(body, peri_advance(body, &run));
-    must(body, peri_get_field(body, PERI_FIELD_DISPLACEMENT, library, 3 * N));
+    must(body, peri_advance(body, &run));  must(body, peri_get_field(body, PERI_FIELD_DISPLACEMENT, library, 3 * N));
     for (int k = 0; k < 3 * N; ++k) {
         most = fmax(most, fabs(u[k]));
         apart = fmax(apart, fabs(u[k] - library[k]));

@@ -25,7 +25,8 @@ int main(void) {
         polymer.young = 2e9; /* [Pa] */
         polymer.poisson = ratio[k];
         polymer.density = 1200; /* [kg/m^3] */
-        must(strips, peri_add_box(strips, must(strips, peri_add_material(strips, &polymer)), lo, hi, h));
+        const int32_t material = must(strips, peri_add_material(strips, &polymer));
+        must(strips, peri_add_box(strips, material, lo, hi, h));
     }
     must(strips, peri_build(strips));
 

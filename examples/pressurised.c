@@ -48,16 +48,15 @@ int main(void) {
     desc.influence = PERI_INFLUENCE_POWER_3; /* short-sighted: keeps the tip sharp */
     peri_body *block = must_create(&desc);
     peri_material_desc_init(&rock, PERI_LAW_CORRESPONDENCE);
-    rock.young = YOUNG;
-    rock.poisson = NU;
-    rock.density = 2600;
-    must(block, peri_add_box(block, must(block, peri_add_material(block, &rock)), lo, hi, h));
-    must(block, peri_build(block));
+    rock.young = YOUNG, rock.poisson = NU, rock.density = 2600;
+    const int32_t material = must(block, peri_add_material(block, &rock));
+    must(block, peri_add_box(block, material, lo, hi, h)), must(block, peri_build(block));
     must(block, peri_get_field(block, PERI_FIELD_POSITION, positions[0], 2 * N * N));
     must(block, peri_cut_segment(block, PERI_CUT_INITIAL, left, right));
-    must(block, peri_apply_pressure(block, must(block, peri_select_box(block, "crack", near_lo, near_hi)), P, NULL, NULL));
+    const int32_t crack = must(block, peri_select_box(block, "crack", near_lo, near_hi));
+    must(block, peri_apply_pressure(block, crack, P, NULL, NULL));
     const int32_t edge = must(block, peri_select_if(block, "edge", outside, &limit));
-    must(block, peri_prescribe_displacement(block, edge, PERI_AXIS_X | PERI_AXIS_Y, NULL, far_field, NULL));
+    must(block, peri_prescribe_displacement(block, edge, PERI_AXIS_XY, NULL, far_field, NULL));
     peri_solve_desc_init(&statics);
     must(block, peri_solve(block, &statics, NULL));
     must(block, peri_get_field(block, PERI_FIELD_DISPLACEMENT, u[0], 2 * N * N));

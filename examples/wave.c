@@ -36,7 +36,8 @@ int main(void) {
     peri_material_desc_init(&plate, PERI_LAW_BOND_BASED);
     plate.young = 1;
     plate.density = 1; /* no fracture energy: bonds do not break */
-    must(body, peri_add_box(body, must(body, peri_add_material(body, &plate)), lo, hi, h));
+    const int32_t material = must(body, peri_add_material(body, &plate));
+    must(body, peri_add_box(body, material, lo, hi, h));
     must(body, peri_build(body));
 
     must(body, peri_get_field(body, PERI_FIELD_POSITION, x[0], 2 * POINTS));

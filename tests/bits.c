@@ -28,8 +28,8 @@ static uint64_t run(int32_t law, int32_t precision, int32_t kernel, int cloud, i
     m.young = m.density = 1;
     m.critical_stretch = 0.03;
     if (law != PERI_LAW_BOND_BASED) m.poisson = 0.2;
-    MUST(b, peri_add_material(b, &m));
-    MUST(b, cloud ? peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.0, 1.0, 9) : peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
+    const int32_t id = (int32_t)MUST(b, peri_add_material(b, &m));
+    MUST(b, cloud ? peri_add_perturbed_box(b, id, lo, hi, 1.0, 1.0, 9) : peri_add_box(b, id, lo, hi, 1.0));
     MUST(b, peri_build(b));
     MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, half)), pull));
     peri_advance_desc_init(&run);

@@ -3,7 +3,9 @@
    SOURCE OF TRUTH: peri.h. A call returns a status that is listed; one that is refused has changed nothing and left its record; one that
    succeeds leaves the record alone; counts agree with each other, damage lies in [0, 1]; a clone moves as its body does, to the last bit.
    As long as no call has reported PERI_ERROR_UNSTABLE displacements and velocities are finite, and so is all that can be read where only
-   numbers of ordinary size went in. peri_get_memory is what the allocator counts, and destroying gives everything back.
+   numbers of ordinary size went in. peri_get_memory is what the allocator counts, and destroying gives everything back. Ids are counted
+   from 1 by kind, hold in clones, and whatever is none is refused by the status that says why: a plain number, another kind, another body,
+   or nothing that there is.
 
    A program is: scene, then calls. Each call takes a byte for which, a byte for the mood (see begin_call), then what it asks for; past the
    end all bytes are 0. The bytes kept in program_corpus.h mean what they mean by this decoding: let calls be added at the end of the table
@@ -25,6 +27,7 @@
 #define SITES_MOST 3000     /* of a shape                                                                                */
 #define POOL_BYTES 4000000  /* beyond this the allocator returns NULL                                                    */
 #define CALLS_MOST 60       /* of a program                                                                              */
+#define IDS_KNOWN 1024      /* of a kind; more than a program makes                                                      */
 #define ROOM (8 * POINTS_MOST)
 
 typedef struct program program;
@@ -47,7 +50,9 @@ typedef struct slot {
     int        family;                  /* bodies of one family share their points                                       */
     int        heavy;                   /* its build costs more than others                                              */
     int        quadrature;
-    int32_t    materials, loads, obstacles; /* ids given out                                                             */
+    int32_t    number;                  /* of the body, where it was given one                                           */
+    int32_t    given[5];                /* ids given out, by the kind less PERI_KIND_MATERIAL plus 1                     */
+    uint8_t    removed[5][IDS_KNOWN];   /* what has gone again, by its index                                             */
     peri_error record;
 } slot;
 
@@ -66,11 +71,13 @@ struct program {
     int            hook_count;
     int            running[LEVELS], level; /* slots of the calls under way                                               */
     int64_t        refused[LEVELS];        /* by the allocator before each of them                                       */
+    int32_t        wants[LEVELS];          /* how each of them must end because of its ids; PERI_OK: these are right     */
     const char    *names[LEVELS];
     int            calls, families, frames_left, iterations_left;
     int            partial;            /* 1: the call may have changed the body though it failed; PARTLY: but not its motion */
     int            mood;
     int            nulls;              /* the pointer argument that is NULL; -1: none                                    */
+    int32_t        want;               /* of the call to come                                                            */
     int            wild;               /* the present call has got a number beyond ordinary size                         */
     peri_matrix   *matrix;
     int64_t        matrix_bytes;
@@ -90,6 +97,7 @@ static void blame(program *p, const char *text, int line) {
     if (p->fault) return;
     p->fault = text;
     p->fault_line = line;
+    if (p->trace) printf("    here: line %d: not true: %s\n", line, text);
     p->fault_call = p->level > 0 ? p->names[p->level - 1] : "";
 }
 
@@ -166,19 +174,66 @@ static double number(program *p, double lo, double hi) {
     return lo + (hi - lo) * (double)(draw(p) % 33) / 32.0;
 }
 
-/* One of `count` choices from `first` on, or none of them. */
+/* One of `count` choices from `first` on, or none of them: of another enum, say. */
 static int32_t choice(program *p, int32_t first, int32_t count) {
-    static const int32_t none[] = {0, -1, 17, INT32_MAX, INT32_MIN, 1000};
+    const int32_t none[] = {0, -1, first % 100, INT32_MAX, INT32_MIN, first + 100};
     if (p->mood == MOOD_CHOICES && draw(p) % 2) return none[below(p, 6)];
     return first + draw(p) % count;
 }
 
-/* An id of something, or of nothing. */
-static int32_t some_id(program *p, int64_t count) {
+/* The number of a point, or none. */
+static int32_t some_point(program *p, int64_t count) {
     static const int32_t none[] = {-1, -17, INT32_MAX, INT32_MIN, 1 << 30};
     if (p->mood == MOOD_CHOICES && draw(p) % 2) return draw(p) % 2 ? (int32_t)count : none[below(p, 5)];
     const int low = draw(p), high = draw(p);
     return count > 0 ? (int32_t)((low + 256 * high) % count) : 0;
+}
+
+static int place_of(int32_t kind) { return kind - PERI_KIND_MATERIAL + 1; }
+
+/* The first id that is wrong says how the call must end. */
+static int32_t want_id(program *p, int32_t status, int32_t id) {
+    if (p->want == PERI_OK) p->want = status;
+    return id;
+}
+
+static int32_t id_at(program *p, int s, int32_t kind, int32_t index) {
+    const slot *o = &p->slots[s];
+    const int32_t id = peri_id(o->body, kind, index);
+    HOLDS(p, id > 0 && id >> 27 == place_of(kind) && PERI_ID_INDEX(id) == index && (!o->number || (id >> 20 & 127) == o->number));
+    return want_id(p, o->removed[place_of(kind)][index % IDS_KNOWN] ? PERI_ERROR_ID_GONE : PERI_OK, id);
+}
+
+/* What is no id of this kind and body: a plain number, one of another kind, of another body, or of what is not there. */
+static int32_t wrong_id(program *p, int s, int32_t kind) {
+    static const int32_t plain[] = {0, 1, 2, -1, -17, INT32_MIN, PERI_KIND_SET, 1 << 20, (1 << 27) - 1};
+    const slot *o = &p->slots[s];
+    const int32_t tag = place_of(kind), way = draw(p), more = way / 5;
+    const int32_t known = o->given[1] > 0 ? peri_id(o->body, PERI_KIND_MATERIAL, 1) - 1 + ((tag - 1) << 27) : 0; /* index 0 */
+    switch (known ? way % 5 : 0) {
+    case 0: return want_id(p, PERI_ERROR_ID_NONE, plain[more % 9]);
+    case 1: return want_id(p, PERI_ERROR_ID_KIND, known + 1 + ((more % (15 - tag) + 1) << 27));
+    case 2: return want_id(p, PERI_ERROR_ID_BODY, (known + 1) ^ (1 + more) << 20);
+    case 3: return tag == 2 ? PERI_ALL : want_id(p, PERI_ERROR_ID_KIND, more % 2 ? PERI_ALL : INT32_MAX);
+    default: return want_id(p, PERI_ERROR_ID_GONE, more % 2 ? known + o->given[tag] + 1 : known);
+    }
+}
+
+/* An id of something, or of nothing. */
+static int32_t some_id(program *p, int s, int32_t kind) {
+    const int32_t count = p->slots[s].given[place_of(kind)], sets = kind == PERI_KIND_SET;
+    if (p->mood == MOOD_CHOICES && draw(p) % 2) return wrong_id(p, s, kind);
+    const int low = draw(p), high = draw(p), at = low + 256 * high;
+    if (sets) return at % (count + 1) == 0 ? PERI_ALL : id_at(p, s, kind, at % (count + 1));
+    return count > 0 ? id_at(p, s, kind, 1 + at % count) : want_id(p, PERI_ERROR_ID_NONE, 0);
+}
+
+/* Ids are given in order; what a call returned that failed is none. */
+static void note_id(program *p, int s, int32_t kind, int64_t id) {
+    slot *o = &p->slots[s];
+    if (id < 0 || !o->body) return;
+    o->given[place_of(kind)]++;
+    HOLDS(p, id == peri_id(o->body, kind, o->given[place_of(kind)]));
 }
 
 static int64_t number_of(program *p, int64_t first, int64_t count) {
@@ -232,7 +287,7 @@ static void meddle(program *p) {
     peri_view view;
     p->partial = 1;
     if (!b || p->level + 2 > LEVELS) return;
-    if (peri_size_of_field(b, PERI_FIELD_DAMAGE) > 0) {
+    if (peri_bond_count(b) > 0) {
         HOLDS(p, CALL(p, s, peri_get_energy(b, &energy)) == PERI_OK);
         HOLDS(p, CALL(p, s, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, p->other, ROOM)) == PERI_OK);
         (void)CALL(p, s, peri_view_field(b, PERI_FIELD_DAMAGE, &view));

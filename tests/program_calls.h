@@ -10,11 +10,7 @@ static int64_t points_of(const slot *o) { return o->body && peri_family_width(o-
 
 static double speed_of(const slot *o) { return sqrt(o->stress / (o->density > 0.0 ? o->density : 1.0)); }
 
-static int32_t some_set(program *p, int s) {
-    int32_t sets = 0;
-    while (p->slots[s].body && peri_size_of_set(p->slots[s].body, sets) > 0) sets++;
-    return some_id(p, sets);
-}
+static int32_t some_set(program *p, int s) { return some_id(p, s, PERI_KIND_SET); }
 
 /* ---- sets --------------------------------------------------------------------------------------------------------- */
 
@@ -23,7 +19,7 @@ static const char *some_name(program *p) {
     return names[below(p, 8)];
 }
 
-static int64_t select_points(program *p, int s) {
+static int64_t select_some(program *p, int s) {
     slot *o = &p->slots[s];
     const int kind = below(p, 4), count = 1 + below(p, 12);
     const char *name = some_name(p);
@@ -37,7 +33,7 @@ static int64_t select_points(program *p, int s) {
             lo[k] = hi[k];
             hi[k] = x;
         }
-    for (k = 0; k < count; ++k) p->ids[k] = some_id(p, points_of(o));
+    for (k = 0; k < count; ++k) p->ids[k] = some_point(p, points_of(o));
     if (kind == 0) return CALL(p, s, peri_select_box(o->body, name, GIVEN(0, lo), GIVEN(1, hi)));
     if (kind == 1) return CALL(p, s, peri_select_ball(o->body, name, GIVEN(0, lo), number(p, o->length, 4.0 * o->length)));
     if (kind == 2) {
@@ -49,11 +45,21 @@ static int64_t select_points(program *p, int s) {
     return CALL(p, s, peri_select_if(o->body, name, GIVEN(0, on_point), new_hook(p, s, 5)));
 }
 
+static int64_t select_points(program *p, int s) {
+    const int64_t id = select_some(p, s);
+    note_id(p, s, PERI_KIND_SET, id);
+    return id;
+}
+
 static int64_t look_at_sets(program *p, int s) {
     peri_body *b = p->slots[s].body;
-    const int32_t set = some_set(p, s), found = peri_find_set(b, GIVEN(0, "a"));
-    const int64_t size = peri_size_of_set(b, set);
-    if (found >= 0) HOLDS(p, found > 0 && peri_size_of_set(b, found) > 0);
+    const int32_t set = some_set(p, s), want = p->want;
+    p->want = PERI_OK;
+    const int32_t found = (int32_t)CALL(p, s, peri_find_set(b, GIVEN(0, "a")));
+    p->want = want;
+    const int64_t size = CALL(p, s, peri_size_of_set(b, set));
+    if (found >= 0) HOLDS(p, found >> 27 == place_of(PERI_KIND_SET) && peri_size_of_set(b, found) > 0);
+    p->want = want;
     const int64_t status = CALL(p, s, peri_get_set(b, set, GIVEN(0, p->ids), p->mood == MOOD_CHOICES ? number_of(p, 0, 4) : ROOM));
     int64_t k;
     for (k = 0; status == PERI_OK && k < size; ++k)
@@ -63,27 +69,45 @@ static int64_t look_at_sets(program *p, int s) {
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------- */
 
+/* Mostly one that the body can take; without a byte of its own. */
+static int32_t some_standing(program *p, const slot *o) {
+    if (p->mood == MOOD_CHOICES) return choice(p, PERI_CUT_INITIAL, 3);
+    if (p->calls % 8 == 3) return PERI_CUT_INITIAL;
+    return p->calls % 4 == 1 ? PERI_CUT_IN_PLACE : peri_step_count(o->body) > 0 ? PERI_CUT_NOW : PERI_CUT_INITIAL;
+}
+
 static int64_t cut(program *p, int s) {
     slot *o = &p->slots[s];
     const int kind = below(p, 8), turn = o->dim == 3 ? 3 : 0; /* mostly those of the space */
-    const int64_t before = o->body ? peri_cut_count(o->body) + peri_broken_count(o->body) : 0;
+    const int64_t cut_before = peri_cut_count(o->body), broken_before = peri_broken_count(o->body);
+    const int32_t standing = some_standing(p, o);
     int64_t status, k;
+    double radius;
     for (k = 0; k < 4; ++k) place(p, o, &p->in[k * o->dim]);
     switch (kind < 6 ? turn + kind % 3 : kind == 6 ? 6 + below(p, 2) : below(p, 6)) {
-    case 0: status = CALL(p, s, peri_cut_segment(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 2))); break;
+    case 0: status = CALL(p, s, peri_cut_segment(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 2))); break;
     case 1: case 2:
-        status = CALL(p, s, peri_cut_polyline(o->body, PERI_CUT_INITIAL, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 2 + kind % 3, GIVEN(0, p->in)));
+        k = p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 2 + kind % 3;
+        status = CALL(p, s, peri_cut_polyline(o->body, standing, k, GIVEN(0, p->in)));
         break;
-    case 3: status = CALL(p, s, peri_cut_disc(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 3), number(p, o->length, 4.0 * o->length))); break;
-    case 4: status = CALL(p, s, peri_cut_triangle(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
-    case 5: status = CALL(p, s, peri_cut_rectangle(o->body, PERI_CUT_INITIAL, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
-    case 6: status = CALL(p, s, peri_cut_if(o->body, PERI_CUT_INITIAL, GIVEN(0, on_pair), new_hook(p, s, 5))); break;
+    case 3:
+        radius = number(p, o->length, 4.0 * o->length);
+        status = CALL(p, s, peri_cut_disc(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 3), radius));
+        break;
+    case 4: status = CALL(p, s, peri_cut_triangle(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
+    case 5: status = CALL(p, s, peri_cut_rectangle(o->body, standing, GIVEN(0, p->in), GIVEN(1, p->in + 3), GIVEN(2, p->in + 6))); break;
+    case 6: status = CALL(p, s, peri_cut_if(o->body, standing, GIVEN(0, on_pair), new_hook(p, s, 5))); break;
     default:
-        for (k = 0; k < 8; ++k) p->ids[k] = some_id(p, points_of(o));
+        for (k = 0; k < 8; ++k) p->ids[k] = some_point(p, points_of(o));
         for (k = 1; k < 8 && draw(p) % 4; k += 2) p->ids[k] = p->ids[k - 1] > 0 ? p->ids[k - 1] - 1 : p->ids[k - 1] + 1;
-        status = CALL(p, s, peri_cut_pairs(o->body, PERI_CUT_INITIAL, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 4, GIVEN(0, p->ids)));
+        status = CALL(p, s, peri_cut_pairs(o->body, standing, p->mood == MOOD_CHOICES ? below(p, 3) - 1 : 4, GIVEN(0, p->ids)));
     }
-    if (status >= 0 && !p->partial) HOLDS(p, peri_cut_count(o->body) + peri_broken_count(o->body) == before + status);
+    if (status >= 0 && !p->partial) {
+        const int initial = standing == PERI_CUT_INITIAL;
+        HOLDS(p, standing >= PERI_CUT_INITIAL && standing <= PERI_CUT_IN_PLACE && !(initial && peri_step_count(o->body) > 0));
+        HOLDS(p, peri_cut_count(o->body) == cut_before + (initial ? status : 0));
+        HOLDS(p, peri_broken_count(o->body) == broken_before + (initial ? 0 : status));
+    }
     return status;
 }
 
@@ -103,7 +127,7 @@ static int64_t look_at_bonds(program *p, int s) {
     const int64_t first = number_of(p, 0, points > 0 ? points : 1), count = number_of(p, 0, 3);
     const int64_t room = width > 0 && p->mood != MOOD_CHOICES ? ROOM : below(p, 64);
     const int64_t status = CALL(p, s, peri_get_families(o->body, first, count, GIVEN(0, p->ids), room));
-    const int32_t i = some_id(p, points), j = some_id(p, points);
+    const int32_t i = some_point(p, points), j = some_point(p, points);
     (void)CALL(p, s, peri_bond_is_intact(o->body, i, j));
     return status;
 }
@@ -127,7 +151,8 @@ static int64_t write_state(program *p, int s) {
     const int kind = draw(p);
     const double size = (kind % 2 ? o->length : speed_of(o)) * (kind / 2 % 2 ? 0.01 : 0.2), step = 0.1 + below(p, 32);
     const int64_t n = points_of(o) * o->dim;
-    const int32_t field = p->mood == MOOD_CHOICES ? choice(p, 1, 17) : kind % 2 ? PERI_FIELD_DISPLACEMENT : PERI_FIELD_VELOCITY;
+    const int32_t field = p->mood == MOOD_CHOICES ? choice(p, PERI_FIELD_POSITION, 17)
+                        : kind % 2 ? PERI_FIELD_DISPLACEMENT : PERI_FIELD_VELOCITY;
     int64_t k;
     for (k = 0; k < n; ++k) p->in[k] = size * sin(step * (double)(k % 97) + (double)(k % o->dim));
     k = draw(p);
@@ -138,10 +163,16 @@ static int64_t write_state(program *p, int s) {
     return status;
 }
 
+/* Or what is none: the bits alone, bits beyond those of axes, z in a plane. */
+static int32_t some_axes(program *p, const slot *o) {
+    const int32_t none = PERI_AXIS_X - 1;
+    return p->mood == MOOD_CHOICES ? choice(p, draw(p) % 4 ? PERI_AXIS_X : 1, 9) : none | (1 + draw(p) % (o->dim == 3 ? 7 : 3));
+}
+
 static int64_t some_load(program *p, int s) {
     slot *o = &p->slots[s];
     const int kind = below(p, 8);
-    const int32_t set = some_set(p, s), axes = p->mood == MOOD_CHOICES ? choice(p, 1, 9) : 1 + draw(p) % (o->dim == 3 ? 7 : 3);
+    const int32_t set = some_set(p, s), axes = some_axes(p, o);
     const double area = (o->dim == 3 ? o->length : 1.0) * number(p, o->length, 10.0 * o->length);
     const double pressure = o->stress * number(p, -0.02, 0.02);
     const int varies = draw(p) % 4 == 0;
@@ -179,16 +210,25 @@ static int64_t load_face(program *p, int s) {
     vector(p, 0.02 * o->stress, v);
     p->partial = 1;
     const int64_t set = CALL(p, s, peri_select_box(o->body, NULL, lo, hi));
+    note_id(p, s, PERI_KIND_SET, set);
     return set < 0 ? set : CALL(p, s, peri_apply_traction(o->body, (int32_t)set, area, n, v, NULL, NULL));
 }
 
 static int64_t add_load(program *p, int s) {
     const int64_t id = draw(p) % 8 ? some_load(p, s) : load_face(p, s);
-    if (id >= 0) p->slots[s].loads = (int32_t)id + 1;
+    note_id(p, s, PERI_KIND_LOAD, id);
     return id;
 }
 
-static int64_t remove_load(program *p, int s) { return CALL(p, s, peri_remove_load(p->slots[s].body, some_id(p, p->slots[s].loads))); }
+static int64_t told_of_removal(program *p, int s, int32_t kind, int32_t id, int64_t status) {
+    if (status == PERI_OK) p->slots[s].removed[place_of(kind)][PERI_ID_INDEX(id) % IDS_KNOWN] = 1;
+    return status;
+}
+
+static int64_t remove_load(program *p, int s) {
+    const int32_t id = some_id(p, s, PERI_KIND_LOAD);
+    return told_of_removal(p, s, PERI_KIND_LOAD, id, CALL(p, s, peri_remove_load(p->slots[s].body, id)));
+}
 
 static int64_t some_obstacle(program *p, int s) {
     slot *o = &p->slots[s];
@@ -206,20 +246,23 @@ static int64_t some_obstacle(program *p, int s) {
 
 static int64_t add_obstacle(program *p, int s) {
     const int64_t id = some_obstacle(p, s);
-    if (id >= 0) p->slots[s].obstacles = (int32_t)id + 1;
+    note_id(p, s, PERI_KIND_OBSTACLE, id);
     return id;
 }
 
 static int64_t remove_obstacle(program *p, int s) {
-    return CALL(p, s, peri_remove_obstacle(p->slots[s].body, some_id(p, p->slots[s].obstacles)));
+    const int32_t id = some_id(p, s, PERI_KIND_OBSTACLE);
+    return told_of_removal(p, s, PERI_KIND_OBSTACLE, id, CALL(p, s, peri_remove_obstacle(p->slots[s].body, id)));
 }
 
 /* What was wild may be NaN; what was not is finite. */
 static int64_t look_at_forces(program *p, int s) {
     slot *o = &p->slots[s];
     double force[3] = {0, 0, 0};
-    const int64_t status = draw(p) % 2 ? CALL(p, s, peri_get_reaction(o->body, some_id(p, o->loads), GIVEN(0, force)))
-                                       : CALL(p, s, peri_get_obstacle_force(o->body, some_id(p, o->obstacles), GIVEN(1, force)));
+    const int of_load = draw(p) % 2;
+    const int32_t id = some_id(p, s, of_load ? PERI_KIND_LOAD : PERI_KIND_OBSTACLE);
+    const int64_t status = of_load ? CALL(p, s, peri_get_reaction(o->body, id, GIVEN(0, force)))
+                                   : CALL(p, s, peri_get_obstacle_force(o->body, id, GIVEN(1, force)));
     if (status == PERI_OK && !o->lost && !o->wild) HOLDS(p, finite_all(force, o->dim));
     return status;
 }
@@ -248,7 +291,7 @@ static int64_t advance(program *p, int s) {
     const int64_t before = peri_step_count(o->body);
     peri_advance_desc r;
     peri_advance_desc_init(&r);
-    r.integrator = choice(p, 1, 2);
+    r.integrator = choice(p, PERI_INTEGRATOR_VELOCITY_VERLET, 2);
     if (lasts) r.duration = stable * number(p, 0.5, 8.0);
     else r.steps = number_of(p, 1, 10);
     if (kind / 8 % 4 == 1) r.time_step = stable * number(p, 0.25, 1.25);
@@ -286,9 +329,10 @@ static int64_t solve(program *p, int s) {
     peri_solve_desc t;
     peri_solve_report report;
     peri_solve_desc_init(&t);
-    t.method = p->mood == MOOD_CHOICES ? choice(p, 1, 3) : kind % 8 < 6 ? PERI_METHOD_NEWTON : kind % 8 == 6 ? PERI_METHOD_BICGSTAB : PERI_METHOD_RELAXATION;
-    t.preconditioner = kind / 8 % 4 ? PERI_PRECONDITIONER_MULTILEVEL : choice(p, 1, 3);
-    t.loose = p->mood == MOOD_CHOICES ? choice(p, 1, 3) : 1 + kind / 32 % 4 % 3;
+    if (p->mood == MOOD_CHOICES) t.method = choice(p, PERI_METHOD_NEWTON, 3);
+    else t.method = kind % 8 < 6 ? PERI_METHOD_NEWTON : kind % 8 == 6 ? PERI_METHOD_BICGSTAB : PERI_METHOD_RELAXATION;
+    t.preconditioner = kind / 8 % 4 ? PERI_PRECONDITIONER_MULTILEVEL : choice(p, PERI_PRECONDITIONER_MULTILEVEL, 3);
+    t.loose = p->mood == MOOD_CHOICES ? choice(p, PERI_LOOSE_REFUSED, 3) : PERI_LOOSE_REFUSED + kind / 32 % 4 % 3;
     t.fracture = kind / 128;
     t.criticality = more % 4 == 0 ? number(p, 0.0, 1.0) : 0.0;
     t.tolerance = more / 4 % 4 == 0 ? number(p, 0.0, 0.01) : 1e-3;
@@ -301,9 +345,10 @@ static int64_t solve(program *p, int s) {
     if (p->mood == MOOD_NUMBERS) t.load_from = number(p, 0.0, 1.0);
     if (p->mood == MOOD_NUMBERS) t.load_to = number(p, 0.0, 1.0);
     if (more / 64 == 1) {
-        t.curve_load = o->loads > 0 || p->mood == MOOD_CHOICES ? some_id(p, o->loads) : -1;
+        if (o->given[place_of(PERI_KIND_LOAD)] > 0 || p->mood == MOOD_CHOICES) t.curve_load = some_id(p, s, PERI_KIND_LOAD);
+        if (t.curve_load == 0) p->want = PERI_OK; /* none is wanted */
         t.curve = GIVEN(2, p->in);
-        t.curve_rows = p->mood == MOOD_CHOICES ? below(p, 5) - 1 : t.curve_load < 0 ? 0 : 4;
+        t.curve_rows = p->mood == MOOD_CHOICES ? below(p, 5) - 1 : t.curve_load == 0 ? 0 : 4;
     }
     t.on_iteration = on_iteration;
     if (more / 64 > 1 || t.steps > 10 || t.halvings > 10) t.on_step = on_frame;
@@ -319,7 +364,8 @@ static int64_t solve(program *p, int s) {
     if (status == PERI_ERROR_LOOSE && told_all && report.newton == 0 && report.iterations == 0 && report.broken == 0
         && report.steps == 0 && !p->partial)
         p->partial = PARTLY;
-    else if (status != PERI_ERROR_ARGUMENT && status != PERI_ERROR_DESCRIPTOR && status != PERI_ERROR_ORDER && status != PERI_ERROR_LAW)
+    else if (status != PERI_ERROR_ARGUMENT && status != PERI_ERROR_DESCRIPTOR && status != PERI_ERROR_ORDER && status != PERI_ERROR_LAW
+             && status != PERI_ERROR_CHOICE && !(status <= PERI_ERROR_ID_NONE && status >= PERI_ERROR_ID_GONE))
         p->partial = 1;
     if (wild && p->partial) o->wild = 1; /* the body may stand at load_from now */
     return status;
@@ -353,7 +399,7 @@ static int64_t twins(program *p, int s) {
     if (!copy) return status;
     peri_advance_desc_init(&r);
     r.steps = 1 + kind % 4;
-    r.integrator = 1 + kind / 4 % 2;
+    r.integrator = PERI_INTEGRATOR_VELOCITY_VERLET + kind / 4 % 2;
     peri_solve_desc_init(&t);
     t.loose = PERI_LOOSE_BALANCED;
     t.iterations = 100;
@@ -366,17 +412,18 @@ static int64_t twins(program *p, int s) {
     peri_body *body = o->body;
     const peri_error record = o->record;
     print a = print_of(p, s, 1);
+    const peri_error kept = o->record;
     o->body = copy;
     HOLDS(p, peri_get_error(copy, &o->record) == PERI_OK);
     other = kind / 8 % 2 ? CALL(p, s, peri_advance(o->body, &r)) : CALL(p, s, peri_solve(o->body, &t, NULL));
+    HOLDS(p, peri_get_error(copy, &e) == PERI_OK);
     print b = print_of(p, s, 1);
     a.count[6] = b.count[6];
-    HOLDS(p, peri_get_error(copy, &e) == PERI_OK);
     if (status != other || (!o->lost && !same_print(a, b, PERI_OK))) blame(p, "a copy moves as the body does", __LINE__);
     if (status < 0) HOLDS(p, same_record(&e, &record));
     peri_body_destroy(copy);
     o->body = body;
-    o->record = record;
+    o->record = kept;
     return status;
 }
 
@@ -384,7 +431,7 @@ static int64_t twins(program *p, int s) {
 
 static int64_t look_at_fields(program *p, int s) {
     slot *o = &p->slots[s];
-    const int32_t field = choice(p, 1, 16);
+    const int32_t field = choice(p, PERI_FIELD_POSITION, 16);
     peri_view view;
     double linear[3], angular[3];
     peri_energy e;
@@ -416,11 +463,12 @@ static int64_t look_at_constants(program *p, int s) {
     double c = 1.0, s0 = 1.0, w0 = 1.0;
     const int kind = draw(p);
     if (kind % 4 == 0) {
-        const int64_t status = CALL(p, s, peri_get_critical_energy(o->body, some_id(p, o->materials), GIVEN(0, &w0)));
+        const int32_t id = some_id(p, s, PERI_KIND_MATERIAL);
+        const int64_t status = CALL(p, s, peri_get_critical_energy(o->body, id, GIVEN(0, &w0)));
         if (status == PERI_OK && !o->wild) HOLDS(p, w0 > 0.0);
         return status;
     }
-    const int32_t i = some_id(p, o->materials), j = some_id(p, o->materials);
+    const int32_t i = some_id(p, s, PERI_KIND_MATERIAL), j = some_id(p, s, PERI_KIND_MATERIAL);
     const int64_t status = CALL(p, s, peri_get_bond_constants(o->body, i, j, kind % 8 < 4 ? &c : NULL, GIVEN(0, &s0)));
     if (status == PERI_OK && !o->wild) HOLDS(p, c <= DBL_MAX && c > -DBL_MAX && !(s0 <= 0.0));
     return status;

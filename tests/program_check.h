@@ -10,6 +10,8 @@ static void enter(program *p, int s, const char *text) {
     if (p->trace) printf("    %2d%*s slot %d: %s\n", p->calls, 2 * p->level, "", s, text);
     p->running[p->level] = s;
     p->refused[p->level] = p->memory.refused;
+    p->wants[p->level] = p->want;
+    p->want = PERI_OK;
     p->names[p->level] = text;
     p->level++;
     p->slots[s].busy++;
@@ -26,7 +28,7 @@ static int names_a_point(const slot *s, const peri_error *e) {
     switch (e->code) {
     case PERI_ERROR_UNSTABLE: case PERI_ERROR_COINCIDENT: return e->index >= 0 && e->index < points;
     case PERI_ERROR_LOOSE: return e->index >= 0 && e->index < points;
-    case PERI_ERROR_CALLBACK: return e->index >= 0;
+    case PERI_ERROR_CALLBACK: return strcmp(e->field, "value") != 0 || (e->index >= 0 && e->index < points);
     default: return 1;
     }
 }
@@ -36,6 +38,14 @@ static void check_text(program *p, const peri_error *e) {
     int64_t length = peri_format_error(e, text, sizeof text);
     HOLDS(p, length > 0 && (length >= (int64_t)sizeof text || (int64_t)strlen(text) == length));
     HOLDS(p, peri_format_error(e, NULL, 0) == length && strncmp(text, e->text, strlen(e->text) < 100 ? strlen(e->text) : 100) == 0);
+}
+
+/* A wrong id is told by its own status, where nothing else is wrong that is looked at before: it is too early, or another choice, flag or
+   count is wrong, too. And no other call is refused for its ids. */
+static int ends_by_its_ids(int64_t status, int32_t want) {
+    if (status <= PERI_ERROR_ID_NONE && status >= PERI_ERROR_ID_GONE) return status == want;
+    return want == PERI_OK || status == PERI_ERROR_ORDER || status == PERI_ERROR_CHOICE || status == PERI_ERROR_ARGUMENT
+        || status == PERI_ERROR_DESCRIPTOR;
 }
 
 static int64_t told(program *p, int s, int64_t status, int line) {
@@ -49,9 +59,10 @@ static int64_t told(program *p, int s, int64_t status, int line) {
         return status;
     }
     HOLDS(p, peri_get_error(o->body, &e) == PERI_OK);
+    if (!ends_by_its_ids(status, p->wants[p->level])) blame(p, "a wrong id is told by the status that says why", line);
     if (status < 0) {
         const int32_t code = (int32_t)status;
-        if (status < PERI_ERROR_CONVERGENCE) blame(p, "the status is listed", line);
+        if (status <= PERI_ERROR_LEFT_OUT) blame(p, "the status is listed", line);
         if (e.code != code || e.reserved != 0 || !e.field || e.text != peri_status_text(code))
             blame(p, "the record is of this refusal", line);
         if (!names_a_point(o, &e)) blame(p, "the record names a point", line);
@@ -104,7 +115,7 @@ static int finite_all(const double *x, int64_t n) {
 static print print_of(program *p, int s, int deep) {
     const slot *o = &p->slots[s];
     print r;
-    int32_t set = 0, field;
+    int32_t field, kind;
     memset(&r, 0, sizeof r);
     if (!o->body) return r;
     r.count[0] = peri_point_count(o->body);
@@ -116,8 +127,13 @@ static print print_of(program *p, int s, int deep) {
     r.count[6] = total_of(o);
     r.time = peri_time(o->body);
     if (r.count[2] == 0) return r;
-    while (peri_size_of_set(o->body, set) > 0) set++;
-    r.count[7] = set;
+    for (kind = PERI_KIND_MATERIAL; kind <= PERI_KIND_OBSTACLE; ++kind) { /* as many as were given, and no more */
+        const int32_t count = o->given[place_of(kind)];
+        if (count > 0) HOLDS(p, peri_id(o->body, kind, count) > 0);
+        p->want = PERI_ERROR_ID_GONE;
+        HOLDS(p, CALL(p, s, peri_id(p->slots[s].body, kind, count + 1)) == PERI_ERROR_ID_GONE);
+        r.count[7] = 31 * r.count[7] + count;
+    }
     for (field = PERI_FIELD_DISPLACEMENT; field <= PERI_FIELD_VELOCITY; ++field) {
         const int64_t n = peri_size_of_field(o->body, field);
         HOLDS(p, CALL(p, s, peri_get_field(p->slots[s].body, field, p->other, ROOM)) == PERI_OK);
@@ -173,7 +189,10 @@ static void check_field(program *p, int s, int32_t field) {
     HOLDS(p, status == PERI_OK && n > 0 && n <= ROOM);
     if (p->fault) return;
     if (!o->lost && !o->wild && !finite_all(p->other, n)) blame(p, "a field is finite where only ordinary numbers went in", __LINE__);
-    for (i = 0; i < n && (field == PERI_FIELD_DAMAGE || field == PERI_FIELD_DAMAGE_GROWN); ++i) HOLDS(p, p->other[i] >= 0.0 && p->other[i] <= 1.0);
+    for (i = 0; i < n && (field == PERI_FIELD_DAMAGE || field == PERI_FIELD_DAMAGE_GROWN); ++i)
+        HOLDS(p, p->other[i] >= 0.0 && p->other[i] <= 1.0);
+    for (i = 0; i < n && field == PERI_FIELD_MATERIAL; ++i)
+        HOLDS(p, p->other[i] >= 1.0 && p->other[i] <= o->given[place_of(PERI_KIND_MATERIAL)]);
     if (field > PERI_FIELD_VOLUME || CALL(p, s, peri_view_field(p->slots[s].body, field, &view)) < 0) return;
     for (i = 0; i < view.count; ++i)
         for (d = 0; d < view.components; ++d, ++c) {
@@ -204,7 +223,7 @@ static void check_body(program *p, int s) {
     }
     HOLDS(p, peri_family_width(b) > 0 && peri_family_width(b) < peri_point_count(b) && peri_kernel_text(b)[0]);
     HOLDS(p, step >= 0.0 && step <= DBL_MAX && (o->wild || step > 0.0));
-    check_field(p, s, 1 + p->calls % 16);
+    check_field(p, s, PERI_FIELD_POSITION + p->calls % 16);
     if (p->calls % 4 == 0 && !o->lost) {
         peri_energy e;
         double linear[3], angular[3];

@@ -28,31 +28,34 @@ static void drop(program *p, int s) {
 }
 
 static void fill_desc(program *p, int s, peri_body_desc *d) {
-    static const int32_t influences[] = {1, 1, 1, 1, 1, 1, 1, 3, 3, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 16};
-    static const int32_t quadratures[] = {1, 1, 1, 1, 2, 3, 3, 5, 4, 2}, corrections[] = {1, 1, 1, 2, 3, 4, 4, 1};
-    static const int32_t precisions[] = {PERI_PRECISION_DOUBLE, PERI_PRECISION_DOUBLE, PERI_PRECISION_SINGLE, PERI_PRECISION_MIXED}, kernels[] = {0, 0, 1, 2};
+    /* less the first of each */
+    static const int32_t influences[] = {0, 0, 0, 0, 0, 0, 0, 2, 2, 1, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 15};
+    static const int32_t quadratures[] = {0, 0, 0, 0, 1, 2, 2, 4, 3, 1}, corrections[] = {0, 0, 0, 1, 2, 3, 3, 0}, kernels[] = {0, 0, 1, 2};
+    static const int32_t precisions[] = {PERI_PRECISION_DOUBLE, PERI_PRECISION_DOUBLE, PERI_PRECISION_SINGLE, PERI_PRECISION_MIXED};
     static const double lengths[] = {1.0, 1.0, 1e-9, 3e4}, stresses[] = {1.0, 7e10}, densities[] = {1.0, 2440.0};
     slot *o = &p->slots[s];
     const int flags = draw(p), more = draw(p);
     peri_body_desc_init(d);
-    o->space = d->space = choice(p, 1, 3);
+    o->space = d->space = choice(p, PERI_SPACE_PLANE_STRESS, 3);
     o->dim = d->space == PERI_SPACE_SOLID ? 3 : 2;
     o->length = lengths[flags % 4];
     o->stress = stresses[flags / 4 % 2];
     o->density = densities[flags / 8 % 2];
-    d->precision = p->mood == MOOD_CHOICES ? choice(p, 1, 4) : precisions[flags / 16 % 4];
-    d->kernel = p->mood == MOOD_CHOICES ? choice(p, 0, 3) : kernels[flags / 64 % 4];
-    d->geometry = choice(p, 1, 2);
-    d->influence = p->mood == MOOD_CHOICES ? choice(p, 1, 16) : influences[below(p, 24)];
-    d->quadrature = p->mood == MOOD_CHOICES ? choice(p, 1, 5) : quadratures[below(p, o->dim == 3 ? 7 : 10)];
-    d->correction = p->mood == MOOD_CHOICES ? choice(p, 1, 4) : corrections[more % 8];
+    d->precision = p->mood == MOOD_CHOICES ? choice(p, PERI_PRECISION_DOUBLE, 3) : precisions[flags / 16 % 4];
+    d->kernel = p->mood == MOOD_CHOICES ? choice(p, PERI_KERNEL_BEST, 3) : PERI_KERNEL_BEST + kernels[flags / 64 % 4];
+    d->geometry = choice(p, PERI_GEOMETRY_NONLINEAR, 2);
+    d->influence = p->mood == MOOD_CHOICES ? choice(p, PERI_INFLUENCE_CONSTANT, 16) : PERI_INFLUENCE_CONSTANT + influences[below(p, 24)];
+    if (p->mood == MOOD_CHOICES) d->quadrature = choice(p, PERI_QUADRATURE_FULL, 5);
+    else d->quadrature = PERI_QUADRATURE_FULL + quadratures[below(p, o->dim == 3 ? 7 : 10)];
+    d->correction = p->mood == MOOD_CHOICES ? choice(p, PERI_CORRECTION_NONE, 4) : PERI_CORRECTION_NONE + corrections[more % 8];
     if (p->mood == 0 && d->quadrature >= PERI_QUADRATURE_PARTIAL_CENTROID) d->correction = PERI_CORRECTION_NONE;
-    d->break_timing = p->mood == MOOD_CHOICES ? choice(p, 1, 2) : 1 + more / 8 % 2;
+    d->break_timing = p->mood == MOOD_CHOICES ? choice(p, PERI_BREAK_AT_STEP_END, 2) : PERI_BREAK_AT_STEP_END + more / 8 % 2;
     d->ledger = more / 16 % 4 != 3;
     d->threads = 1;
     d->horizon = number(p, o->length, 3.5 * o->length);
     d->thickness = o->dim == 2 ? number(p, 0.25 * o->length, o->length) : 1.0;
-    d->instructions = p->mood == MOOD_CHOICES ? choice(p, 0, 4) : 0;
+    d->instructions = p->mood == MOOD_CHOICES ? choice(p, PERI_INSTRUCTIONS_BEST, 4) : PERI_INSTRUCTIONS_BEST;
+    if (more / 64 == 3) d->number = o->number = 1 + flags % 127;
     if (d->influence == PERI_INFLUENCE_USER) d->influence_user = new_hook(p, s, INFLUENCE_KINDS);
     if (d->influence == PERI_INFLUENCE_USER) d->influence_fn = GIVEN(0, on_influence);
     d->allocate = GIVEN(1, pool_allocate);
@@ -99,8 +102,8 @@ static void fill_material(program *p, int s, peri_material_desc *m, int32_t law)
     else m->young = young_of(o, modulus);
     m->density = o->density * number(p, 0.5, 1.0);
     if (law != PERI_LAW_BOND_BASED) m->poisson = number(p, -0.5, 0.4375);
-    if (p->mood == MOOD_CHOICES) m->criterion = choice(p, 1, 3);
-    else if (law != PERI_LAW_BOND_BASED) m->criterion = 1 + flags / 16 % 4 % 3;
+    if (p->mood == MOOD_CHOICES) m->criterion = choice(p, PERI_CRITERION_STRETCH, 3);
+    else if (law != PERI_LAW_BOND_BASED) m->criterion = PERI_CRITERION_STRETCH + flags / 16 % 4 % 3;
     if (m->criterion != PERI_CRITERION_STRETCH || flags / 64 == 1) m->fracture_energy = o->stress * o->length * number(p, 1e-4, 1e-2);
     else if (flags / 64 > 1) m->critical_stretch = number(p, 0.005, 0.1);
     if (p->mood == MOOD_NUMBERS) m->stabilization = number(p, 0.0, 1.0);
@@ -110,22 +113,27 @@ static void fill_material(program *p, int s, peri_material_desc *m, int32_t law)
                m->bulk, m->poisson, m->density, m->fracture_energy, m->critical_stretch, m->stabilization);
 }
 
-static int32_t some_model(program *p) {
-    static const int32_t models[] = {1, 1, 1, 2, 2, 3, 4, 4};
-    return p->mood == MOOD_CHOICES ? choice(p, 1, 4) : models[below(p, 8)];
+static int32_t some_law(program *p) {
+    static const int32_t laws[] = {0, 0, 0, 1, 1, 2, 3, 3}; /* less the first */
+    return p->mood == MOOD_CHOICES ? choice(p, PERI_LAW_BOND_BASED, 4) : PERI_LAW_BOND_BASED + laws[below(p, 8)];
 }
+
+static int32_t materials_of(const slot *o) { return o->given[place_of(PERI_KIND_MATERIAL)]; }
 
 static int64_t add_material(program *p, int s) {
     peri_material_desc m;
-    fill_material(p, s, &m, p->mood == 0 && p->slots[s].quadrature >= PERI_QUADRATURE_PARTIAL_CENTROID ? PERI_LAW_BOND_BASED : some_model(p));
+    const int bonds_only = p->mood == 0 && p->slots[s].quadrature >= PERI_QUADRATURE_PARTIAL_CENTROID;
+    fill_material(p, s, &m, bonds_only ? PERI_LAW_BOND_BASED : some_law(p));
     const int64_t id = CALL(p, s, peri_add_material(p->slots[s].body, GIVEN(0, &m)));
-    if (id >= 0) p->slots[s].materials = (int32_t)id + 1;
+    note_id(p, s, PERI_KIND_MATERIAL, id);
     return id;
 }
 
 static int64_t set_interface(program *p, int s) {
     peri_material_desc m;
-    const int32_t count = p->slots[s].materials, i = some_id(p, count), j = p->mood == 0 && count > 1 ? (i + 1) % count : some_id(p, count);
+    const int32_t count = materials_of(&p->slots[s]), i = some_id(p, s, PERI_KIND_MATERIAL);
+    const int32_t j = p->mood == 0 && count > 1 ? id_at(p, s, PERI_KIND_MATERIAL, PERI_ID_INDEX(i) % count + 1)
+                                                : some_id(p, s, PERI_KIND_MATERIAL);
     fill_material(p, s, &m, PERI_LAW_BOND_BASED);
     return CALL(p, s, peri_set_interface(p->slots[s].body, i, j, GIVEN(0, &m)));
 }
@@ -153,7 +161,7 @@ static double some_box(program *p, int s, double *lo, double *hi) {
 static int64_t add_box(program *p, int s) {
     double lo[3], hi[3];
     const double spacing = some_box(p, s, lo, hi);
-    const int32_t material = some_id(p, p->slots[s].materials);
+    const int32_t material = some_id(p, s, PERI_KIND_MATERIAL);
     return CALL(p, s, peri_add_box(p->slots[s].body, material, GIVEN(0, lo), GIVEN(1, hi), spacing));
 }
 
@@ -162,7 +170,8 @@ static int64_t add_ball(program *p, int s) {
     double centre[3];
     place(p, &p->slots[s], centre);
     if (radius / spacing > 20.0 && radius / spacing < 1e12) return 0; /* would take long */
-    return CALL(p, s, peri_add_ball(p->slots[s].body, some_id(p, p->slots[s].materials), GIVEN(0, centre), radius, spacing));
+    const int32_t material = some_id(p, s, PERI_KIND_MATERIAL);
+    return CALL(p, s, peri_add_ball(p->slots[s].body, material, GIVEN(0, centre), radius, spacing));
 }
 
 static int64_t add_shape(program *p, int s) {
@@ -172,7 +181,7 @@ static int64_t add_shape(program *p, int s) {
     int d;
     for (d = 0; d < p->slots[s].dim; ++d) sites *= fmax(1.0, (hi[d] - lo[d]) / spacing);
     if (sites > SITES_MOST && sites < 1e12) return 0;
-    const int32_t material = some_id(p, p->slots[s].materials);
+    const int32_t material = some_id(p, s, PERI_KIND_MATERIAL);
     return CALL(p, s, peri_add_shape(p->slots[s].body, material, GIVEN(0, lo), GIVEN(1, hi), spacing, GIVEN(2, on_point), h));
 }
 
@@ -180,7 +189,7 @@ static int64_t add_perturbed_box(program *p, int s) {
     double lo[3], hi[3];
     const double spacing = some_box(p, s, lo, hi), amount = number(p, 0.0, 1.0);
     const uint64_t seed = (uint64_t)draw(p);
-    const int32_t material = some_id(p, p->slots[s].materials);
+    const int32_t material = some_id(p, s, PERI_KIND_MATERIAL);
     return CALL(p, s, peri_add_perturbed_box(p->slots[s].body, material, GIVEN(0, lo), GIVEN(1, hi), spacing, amount, seed));
 }
 
@@ -202,16 +211,18 @@ static int64_t add_points(program *p, int s) {
             rest /= across;
         }
         p->other[k] = kind == 2 ? volume * (0.5 + (double)(dice >> 40) / 16777216.0) : volume;
-        p->ids[k] = 0;
+        p->ids[k] = materials_of(o) > 0 ? id_at(p, s, PERI_KIND_MATERIAL, 1) : want_id(p, PERI_ERROR_ID_NONE, 0);
     }
     k = draw(p);
     if (p->mood == MOOD_NUMBERS) p->in[k % (count * o->dim)] = number(p, 0.0, o->length);
     if (p->mood == MOOD_NUMBERS && draw(p) % 2) p->other[k % count] = number(p, volume, 2.0 * volume);
-    if (p->mood == MOOD_CHOICES) p->ids[k % count] = some_id(p, 2);
+    if (p->mood == MOOD_CHOICES) p->ids[k % count] = some_id(p, s, PERI_KIND_MATERIAL);
     for (d = 0; d < o->dim; ++d)
         if (!p->wild && o->hi[d] < o->length * across) o->hi[d] = o->length * across;
     if (p->mood == MOOD_CHOICES && draw(p) % 2) count = -(int64_t)draw(p);
-    return CALL(p, s, peri_add_points(o->body, count, GIVEN(0, p->in), GIVEN(1, p->other), p->mood == 0 ? NULL : GIVEN(2, p->ids)));
+    const int32_t *materials = p->mood == 0 && materials_of(o) == 1 ? NULL : GIVEN(2, p->ids);
+    if (!materials && materials_of(o) != 1) p->want = materials_of(o) ? PERI_ERROR_ID_NONE : PERI_OK; /* which? */
+    return CALL(p, s, peri_add_points(o->body, count, GIVEN(0, p->in), GIVEN(1, p->other), materials));
 }
 
 /* A chain, a ring, all with all, or what is no family at all. */
@@ -225,7 +236,7 @@ static int64_t set_families(program *p, int s) {
             if (kind == 2) *id = k < i ? k : k + 1;
             else *id = (int32_t)((i + (k ? 1 : n - 1)) % n);
             if (kind == 0 && (i == 0 || i == n - 1)) *id = k ? i : i ? i - 1 : 1;
-            if (kind == 3) *id = some_id(p, n);
+            if (kind == 3) *id = some_point(p, n);
         }
     if (p->mood == MOOD_CHOICES && draw(p) % 2) width = -below(p, 3);
     return CALL(p, s, peri_set_families(p->slots[s].body, width, GIVEN(0, p->ids)));
@@ -273,13 +284,13 @@ static int64_t plan(program *p, int s) {
     memset(o->lo, 0, sizeof o->lo);
     memset(o->hi, 0, sizeof o->hi);
     fill_desc(p, s, &d);
-    fill_material(p, s, &m, some_model(p));
+    fill_material(p, s, &m, some_law(p));
     peri_plan_desc_init(&q);
     q.body = GIVEN(0, &d);
     q.material = GIVEN(3, &m);
     q.spacing = some_box(p, s, q.lo, q.hi);
     *o = was;
-    if (p->mood == MOOD_CHOICES) q.source = choice(p, 1, 3);
+    if (p->mood == MOOD_CHOICES) q.source = choice(p, PERI_SOURCE_BOX, 3);
     if (p->mood == MOOD_NUMBERS) q.amount = number(p, 0.0, 1.0);
     const int64_t calls = p->memory.calls;
     const int32_t status = peri_plan(&q, &report, &e);

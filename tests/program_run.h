@@ -9,7 +9,7 @@ static int64_t ask_for_nothing(program *p, int s) {
     peri_memory m;
     (void)s;
     peri_body_desc_init(NULL);
-    peri_material_desc_init(NULL, 1);
+    peri_material_desc_init(NULL, PERI_LAW_LPS);
     peri_advance_desc_init(NULL);
     peri_solve_desc_init(NULL);
     peri_plan_desc_init(NULL);
@@ -17,7 +17,9 @@ static int64_t ask_for_nothing(program *p, int s) {
     peri_matrix_destroy(NULL);
     HOLDS(p, peri_status_text((int32_t)(draw(p) - 64)) != NULL);
     HOLDS(p, peri_format_error(NULL, NULL, 0) == PERI_ERROR_ARGUMENT && peri_get_memory(NULL, &m) == PERI_ERROR_ARGUMENT);
-    HOLDS(p, peri_point_count(NULL) == PERI_ERROR_ARGUMENT && peri_time(NULL) == 0.0 && peri_stable_step(NULL) == 0.0);
+    HOLDS(p, peri_dimension(NULL) == 0 && peri_point_count(NULL) == 0 && peri_family_width(NULL) == 0 && peri_bond_count(NULL) == 0);
+    HOLDS(p, peri_cut_count(NULL) == 0 && peri_broken_count(NULL) == 0 && peri_step_count(NULL) == 0 && peri_load_factor(NULL) == 0.0);
+    HOLDS(p, peri_time(NULL) == 0.0 && peri_stable_step(NULL) == 0.0 && peri_id(NULL, PERI_KIND_SET, 1) == PERI_ERROR_ARGUMENT);
     HOLDS(p, peri_kernel_text(NULL)[0] == 0 && peri_find_set(NULL, "a") == PERI_ERROR_ARGUMENT);
     return 0;
 }
@@ -54,7 +56,7 @@ static int some_call(program *p, int s) {
     const int makes = k >= MAKES && k < MAKES_END;
     if (which % 16 == 5) return k;
     if (!o->body) return MAKES - 1; /* make_body */
-    if (o->materials == 0) return MAKES; /* add_material */
+    if (materials_of(o) == 0) return MAKES; /* add_material */
     if (!built && !makes) return MAKES + which % (MAKES_END - MAKES);
     return built && makes ? which % MAKES : k;
 }
@@ -71,6 +73,7 @@ static int64_t one_call(program *p, int s) {
     const int64_t status = table[k].make(p, s);
     p->memory.fail_at = -1;
     p->wild = 0;
+    p->want = PERI_OK;
     if (status < 0 && p->partial != 1) {
         after = print_of(p, s, deep);
         if (p->partial == PARTLY || p->slots[s].lost) before.deep = after.deep = 0;
@@ -96,6 +99,7 @@ static void add_some_points(program *p, int s, int shape) {
 /* Holds the left of a body, and pulls its right, or not; a crack between them, or none. */
 static void hold_scene(program *p, int s, int kind) {
     const slot *o = &p->slots[s];
+    const int32_t axes = o->dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY;
     double lo[3], hi[3], pull[3] = {0, 0, 0};
     int32_t set;
     int d;
@@ -105,14 +109,17 @@ static void hold_scene(program *p, int s, int kind) {
     }
     hi[0] = o->lo[0] + 1.25 * o->length;
     set = (int32_t)CALL(p, s, peri_select_box(o->body, "left", lo, hi));
-    (void)CALL(p, s, peri_prescribe_displacement(o->body, set, kind % 4 ? (1 << o->dim) - 1 : PERI_AXIS_X, NULL, NULL, NULL));
+    note_id(p, s, PERI_KIND_SET, set);
+    if (set < 0) p->want = PERI_ERROR_ID_NONE; /* what a call that failed has returned is none */
+    note_id(p, s, PERI_KIND_LOAD, CALL(p, s, peri_prescribe_displacement(o->body, set, kind % 4 ? axes : PERI_AXIS_X, NULL, NULL, NULL)));
     lo[0] = o->hi[0] - 1.25 * o->length;
     hi[0] = o->hi[0];
     set = (int32_t)CALL(p, s, peri_select_box(o->body, "right", lo, hi));
+    note_id(p, s, PERI_KIND_SET, set);
+    if (set < 0) p->want = PERI_ERROR_ID_NONE;
     pull[kind / 4 % 2] = (kind / 8 % 2 ? 0.5 : 0.05) * (kind / 16 % 2 ? o->length : speed_of(o));
-    if (kind / 16 % 2) (void)CALL(p, s, peri_prescribe_displacement(o->body, set, PERI_AXIS_X | PERI_AXIS_Y, pull, NULL, NULL));
-    else (void)CALL(p, s, peri_prescribe_velocity(o->body, set, PERI_AXIS_X | PERI_AXIS_Y, pull, NULL, NULL));
-    p->slots[s].loads = 2;
+    note_id(p, s, PERI_KIND_LOAD, kind / 16 % 2 ? CALL(p, s, peri_prescribe_displacement(o->body, set, PERI_AXIS_XY, pull, NULL, NULL))
+                                                : CALL(p, s, peri_prescribe_velocity(o->body, set, PERI_AXIS_XY, pull, NULL, NULL)));
     if (kind / 32 % 2) (void)cut(p, s);
 }
 
@@ -152,10 +159,9 @@ static void make_scene(program *p) {
         peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
         m.young = m.density = 1.0;
         m.critical_stretch = 0.02;
-        HOLDS(p, CALL(p, s, peri_add_material(o->body, &m)) == 0);
-        HOLDS(p, CALL(p, s, peri_add_box(o->body, peri_id(o->body, PERI_KIND_MATERIAL, 1), o->lo, o->hi, 1.0)) > 0);
+        note_id(p, s, PERI_KIND_MATERIAL, CALL(p, s, peri_add_material(o->body, &m)));
+        HOLDS(p, CALL(p, s, peri_add_box(o->body, id_at(p, s, PERI_KIND_MATERIAL, 1), o->lo, o->hi, 1.0)) > 0);
         HOLDS(p, CALL(p, s, peri_build(o->body)) == PERI_OK);
-        o->materials = 1;
     }
     if (held % 4) hold_scene(p, s, held / 4);
 }

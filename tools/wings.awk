@@ -114,7 +114,7 @@ END {
     for (k = 1; k <= count; k++) {
         line = text[k]
         if (from[k] != "src/laws")
-            while (match(line, /((([=!]=|[<>]=?|case) *)PERI_(BOND_BASED|LPS|OTERKUS|CORRESPONDENCE)|PERI_(BOND_BASED|LPS|OTERKUS|CORRESPONDENCE) *([=!]=|[<>])|(->|\.)(ordinary|tensors|dilates|states))([^A-Za-z0-9_]|$)/)) {
+            while (match(line, /((([=!]=|[<>]=?|case) *)PERI_LAW_(BOND_BASED|LPS|OTERKUS|CORRESPONDENCE)|PERI_LAW_(BOND_BASED|LPS|OTERKUS|CORRESPONDENCE) *([=!]=|[<>])|(->|\.)(ordinary|tensors|dilates|states))([^A-Za-z0-9_]|$)/)) {
                 told++
                 if (laws == "refuse") print "lint: " where[k] ": a law by name: " substr(line, RSTART, RLENGTH)
                 line = substr(line, RSTART + RLENGTH)

@@ -39,7 +39,7 @@ static void read_all(meddler *c) {
     c->wrong += peri_get_energy(b, &e) != PERI_OK || peri_get_momentum(b, v, q) != PERI_OK;
     c->wrong += peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, 1), v) != PERI_OK || peri_get_memory(b, &held) != PERI_OK;
     c->wrong += peri_get_families(b, 0, 1, rows, 64) != PERI_OK || peri_bond_is_intact(b, 0, rows[0]) < 0;
-    c->wrong += !(peri_stable_step(b) > 0) || peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), NULL, v) != PERI_OK;
+    c->wrong += !(peri_stable_step(b) > 0) || peri_get_bond_constants(b, material_id(b, 1), material_id(b, 1), NULL, v) != PERI_OK;
     c->wrong += peri_export_history_to(b, 1, scene_swallow, &hash) != PERI_OK || peri_export_vtu_to(b, scene_swallow, &hash) != PERI_OK;
     c->wrong += peri_get_error(b, &record) != PERI_OK;
 }
@@ -61,8 +61,8 @@ static void change_all(meddler *c) {
     peri_solve_desc_init(&s);
     extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     NOT_NOW(peri_add_material(b, &m));
-    NOT_NOW(peri_set_interface(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), &m));
-    NOT_NOW(peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), zero, far_, 1));
+    NOT_NOW(peri_set_interface(b, material_id(b, 1), material_id(b, 1), &m));
+    NOT_NOW(peri_add_box(b, material_id(b, 1), zero, far_, 1));
     NOT_NOW(peri_add_points(b, 1, v, &volume, NULL));
     NOT_NOW(peri_set_families(b, 1, ids));
     NOT_NOW(peri_build(b));
@@ -190,13 +190,14 @@ static uint64_t meddled_life(outcome *o, int which, int32_t law, int32_t precisi
         *o = extreme_end(*o, b);
         return 0;
     }
-    const int32_t axes = PERI_AXIS_X | PERI_AXIS_Y, set = peri_select_box(b, NULL, still, edge), right = peri_select_box(b, NULL, half, end);
+    const int32_t axes = PERI_AXIS_XY, set = peri_select_box(b, NULL, still, edge), right = peri_select_box(b, NULL, half, end);
     (void)extreme_fails(o, b, peri_prescribe_velocity(b, set, axes, still, which == SUPPORT ? in_load : NULL, &c));
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, still, which == LOAD ? in_load : NULL, &c));
     (void)extreme_fails(o, b, peri_add_plane_obstacle(b, below, up, 1, which == MOTION ? in_motion : NULL, &c));
     (void)extreme_fails(o, b, peri_add_velocity(b, right, pull));
     if (which == BREAK) (void)extreme_fails(o, b, peri_on_break(b, in_break, &c));
-    if (which == LOG && peri_dimension(b) == 2) (void)extreme_fails(o, b, peri_cut_segment(b, PERI_CUT_INITIAL, nowhere, gone)); /* misses: a remark */
+    if (which == LOG && peri_dimension(b) == 2) /* misses: a remark */
+        (void)extreme_fails(o, b, peri_cut_segment(b, PERI_CUT_INITIAL, nowhere, gone));
     if (which == WRITE) (void)extreme_fails(o, b, peri_export_vtu_to(b, in_write, &c));
     if (which == WRITE) (void)extreme_fails(o, b, peri_export_history_to(b, 1, in_write, &c));
     if (which == POINT) (void)extreme_fails(o, b, peri_select_if(b, NULL, in_point, &c));
@@ -260,7 +261,7 @@ static int32_t in_influence(void *user, double q, double *w) {
     peri_material_desc m;
     extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     NOT_NOW(peri_add_material(c->body, &m));
-    NOT_NOW(peri_add_box(c->body, peri_id(c->body, PERI_KIND_MATERIAL, 1), zero, far_, 1));
+    NOT_NOW(peri_add_box(c->body, material_id(c->body, 1), zero, far_, 1));
     NOT_NOW(peri_add_points(c->body, 1, far_, &volume, NULL));
     NOT_NOW(peri_set_families(c->body, 1, ids));
     NOT_NOW(peri_build(c->body));
@@ -287,8 +288,9 @@ static outcome influence_meddles(const extreme *row, int32_t precision) {
             m.fracture_energy = 1e-3;
             (void)extreme_fails(&o, NULL, peri_body_create(&d, &c.body, NULL));
             (void)extreme_fails(&o, c.body, peri_add_material(c.body, &m));
-            (void)extreme_fails(&o, c.body, peri_get_bond_constants(c.body, peri_id(c.body, PERI_KIND_MATERIAL, 1), peri_id(c.body, PERI_KIND_MATERIAL, 1), NULL, &s0[quiet]));
-            (void)extreme_fails(&o, c.body, peri_add_box(c.body, peri_id(c.body, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+            (void)extreme_fails(&o, c.body, peri_get_bond_constants(c.body, material_id(c.body, 1), material_id(c.body, 1), NULL,
+                                                                    &s0[quiet]));
+            (void)extreme_fails(&o, c.body, peri_add_box(c.body, material_id(c.body, 1), lo, hi, 1));
             (void)extreme_fails(&o, c.body, peri_build(c.body));
             step[quiet] = peri_stable_step(c.body);
             HOLDS(c.wrong == 0 && c.calls > 10 && peri_point_count(c.body) == (row->choice == PERI_SPACE_SOLID ? 120 : 30));
@@ -428,7 +430,7 @@ enum { SURFACE, BODY_FORCE, TRACTION, DISPLACEMENT, VELOCITY, PLANE, BALL, KINDS
 
 /* A load, support or obstacle that follows a callback. */
 static void add_written(outcome *o, peri_body *b, int kind, writer *w) {
-    const int dim = peri_dimension(b), axes = dim == 3 ? 7 : 3;
+    const int dim = peri_dimension(b), axes = dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY;
     const double v[3] = {1e-3, -2e-3, 0}, below[3] = {0, -3, -3}, up[3] = {0, dim == 2, dim == 3};
     const double left[3] = {-9, -9, -9}, edge[3] = {4.6, 99, 99}, normal[3] = {-1, 0, 0};
     const int32_t set = kind == PLANE || kind == BALL ? 0 : peri_select_box(b, NULL, left, edge);
@@ -573,17 +575,17 @@ static const extreme rows[] = {
     {"influence_fn 5e-324", limits, influence_all, 5e-324, 0, 1, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
     {"influence_fn -1", "a negative factor has no stiffness to calibrate", influence_all, -1, 0, 0, PERI_ERROR_INFLUENCE, NULL, {0, 0, 0}},
     {"loads and supports write NaN", infinite, writes_value, NAN, 0, RANGE(SURFACE, VELOCITY), PERI_ERROR_CALLBACK,
-     "load at the point", {0, 0, 0}},
+     "value", {0, 0, 0}},
     {"loads and supports write infinity", infinite, writes_value, HUGE_VAL, 0, RANGE(SURFACE, VELOCITY), PERI_ERROR_CALLBACK,
-     "load at the point", {0, 0, 0}},
-    {"obstacles write NaN", infinite, writes_value, NAN, 0, RANGE(PLANE, BALL), PERI_ERROR_CALLBACK, "motion of the obstacle", {0, 0, 0}},
-    {"obstacles write -infinity", infinite, writes_value, -HUGE_VAL, 0, RANGE(PLANE, BALL), PERI_ERROR_CALLBACK, "motion of the obstacle",
+     "value", {0, 0, 0}},
+    {"obstacles write NaN", infinite, writes_value, NAN, 0, RANGE(PLANE, BALL), PERI_ERROR_CALLBACK, "place", {0, 0, 0}},
+    {"obstacles write -infinity", infinite, writes_value, -HUGE_VAL, 0, RANGE(PLANE, BALL), PERI_ERROR_CALLBACK, "place",
      {0, 0, 0}},
-    {"loads and supports write 1e30", far_off, writes_value, 1e30, 0, RANGE(BODY_FORCE, VELOCITY), PERI_ERROR_UNSTABLE, "at the time",
+    {"loads and supports write 1e30", far_off, writes_value, 1e30, 0, RANGE(BODY_FORCE, VELOCITY), PERI_ERROR_UNSTABLE, "peri_time",
      {0, 0, 0}},
-    {"loads and supports write -1e18", far_off, writes_value, -1e18, 0, RANGE(BODY_FORCE, VELOCITY), PERI_ERROR_UNSTABLE, "at the time",
+    {"loads and supports write -1e18", far_off, writes_value, -1e18, 0, RANGE(BODY_FORCE, VELOCITY), PERI_ERROR_UNSTABLE, "peri_time",
      {0, 0, 0}},
-    {"a plane in which all lies 1e300 deep", far_off, writes_value, 1e300, 0, RANGE(PLANE, PLANE), PERI_ERROR_UNSTABLE, "at the time",
+    {"a plane in which all lies 1e300 deep", far_off, writes_value, 1e300, 0, RANGE(PLANE, PLANE), PERI_ERROR_UNSTABLE, "peri_time",
      {0, 0, 0}},
     {"a ball 1e300 away", "it touches nothing", writes_value, 1e300, 0, RANGE(BALL, BALL), PERI_OK, NULL, {0, 0, 0}},
     {"callbacks that write nothing", "peri.h: value holds the constant at entry", writes_nothing, 0, 0, 0, PERI_OK, NULL, {0, 0, 0}},

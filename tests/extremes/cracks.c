@@ -97,7 +97,8 @@ static double crack_error(outcome *o, peri_body *body, int which, int triangles)
     edge[1][1] = to[1] - from[1];
     if (dim == 2) cut = peri_cut_segment(body, PERI_CUT_INITIAL, from, to);
     else if (!triangles) cut = peri_cut_rectangle(body, PERI_CUT_INITIAL, from, edge[0], edge[1]);
-    else cut = peri_cut_triangle(body, PERI_CUT_INITIAL, from, corner[0], to) + peri_cut_triangle(body, PERI_CUT_INITIAL, to, corner[1], from);
+    else cut = peri_cut_triangle(body, PERI_CUT_INITIAL, from, corner[0], to) + peri_cut_triangle(body, PERI_CUT_INITIAL, to, corner[1],
+                                                                                                  from);
     for (i = 0; x && i < n; ++i) {
         place a;
         if (extreme_fails(o, body, peri_get_families(body, (int32_t)i, 1, row, width))) break;

@@ -118,7 +118,7 @@ static double cut_all_probe(scene *s) {
     int k;
     dense_scatter(s->o, s->body, 0.1, 53);
     if (late) (void)advance(s, 3, 0.9, 0);
-    worst = fabs((double)peri_cut_if(s->body, PERI_CUT_INITIAL, any, NULL) - bonds_of(s));
+    worst = fabs((double)peri_cut_if(s->body, late ? PERI_CUT_NOW : PERI_CUT_INITIAL, any, NULL) - bonds_of(s));
     worst += fabs((double)(late ? peri_broken_count(s->body) : peri_cut_count(s->body)) - bonds_of(s));
     for (k = 0; k < 4; ++k) worst = extreme_worst(worst, largest(s, nothing[k]));
     worst = extreme_worst(worst, fabs(largest(s, PERI_FIELD_DAMAGE) - 1));
@@ -131,7 +131,8 @@ static double cut_all_probe(scene *s) {
     time = peri_time(s->body);
     (void)advance(s, 20, 0.9, 0);
     time = peri_time(s->body) - time;
-    if (!(time > 0) || s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_field(s->body, PERI_FIELD_DISPLACEMENT, after, n))) return NAN;
+    if (!(time > 0) || s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_field(s->body, PERI_FIELD_DISPLACEMENT, after, n)))
+        return NAN;
     for (i = 0; i < n; ++i) worst = extreme_worst(worst, fabs((after[i] - before[i]) / ((0.5 - (double)(i % 5)) * time) - 1));
     v = extreme_read(s->o, s->body, PERI_FIELD_VELOCITY);
     for (i = 0; v && i < n; ++i) worst = extreme_worst(worst, fabs(v[i] / (0.5 - (double)(i % 5)) - 1));
@@ -263,7 +264,7 @@ static int32_t is_right(void *user, int64_t index, const double *x) {
 static double torn_probe(scene *s) {
     double left = 1, right = s->desc.space == PERI_SPACE_SOLID ? 3 : 7;
     const double away[3] = {0.01 * (right + 1), 0, 0};
-    const int32_t axes = s->desc.space == PERI_SPACE_SOLID ? 7 : 3;
+    const int32_t axes = s->desc.space == PERI_SPACE_SOLID ? PERI_AXIS_XYZ : PERI_AXIS_XY;
     peri_solve_desc p;
     int32_t load[2];
     if (s->cloud) return 0;
@@ -286,7 +287,7 @@ static outcome refused(const extreme *row, int32_t precision) {
     extreme_material(&m, PERI_LAW_LPS, 0.3, row->choice == 0 ? row->value : 0);
     if (row->choice == 1) m.fracture_energy = row->value;
     if (row->choice == 2) m.fracture_energy = m.critical_stretch = row->value;
-    if (row->choice >= 10) m.criterion = row->choice - 10;
+    if (row->choice > 2) m.criterion = row->choice;
     if (!extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL))) (void)extreme_fails(&o, b, peri_add_material(b, &m));
     return extreme_end(o, b);
 }
@@ -378,7 +379,8 @@ static double reset_probe(scene *s) {
     int32_t field;
     (void)set_going(s);
     if (peri_broken_count(s->body) < 1) worst = 1;
-    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, PERI_CUT_INITIAL, any, NULL)) || extreme_fails(s->o, s->body, peri_reset(s->body))) return NAN;
+    if (extreme_fails(s->o, s->body, peri_cut_if(s->body, PERI_CUT_NOW, any, NULL)) || extreme_fails(s->o, s->body, peri_reset(s->body)))
+        return NAN;
     if (peri_broken_count(s->body) + peri_step_count(s->body) != 0 || peri_time(s->body) != 0) worst = 1;
     (void)set_going(s);
     fresh.body = make(&fresh);
@@ -454,8 +456,10 @@ static const extreme rows[] = {
     {"fracture energy infinite", "peri.h: a number is not finite", refused, HUGE_VAL, 0, 1, PERI_ERROR_RANGE, "fracture_energy", REFUSED},
     {"fracture energy negative", "peri.h: > 0", refused, -1e-9, 0, 1, PERI_ERROR_RANGE, "fracture_energy", REFUSED},
     {"both limits", "peri.h: not both", refused, 1, 0, 2, PERI_ERROR_MATERIAL, NULL, REFUSED},
-    {"work on bonds without its energy", "peri.h: lacks its fracture energy", refused, 0, 0, 12, PERI_ERROR_CRITERION, NULL, REFUSED},
-    {"a criterion that is none", "peri.h: not one of the allowed values", refused, 0, 0, 14, PERI_ERROR_ARGUMENT, "criterion", REFUSED},
+    {"work on bonds without its energy", "peri.h: lacks its fracture energy", refused, 0, 0, PERI_CRITERION_BOND_ENERGY,
+     PERI_ERROR_CRITERION, NULL, REFUSED},
+    {"a criterion that is none", "peri.h: not a value of this enum", refused, 0, 0, PERI_CRITERION_NODE_ENERGY + 1, PERI_ERROR_CHOICE,
+     "criterion", REFUSED},
     {"two points, critical stretch", "s > s0", threshold, 0, 0, PERI_CRITERION_STRETCH, PERI_OK, NULL, EXACT},
     {"two points, work on the bond", "X s^2 (1/V + 1/W)/2 > w0", threshold, 1e-3, 0, PERI_CRITERION_BOND_ENERGY, PERI_OK, NULL, EXACT},
     {"two points, energy of ends", "X s^2 (1/V + 1/W)/2 > w0", threshold, 1e-3, 0, PERI_CRITERION_NODE_ENERGY, PERI_OK, NULL, EXACT},

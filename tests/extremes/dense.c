@@ -153,7 +153,8 @@ static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], 
     for (a = 0; a < dim; ++a)
         for (d = 0; d < dim; ++d) { /* P = F S; F = 1 in linear geometry */
             p[a][d] = 2 * n->moduli.mu * e[a][d] + (a == d ? n->moduli.lambda * trace : 0);
-            for (c = 0; !s->linear && c < dim; ++c) p[a][d] += h[a][c] * (2 * n->moduli.mu * e[c][d] + (c == d ? n->moduli.lambda * trace : 0));
+            for (c = 0; !s->linear && c < dim; ++c) p[a][d] += h[a][c] * (2 * n->moduli.mu * e[c][d]
+                                                                          + (c == d ? n->moduli.lambda * trace : 0));
         }
     big_s = (2 * n->moduli.mu + dim * fabs(n->moduli.lambda)) * big_e;
     big_p = big_s * (1 + (s->linear ? 0 : big_h));
@@ -334,7 +335,7 @@ double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri
     s.node = (node *)malloc((size_t)s.points * sizeof *s.node);
     if (s.rows) (void)extreme_fails(o, b, peri_get_families(b, 0, s.points, s.rows, s.points * s.width));
     if (s.rows && s.node && o->status >= 0) {
-        for (i = 0; i < s.points; ++i) respond(&s, i, &m[(int)s.material[i]]);
+        for (i = 0; i < s.points; ++i) respond(&s, i, &m[(int)s.material[i] - 1]);
         worst = compare(&s);
     }
     free(s.x), free(s.u), free(s.volume), free(s.material), free(s.force), free(s.energy), free(s.rows), free(s.node);
@@ -354,11 +355,12 @@ peri_body *dense_box(outcome *o, const peri_body_desc *d, const peri_material_de
     const double lo[3] = {0, 0, 0}, hi[3] = {n, n, n};
     peri_body *b = NULL;
     (void)(extreme_fails(o, NULL, peri_body_create(d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, m))
-           || extreme_fails(o, b, peri_add_box(b, 0, lo, hi, 1)));
+           || extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1)));
     return built(o, b);
 }
 
-peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int64_t count, const double *x, const double *volume) {
+peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int64_t count, const double *x,
+                       const double *volume) {
     peri_body *b = NULL;
     (void)(extreme_fails(o, NULL, peri_body_create(d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, m))
            || extreme_fails(o, b, peri_add_points(b, count, x, volume, NULL)));

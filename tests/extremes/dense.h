@@ -10,14 +10,15 @@
 
 /* Largest distance between the body's force densities, energy densities, total force, torque and elastic energy and those of the laws, each
    over the sum of the sizes of its terms times their condition: of the order of the unit of rounding, whatever the displacement. w = 1,
-   whole cells, no correction; m[] by material id. NaN where a call fails, which is noted. */
+   whole cells, no correction; m[] in the order in which they were added. NaN where a call fails, which is noted. */
 double dense_error(outcome *o, peri_body *b, const peri_body_desc *d, const peri_material_desc *m);
 
 /* A built box of n^dim unit cells with a corner at the origin. NULL where a call fails, which is noted. */
 peri_body *dense_box(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int n);
 
 /* A built body of points of yours. */
-peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int64_t count, const double *x, const double *volume);
+peri_body *dense_cloud(outcome *o, const peri_body_desc *d, const peri_material_desc *m, int64_t count, const double *x,
+                       const double *volume);
 
 /* Adds random numbers within +-size to each component of the displacements. */
 void dense_scatter(outcome *o, peri_body *b, double size, uint64_t seed);

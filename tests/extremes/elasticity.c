@@ -42,7 +42,8 @@ static outcome ratios_refused(const extreme *row, int32_t precision) {
     int32_t space, law;
     int k;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
-        for (law = row->choice ? PERI_LAW_BOND_BASED : PERI_LAW_LPS; law <= (row->choice ? PERI_LAW_BOND_BASED : PERI_LAW_CORRESPONDENCE); ++law)
+        for (law = row->choice ? PERI_LAW_BOND_BASED : PERI_LAW_LPS; law <= (row->choice ? PERI_LAW_BOND_BASED : PERI_LAW_CORRESPONDENCE);
+             ++law)
             for (k = 0; k < n; ++k) {
                 peri_material_desc m;
                 extreme_material(&m, law, 0, 0);
@@ -96,7 +97,7 @@ static peri_body *block(outcome *o, int32_t space, int32_t precision, int32_t la
     d.log_user = remarks;
     extreme_material(&m, law, nu, 0);
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m))
-        || extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1)))
+        || extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1)))
         return b;
     (void)extreme_fails(o, b, peri_build(b));
     return b;
@@ -235,7 +236,7 @@ static outcome bulk_for_young(const extreme *row, int32_t precision) {
                     if (way) m.young = 0;
                     (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
                     (void)extreme_fails(&o, b, peri_add_material(b, &m));
-                    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+                    (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
                     if (!extreme_fails(&o, b, peri_build(b))) {
                         extreme_affine(&o, b, space == PERI_SPACE_SOLID ? gradient : flat, NULL);
                         if (!extreme_fails(&o, b, peri_get_energy(b, &e))) energy[way] = e.elastic;
@@ -262,7 +263,8 @@ static outcome contrast(const extreme *row, int32_t precision) {
     int32_t law, space;
     for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
         for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space && o.status == PERI_OK; ++space) {
-            static const int32_t fields[4] = {PERI_FIELD_STRESS, PERI_FIELD_FORCE_STRESS, PERI_FIELD_FORCE_DENSITY, PERI_FIELD_ENERGY_DENSITY};
+            static const int32_t fields[4] = {PERI_FIELD_STRESS, PERI_FIELD_FORCE_STRESS, PERI_FIELD_FORCE_DENSITY,
+                                              PERI_FIELD_ENERGY_DENSITY};
             const double lo[3] = {0, 0, 0}, hi[3] = {4, 4, 3}, lo2[3] = {64, 0, 0}, hi2[3] = {68, 4, 3}, push[3] = {1e-3, 2e-3, 0};
             const double solid[9] = {1e-3, 2e-4, 0, 0, -5e-4, 0, 0, 0, 3e-4}, plane[4] = {1e-3, 2e-4, 0, -5e-4};
             const double *gradient = space == PERI_SPACE_SOLID ? solid : plane;
@@ -281,8 +283,8 @@ static outcome contrast(const extreme *row, int32_t precision) {
             m.young = young;
             m.density = density;
             (void)extreme_fails(&o, b, peri_add_material(b, &m));
-            (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
-            (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 2), lo2, hi2, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 2), lo2, hi2, 1));
             if (extreme_fails(&o, b, peri_build(b))) {
                 o = extreme_end(o, b);
                 if (row->other == 1 && precision != PERI_PRECISION_DOUBLE && o.status == PERI_ERROR_RANGE) o.status = PERI_OK;
@@ -356,15 +358,16 @@ static outcome stable(const extreme *row, int32_t precision) {
                 peri_energy start;
                 peri_advance_desc run;
                 if (cut)
-                    (void)extreme_fails(&o, b,
-                                        space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+                    (void)extreme_fails(&o, b, space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2)
+                                                                         : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
                 for (i = 0; v && i < n; ++i) v[i] = test_random(&seed) - 0.5;
                 peri_advance_desc_init(&run);
                 run.steps = (int64_t)row->value;
                 run.frame_steps = 10;
                 run.on_frame = note_energy;
                 run.user = largest;
-                if (v && !extreme_fails(&o, b, peri_set_field(b, PERI_FIELD_VELOCITY, v, n)) && !extreme_fails(&o, b, peri_get_energy(b, &start))) {
+                if (v && !extreme_fails(&o, b, peri_set_field(b, PERI_FIELD_VELOCITY, v, n))
+                    && !extreme_fails(&o, b, peri_get_energy(b, &start))) {
                     if (extreme_fails(&o, b, peri_advance(b, &run))) printf("    space %d, nu %.17g, cut %d\n", (int)space, ratios[k], cut);
                     else
                         extreme_note(&o, row, precision, largest[0] / start.kinetic * 0.19,
@@ -421,7 +424,7 @@ static outcome sheared(const extreme *row, int32_t precision) {
                 extreme_material(&m, row->choice, ratio, 0);
                 (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
                 (void)extreme_fails(&o, b, peri_add_material(b, &m));
-                (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+                (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
                 if (!extreme_fails(&o, b, peri_build(b))) x = extreme_read(&o, b, PERI_FIELD_POSITION);
                 points = x ? (int32_t)peri_point_count(b) : 0;
                 table[0] = dim;
@@ -434,8 +437,8 @@ static outcome sheared(const extreme *row, int32_t precision) {
                     }
                     if (!inside) rim[count++] = i;
                 }
-                (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, count, rim), dim == 3 ? 7 : 3, NULL,
-                                                                       hold_affine, table));
+                (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, count, rim),
+                                                                       dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY, NULL, hold_affine, table));
                 peri_solve_desc_init(&s);
                 status = o.status == PERI_OK ? peri_solve(b, &s, &r) : o.status;
                 u = extreme_read(&o, b, PERI_FIELD_DISPLACEMENT);
@@ -467,7 +470,7 @@ static const extreme rows[] = {
     {"ratios of -1, 1/2 and beyond", "peri.h: poisson in (-1, 1/2)", ratios_refused, 0, 0, 0, PERI_ERROR_RANGE, "poisson", NONE},
     {"other ratios of bond-based solids", "peri.h: fixed by the space, others are refused", ratios_refused, 0, 0, 1, PERI_ERROR_POISSON,
      "poisson", NONE},
-    {"both moduli, or neither", "peri.h: give E or K, not both", moduli_refused, 0, 0, 0, PERI_ERROR_MATERIAL, "young, bulk", NONE},
+    {"both moduli, or neither", "peri.h: give E or K, not both", moduli_refused, 0, 0, 0, PERI_ERROR_MATERIAL, "bulk", NONE},
     {"E of no solid", "peri.h: E > 0", moduli_refused, 0, 0, 1, PERI_ERROR_RANGE, "young", NONE},
     {"K of no solid", "peri.h: K > 0", moduli_refused, 0, 0, 2, PERI_ERROR_RANGE, "bulk", NONE},
     {"uniform strain, bond-based", HOOKE, uniform_strain, PERI_LAW_BOND_BASED, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, SUMS},
@@ -479,10 +482,10 @@ static const extreme rows[] = {
     {"uniform strain, Oterkus, ratio to -1", "peri.h: never a spring that could make the energy negative; bulk energy is the solid's",
      held_back, 0, 0, 0, PERI_OK, NULL, SUMS},
     {"uniform strain, correspondence", HOOKE, uniform_strain, PERI_LAW_CORRESPONDENCE, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, SUMS},
-    {"uniform strain, correspondence, ratio to -1", HOOKE, uniform_strain, PERI_LAW_CORRESPONDENCE, 1, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL,
-     SUMS},
-    {"uniform strain, correspondence, ratio to 1/2", HOOKE, uniform_strain, PERI_LAW_CORRESPONDENCE, 2, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL,
-     SUMS},
+    {"uniform strain, correspondence, ratio to -1", HOOKE, uniform_strain, PERI_LAW_CORRESPONDENCE, 1, PERI_LAW_CORRESPONDENCE, PERI_OK,
+     NULL, SUMS},
+    {"uniform strain, correspondence, ratio to 1/2", HOOKE, uniform_strain, PERI_LAW_CORRESPONDENCE, 2, PERI_LAW_CORRESPONDENCE, PERI_OK,
+     NULL, SUMS},
     {"K in place of E", "K = E/(3(1-2 nu)): the same solid", bulk_for_young, 0, 0, 0, PERI_OK, NULL, {1e-13, 1e-6, 1e-6}},
     {"moduli of 1 and 1e-16 in one body", BLOCKS, contrast, -16, 0, 0, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},
     {"moduli of 1 and 1e-24 in one body", BLOCKS, contrast, -24, 0, 0, PERI_OK, NULL, {1e-13, 2e-4, 2e-4}},

@@ -72,7 +72,7 @@ peri_body *extreme_box(outcome *o, const peri_body_desc *desc, const peri_materi
     const double lo[3] = {0, 0, 0};
     peri_body *b = NULL;
     if (extreme_fails(o, NULL, peri_body_create(desc, &b, NULL))) return NULL;
-    if (!extreme_fails(o, b, peri_add_material(b, material)) && !extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, spacing)))
+    if (!extreme_fails(o, b, peri_add_material(b, material)) && !extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, spacing)))
         (void)extreme_fails(o, b, peri_build(b));
     return b;
 }

@@ -49,12 +49,15 @@ typedef struct extreme_pool {
 } extreme_pool;
 extern extreme_pool extreme_memory;
 
+/* The id of the k-th material, 1 the first. */
+static inline int32_t material_id(const peri_body *b, int64_t k) { return peri_id(b, PERI_KIND_MATERIAL, k); }
+
 extern int extreme_long; /* 1: with --long, for scenes that then do more                                                */
 
 /* A descriptor with defaults, one thread and that allocator. */
 void extreme_desc(peri_body_desc *desc, int32_t space, int32_t precision, double horizon);
 
-/* A material of unit modulus and density; poisson is of state-based models. Bonds break where stretch > 0. */
+/* A material of unit modulus and density; poisson is of state-based laws. Bonds break where stretch > 0. */
 void extreme_material(peri_material_desc *material, int32_t law, double poisson, double stretch);
 
 /* A built body of one material, in cells of `spacing` from the origin to hi; what fails is noted. NULL where there is none. */

@@ -247,7 +247,7 @@ static outcome odd_jobs(const extreme *row, int32_t precision) {
     return o;
 }
 
-static const char *const stops = "peri.h: nonzero stops, the body is at a whole step and may go on: the same motion";
+static const char *const stops = "peri.h: > 0 stops, the body is at a whole step and may go on: the same motion";
 static const char *const halts = "peri.h: stopped on the way to an equilibrium, and found from there on; the equilibrium is one";
 static const char *const bits = "peri.h: results do not depend on the choice, to the last bit; tasks in any order, on any threads";
 static const char *const fails = "peri.h: nonzero is a failure; a call that fails has changed nothing, so the next file is whole";
@@ -255,12 +255,15 @@ static const char *const fails = "peri.h: nonzero is a failure; a call that fail
 static const extreme rows[] = {
     /* the velocity is brought to the whole step and back at each stop: u each time, and damping and forces take the rest */
     {"every frame stops, Verlet", stops, stopped_run, 1, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
-    {"every frame stops, central difference", stops, stopped_run, 1, 0, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
-    {"every frame stops, by what reads as an error", stops, stopped_run, -3, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
-    {"every frame stops, by INT32_MIN", stops, stopped_run, INT32_MIN, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL, {1e-14, 1e-6, 1e-5}},
+    {"every frame stops, central difference", stops, stopped_run, 1, 0, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, PERI_OK, NULL,
+     {1e-14, 1e-6, 1e-5}},
+    {"every frame stops, by what reads as an id", stops, stopped_run, 1 << 27, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL,
+     {1e-14, 1e-6, 1e-5}},
+    {"every frame stops, by INT32_MAX", stops, stopped_run, INT32_MAX, 0, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_OK, NULL,
+     {1e-14, 1e-6, 1e-5}},
     /* residuals of the tolerance times the condition number of a strip 9 x 6, some 1e2 */
     {"the first iteration stops", halts, stopped_solve, 1, 0, 0, PERI_OK, NULL, {1e-8, 1e-3, 1e-1}},
-    {"the first iteration stops, by -30", halts, stopped_solve, -30, 0, 0, PERI_OK, NULL, {1e-8, 1e-3, 1e-1}},
+    {"the first iteration stops, by 30", halts, stopped_solve, 30, 0, 0, PERI_OK, NULL, {1e-8, 1e-3, 1e-1}},
     {"every load step stops", halts, stopped_solve, 1, 0, 1, PERI_OK, NULL, {1e-8, 1e-3, 1e-1}},
     {"files that fail at each piece", fails, failing_file, 1, 0, 0, PERI_OK, NULL, {0, 0, 0}},
     {"files that fail by INT32_MIN", fails, failing_file, INT32_MIN, 0, 0, PERI_OK, NULL, {0, 0, 0}},

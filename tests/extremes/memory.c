@@ -13,7 +13,7 @@ static int64_t live(peri_body *b, int call, int32_t way, uint64_t *hash) {
     double *x = (double *)malloc((size_t)n * 3 * sizeof *x);
     peri_solve_desc_init(&s);
     s.method = way == 3 ? PERI_METHOD_BICGSTAB : way == 4 ? PERI_METHOD_RELAXATION : PERI_METHOD_NEWTON;
-    s.preconditioner = way < 3 ? way + 1 : PERI_PRECONDITIONER_MULTILEVEL;
+    s.preconditioner = way < 3 ? PERI_PRECONDITIONER_MULTILEVEL + way : PERI_PRECONDITIONER_MULTILEVEL;
     s.tolerance = 1e-3;
     s.loose = PERI_LOOSE_BALANCED;
     s.load_to = 0.5;
@@ -36,7 +36,7 @@ static int64_t live(peri_body *b, int call, int32_t way, uint64_t *hash) {
         peri_body_destroy(copy);
         break;
     case 4: status = peri_select_box(b, NULL, lo, hi); break;
-    case 5: status = peri_apply_traction(b, 2, peri_dimension(b) == 3 ? 27 : 9, down, shear, NULL, NULL); break;
+    case 5: status = peri_apply_traction(b, peri_id(b, PERI_KIND_SET, 2), peri_dimension(b) == 3 ? 27 : 9, down, shear, NULL, NULL); break;
     case 6: status = peri_advance(b, &r); break;
     default:
         for (int64_t k = 0; k < n; ++k) x[k] = (double)(k % 7) * 1e-3;

@@ -85,8 +85,8 @@ static outcome torn_far(const extreme *row, int32_t precision) {
                 peri_energy e;
                 for (k = 0; k < 3; ++k) s.origin[k] = at;
                 b = small_body(&o, &s);
-                (void)extreme_fails(&o, b,
-                                    space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+                (void)extreme_fails(&o, b, space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2)
+                                                                     : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
                 (void)extreme_fails(&o, b, peri_add_velocity(b, peri_select_box(b, NULL, lo, hi), right));
                 (void)extreme_fails(&o, b, peri_add_plane_obstacle(b, place, up, 0.5, NULL, NULL));
                 peri_advance_desc_init(&run);
@@ -244,7 +244,7 @@ static outcome turned_linear(const extreme *row, int32_t precision) {
             extreme_material(&m, law, nu, 0);
             (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
             (void)extreme_fails(&o, b, peri_add_material(b, &m));
-            (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+            (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
             (void)extreme_fails(&o, b, peri_build(b));
             for (k = 0; k < 3 && o.status == PERI_OK; ++k) {
                 const double c = cos(by[k]) - 1, s = sin(by[k]), solid[9] = {c, -s, 0, s, c, 0, 0, 0, 0}, plane[4] = {c, -s, s, c};
@@ -351,7 +351,7 @@ static outcome revolved(const extreme *row, int32_t precision) {
     extreme_material(&m, row->choice, 0.3, 0);
     (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
     (void)extreme_fails(&o, b, peri_add_material(b, &m));
-    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+    (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     if (extreme_fails(&o, b, peri_build(b))) return extreme_end(o, b);
     deform(&o, b, pull, NULL, NULL);
     show(&o, b, &home);
@@ -406,6 +406,7 @@ static const extreme rows[] = {
     {"1e4 revolutions, then pulled, bond-based", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
     {"1e4 revolutions, then pulled, LPS", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_LPS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
     {"1e4 revolutions, then pulled, Oterkus", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_OTERKUS, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
-    {"1e4 revolutions, then pulled, correspondence", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, {5e-13, 4e-4, 4e-4}},
+    {"1e4 revolutions, then pulled, correspondence", OBJECTIVE, revolved, 1e4, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL,
+     {5e-13, 4e-4, 4e-4}},
 };
 const extreme_table extreme_motion = EXTREME_TABLE("motion", rows);

@@ -6,7 +6,8 @@
 
 #define FIELDS 6
 
-static const int32_t fields[FIELDS] = {PERI_FIELD_ENERGY_DENSITY, PERI_FIELD_FORCE_DENSITY, PERI_FIELD_DILATATION, PERI_FIELD_STRAIN, PERI_FIELD_STRESS,
+static const int32_t fields[FIELDS] = {PERI_FIELD_ENERGY_DENSITY, PERI_FIELD_FORCE_DENSITY, PERI_FIELD_DILATATION, PERI_FIELD_STRAIN,
+                                       PERI_FIELD_STRESS,
                                        PERI_FIELD_FORCE_STRESS};
 static const char *const names[FIELDS] = {"energy density", "force density", "dilatation", "strain", "stress", "force stress"};
 
@@ -47,7 +48,8 @@ static inline peri_body *small_body(outcome *o, const scene *s) {
     extreme_material(&m, s->law, 0.3, s->stretch);
     for (k = 0; k < 3; ++k) hi[k] = s->origin[k] + h * (s->space == PERI_SPACE_SOLID ? solid[k] : plane[k]);
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m))
-        || extreme_fails(o, b, s->cloud ? peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), s->origin, hi, h, 0.5, 5) : peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), s->origin, hi, h)))
+        || extreme_fails(o, b, s->cloud ? peri_add_perturbed_box(b, material_id(b, 1), s->origin, hi, h, 0.5, 5)
+                                        : peri_add_box(b, material_id(b, 1), s->origin, hi, h)))
         return b;
     (void)extreme_fails(o, b, peri_build(b));
     return b;

@@ -88,7 +88,7 @@ static peri_body *body_of(outcome *o, int32_t law, int32_t precision, int32_t ru
     extreme_material(&m, law, 0.2, s0);
     if (!cloud) return extreme_box(o, &d, &m, hi, 1);
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m)) ||
-        extreme_fails(o, b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, 0.8, 5)))
+        extreme_fails(o, b, peri_add_perturbed_box(b, material_id(b, 1), lo, hi, 1, 0.8, 5)))
         return b;
     (void)extreme_fails(o, b, peri_build(b));
     return b;
@@ -110,13 +110,15 @@ static outcome strained(const extreme *row, int32_t precision) {
             peri_body *b = body_of(&o, scene_laws[k % 4], precision, fine ? PERI_QUADRATURE_PARTIAL : PERI_QUADRATURE_FULL,
                                    fine && !cloud ? PERI_CORRECTION_MOMENT : PERI_CORRECTION_NONE, solid, cloud, 0);
             if (o.status >= 0) {
-                count_in(&t[odd], solid ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, up, along) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+                count_in(&t[odd], solid ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, up, along)
+                         : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
                 count_in(&t[odd], peri_size_of_set(b, peri_select_box(b, NULL, lo, hi)));
                 count_in(&t[odd], peri_size_of_set(b, peri_select_ball(b, NULL, hi, 3)));
                 note_bonds(&t[odd], &o, b);
                 extreme_affine(&o, b, solid ? pull : flat, NULL);
                 for (int32_t field = PERI_FIELD_VOLUME; field <= PERI_FIELD_FORCE_STRESS; ++field)
-                    if (!fine || (field != PERI_FIELD_DAMAGE && field != PERI_FIELD_DAMAGE_GROWN)) /* parts of cells are kept to 6e-8 there */
+                    /* of damage, parts of cells are kept to 6e-8 */
+                    if (!fine || (field != PERI_FIELD_DAMAGE && field != PERI_FIELD_DAMAGE_GROWN))
                         note_field(&t[odd], &o, b, field);
                 note_field(&t[odd], &o, b, PERI_FIELD_FORCE_DENSITY);
             }

@@ -37,9 +37,11 @@ static inline peri_body *scene_plate(outcome *o, int32_t law, int32_t precision,
     b = extreme_box(o, &d, &m, hi, 1);
     if (o->status < 0) return b;
     (void)extreme_fails(o, b, set = peri_select_box(b, "edge", lo, edge));
-    (void)extreme_fails(o, b, peri_prescribe_displacement(b, set, space == PERI_SPACE_SOLID ? 7 : 3, NULL, NULL, NULL));
+    const int32_t axes = space == PERI_SPACE_SOLID ? PERI_AXIS_XYZ : PERI_AXIS_XY;
+    (void)extreme_fails(o, b, peri_prescribe_displacement(b, set, axes, NULL, NULL, NULL));
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, pull, NULL, NULL));
-    (void)extreme_fails(o, b, space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, from, up, along) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+    (void)extreme_fails(o, b, space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, from, up, along)
+                                                        : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
     return b;
 }
 

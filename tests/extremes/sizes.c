@@ -82,15 +82,15 @@ static outcome too_many_points(const extreme *row, int32_t precision) {
     if (extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))) return extreme_end(o, b);
     extreme_memory.limit = 1 << 20;
     switch (row->choice) {
-    case 0: made = peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1); break;
-    case 1: made = peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, 1, 7); break;
-    case 2: made = peri_add_ball(b, peri_id(b, PERI_KIND_MATERIAL, 1), hi, row->value / 2, 1); break;
-    default: made = peri_add_shape(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, ask, NULL); break;
+    case 0: made = peri_add_box(b, material_id(b, 1), lo, hi, 1); break;
+    case 1: made = peri_add_perturbed_box(b, material_id(b, 1), lo, hi, 1, 1, 7); break;
+    case 2: made = peri_add_ball(b, material_id(b, 1), hi, row->value / 2, 1); break;
+    default: made = peri_add_shape(b, material_id(b, 1), lo, hi, 1, ask, NULL); break;
     }
     (void)extreme_fails(&o, b, made);
     extreme_memory.limit = 0;
     if (made >= 0 || peri_point_count(b) != 0 || asked != 0) o.status = SPOILED;
-    (void)extreme_fails(&after, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, small, 1));
+    (void)extreme_fails(&after, b, peri_add_box(b, material_id(b, 1), lo, small, 1));
     (void)extreme_fails(&after, b, peri_build(b));
     if (after.status < 0 || peri_point_count(b) != (row->other > 2 ? 125 : 25)) o.status = SPOILED;
     return extreme_end(o, b);
@@ -107,11 +107,11 @@ static outcome one_box_too_many(const extreme *row, int32_t precision) {
     extreme_desc(&d, PERI_SPACE_PLANE_STRESS, precision, 2);
     extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     if (extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m)) ||
-        extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1)))
+        extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1)))
         return extreme_end(o, b);
     calls = extreme_memory.calls;
     extreme_memory.limit = 1 << 20;
-    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), far_lo, far_hi, 1));
+    (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), far_lo, far_hi, 1));
     if (extreme_memory.calls != calls || peri_point_count(b) != 16) o.status = SPOILED;
     extreme_memory.limit = 0;
     if (peri_build(b) != PERI_OK) o.status = SPOILED;
@@ -132,7 +132,7 @@ static outcome too_many_bonds(const extreme *row, int32_t precision) {
     extreme_desc(&d, PERI_SPACE_PLANE_STRESS, precision, 1e4);
     extreme_material(&m, row->choice, 0.2, 0);
     if (extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m)) ||
-        extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1)))
+        extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1)))
         return extreme_end(o, b);
     blocks = extreme_memory.blocks;
     extreme_memory.limit = 2 << 20;
@@ -183,7 +183,8 @@ static outcome pairs_far_apart(const extreme *row, int32_t precision) {
             extreme_fails(&o, b, peri_add_points(b, 2 * PAIRS, x, volume, NULL)))
             return extreme_end(o, b);
         built = peri_build(b);
-        if (built != PERI_OK && precision == PERI_PRECISION_SINGLE && built != PERI_ERROR_MEMORY) { /* places beyond its digits: refused, not wrong */
+        /* places beyond its digits: refused, not wrong */
+        if (built != PERI_OK && precision == PERI_PRECISION_SINGLE && built != PERI_ERROR_MEMORY) {
             peri_body_destroy(b);
             continue;
         }
@@ -248,15 +249,15 @@ static outcome nothing(const extreme *row, int32_t precision) {
         peri_advance_desc run;
         peri_error e;
         if (o.status < 0) return extreme_end(o, b);
-        const int32_t dim = peri_dimension(b), sets = peri_find_set(b, "edge");
+        const int32_t dim = peri_dimension(b), edge = peri_find_set(b, "edge");
         const int64_t n = peri_point_count(b), cut = peri_cut_count(b);
-        HOLDS(cut > 0 && sets == 1);
+        HOLDS(cut > 0 && edge == peri_id(b, PERI_KIND_SET, 1));
         ENDS(PERI_ERROR_CAPACITY, peri_get_field(b, PERI_FIELD_DISPLACEMENT, x, 0));
         ENDS(PERI_ERROR_CAPACITY, peri_get_field(b, PERI_FIELD_STRESS, x, INT64_MIN));
         ENDS(PERI_ERROR_CAPACITY, peri_set_field(b, PERI_FIELD_VELOCITY, x, 0));
         ENDS(PERI_ERROR_CAPACITY, peri_set_field(b, PERI_FIELD_VELOCITY, x, INT64_MIN));
         ENDS(PERI_ERROR_CAPACITY, peri_multiply_stiffness(b, x, x, 0));
-        ENDS(PERI_ERROR_CAPACITY, peri_get_set(b, sets, ids, 0));
+        ENDS(PERI_ERROR_CAPACITY, peri_get_set(b, edge, ids, 0));
         ENDS(PERI_ERROR_CAPACITY, peri_get_families(b, 0, 1, ids, 0));
         ENDS(PERI_OK, peri_get_families(b, 0, 0, ids, 0));
         ENDS(PERI_OK, peri_get_families(b, n, 0, ids, 0));
@@ -321,25 +322,30 @@ static outcome off_by_one(const extreme *row, int32_t precision) {
                 ENDS(PERI_ERROR_FIELD, peri_set_field(b, field, x, n));
             free(x);
         }
-        ENDS(PERI_ERROR_FIELD, peri_size_of_field(b, PERI_FIELD_REACTION + 1));
-        ENDS(PERI_ERROR_FIELD, peri_size_of_field(b, 0));
-        const int64_t n = peri_point_count(b), width = peri_family_width(b), held = peri_size_of_set(b, 1);
+        ENDS(PERI_ERROR_CHOICE, peri_size_of_field(b, PERI_FIELD_REACTION + 1));
+        ENDS(PERI_ERROR_CHOICE, peri_size_of_field(b, 0));
+        const int32_t edge = peri_find_set(b, "edge"), foreign = edge ^ 1 << 20;
+        const int64_t n = peri_point_count(b), width = peri_family_width(b), held = peri_size_of_set(b, edge);
         int32_t *ids = (int32_t *)malloc((size_t)(n * width + 1) * sizeof *ids);
         ids[0] = ids[n * width] = ids[held] = -7;
         ENDS(PERI_ERROR_CAPACITY, peri_get_families(b, 0, n, ids, n * width - 1));
         HOLDS(peri_get_error(b, &e) == PERI_OK && e.value == (double)(n * width) && ids[0] == -7);
-        ENDS(PERI_ERROR_CAPACITY, peri_get_set(b, 1, ids, held - 1));
+        ENDS(PERI_ERROR_CAPACITY, peri_get_set(b, edge, ids, held - 1));
         HOLDS(peri_get_error(b, &e) == PERI_OK && e.value == (double)held && ids[0] == -7);
-        ENDS(PERI_OK, peri_get_set(b, 1, ids, held));
+        ENDS(PERI_OK, peri_get_set(b, edge, ids, held));
         HOLDS(ids[0] == 0 && ids[held] == -7);
         ENDS(PERI_OK, peri_get_families(b, 0, n, ids, n * width));
         HOLDS(ids[0] == 1 && ids[n * width] == -7);
         ENDS(PERI_ERROR_INDEX, peri_get_families(b, 1, n, ids, n * width));
         free(ids);
-        ENDS(PERI_ERROR_ID_NONE, peri_size_of_set(b, 2));
+        ENDS(PERI_ERROR_ID_NONE, peri_size_of_set(b, 1));
+        ENDS(PERI_ERROR_ID_GONE, peri_size_of_set(b, edge + 1));
+        ENDS(PERI_ERROR_ID_BODY, peri_size_of_set(b, foreign));
+        ENDS(PERI_ERROR_ID_KIND, peri_size_of_set(b, material_id(b, 1)));
         ENDS(PERI_ERROR_INDEX, peri_bond_is_intact(b, 0, (int32_t)n));
         ENDS(PERI_ERROR_INDEX, peri_bond_is_intact(b, INT32_MIN, INT32_MAX));
-        ENDS(PERI_ERROR_ID_GONE, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 3)));
+        ENDS(PERI_ERROR_ID_GONE, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 2) + 1));
+        ENDS(PERI_ERROR_ID_GONE, peri_id(b, PERI_KIND_LOAD, 3));
         ENDS(PERI_ERROR_ID_NONE, peri_remove_load(b, INT32_MIN));
         o = extreme_end(o, b);
     }
@@ -359,20 +365,20 @@ static outcome materials(const extreme *row, int32_t precision) {
         for (int many = 0; many < 2; ++many) {
             const int32_t count = many ? 120 : 1;
             double x[3 * 360], volume[360];
-            int32_t ids[360], id = 0;
+            int32_t ids[360], given[120], id = 0;
             peri_body_desc d;
             peri_material_desc m;
             peri_body *b = NULL;
             extreme_desc(&d, row->choice, precision, 2.1);
             extreme_material(&m, scene_laws[k], 0.2, 0);
             (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
-            for (int32_t q = 0; q < count; ++q) HOLDS(peri_add_material(b, &m) == q);
-            if (many) ENDS(PERI_ERROR_MATERIAL, peri_add_material(b, &m));
+            for (int32_t q = 0; q < count; ++q) HOLDS(PERI_ID_INDEX(given[q] = peri_add_material(b, &m)) == q + 1);
+            if (many) ENDS(PERI_ERROR_TOO_LARGE, peri_add_material(b, &m));
             for (int i = 0; i < 360; ++i) {
                 const int at[3] = {i % 10, i / 10 % 6, i / 60}, flat_at[2] = {i % 20, i / 20};
                 for (int a = 0; a < dim; ++a) x[i * dim + a] = dim == 3 ? at[a] : flat_at[a];
                 volume[i] = 1;
-                ids[i] = (id = (id + 77) % count); /* 77 and 120 share no factor: all of them in turn */
+                ids[i] = given[id = (id + 77) % count]; /* 77 and 120 share no factor: all of them in turn */
             }
             if (extreme_fails(&o, b, peri_add_points(b, 360, x, volume, ids)) || extreme_fails(&o, b, peri_build(b)))
                 return extreme_end(o, b);
@@ -399,12 +405,12 @@ static outcome many_loads(const extreme *row, int32_t precision) {
         if (o.status < 0) return extreme_end(o, b);
         (void)extreme_fails(&o, b, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 1)));
         (void)extreme_fails(&o, b, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 2)));
-        for (int i = 0; i < (int)row->value; ++i) HOLDS(peri_apply_body_force(b, PERI_ALL, part, NULL, NULL) == i + 2);
+        for (int i = 0; i < (int)row->value; ++i) HOLDS(PERI_ID_INDEX(peri_apply_body_force(b, PERI_ALL, part, NULL, NULL)) == i + 3);
         f = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         for (int64_t i = 0; f && i < peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY); ++i)
             o.error = extreme_worst(o.error, fabs(f[i] / whole[i % 2] - 1));
         free(f);
-        for (int i = 0; i < (int)row->value; ++i) (void)extreme_fails(&o, b, peri_remove_load(b, i + 2));
+        for (int i = 0; i < (int)row->value; ++i) (void)extreme_fails(&o, b, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, i + 3)));
         f = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         for (int64_t i = 0; f && i < peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY); ++i) HOLDS(f[i] == 0);
         free(f);
@@ -423,7 +429,7 @@ static outcome many_supports(const extreme *row, int32_t precision) {
     if (o.status < 0) return extreme_end(o, b);
     for (int i = 0; i < count; ++i) {
         const double value[2] = {1e-3 * (i + 1) / count, 0};
-        HOLDS(peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_X | PERI_AXIS_Y, value, NULL, NULL) == i + 2);
+        HOLDS(PERI_ID_INDEX(peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_XY, value, NULL, NULL)) == i + 3);
     }
     peri_advance_desc_init(&run);
     run.steps = 1;
@@ -448,12 +454,13 @@ static outcome many_obstacles(const extreme *row, int32_t precision) {
         before = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         step = peri_stable_step(b);
         for (int i = 0; i < (int)row->value; ++i)
-            HOLDS((i % 2 ? peri_add_plane_obstacle(b, place, up, 1, NULL, NULL)
-                         : peri_add_ball_obstacle(b, centre, 2, 1, NULL, NULL)) == i);
+            HOLDS(PERI_ID_INDEX(i % 2 ? peri_add_plane_obstacle(b, place, up, 1, NULL, NULL)
+                                      : peri_add_ball_obstacle(b, centre, 2, 1, NULL, NULL)) == i + 1);
         after = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         for (int64_t i = 0; before && after && i < peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY); ++i) HOLDS(before[i] == after[i]);
         o.error = extreme_worst(o.error, fabs(peri_stable_step(b) * sqrt(4 / (step * step) + row->value) / 2 - 1));
-        for (int i = 0; i < (int)row->value; ++i) (void)extreme_fails(&o, b, peri_remove_obstacle(b, i));
+        for (int i = 0; i < (int)row->value; ++i)
+            (void)extreme_fails(&o, b, peri_remove_obstacle(b, peri_id(b, PERI_KIND_OBSTACLE, i + 1)));
         HOLDS(peri_stable_step(b) == step);
         free(before);
         free(after);
@@ -475,19 +482,21 @@ static outcome many_sets(const extreme *row, int32_t precision) {
     for (int i = 0; i < (int)row->value; ++i) {
         const int32_t point = i % 54;
         (void)snprintf(name, sizeof name, "a set with number %d", i);
-        HOLDS(peri_select_points(b, name, 1, &point) == i + 2);
+        HOLDS(PERI_ID_INDEX(peri_select_points(b, name, 1, &point)) == i + 2);
     }
     for (int i = 0; i < (int)row->value; i += 7) {
         int32_t point = -1;
         (void)snprintf(name, sizeof name, "a set with number %d", i);
-        HOLDS(peri_find_set(b, name) == i + 2 && peri_get_set(b, i + 2, &point, 1) == PERI_OK && point == i % 54);
+        const int32_t set = peri_id(b, PERI_KIND_SET, i + 2);
+        HOLDS(peri_find_set(b, name) == set && peri_get_set(b, set, &point, 1) == PERI_OK && point == i % 54);
         ENDS(PERI_ERROR_NAME, peri_select_points(b, name, 1, &point));
     }
     memset(huge, 'x', LETTERS);
     huge[LETTERS] = 0;
     for (int32_t k = 0; k < 2; ++k) {
         huge[LETTERS - 1] = (char)('a' + k);
-        HOLDS(peri_select_points(b, huge, 1, &k) == (int)row->value + 2 + k && peri_find_set(b, huge) == (int)row->value + 2 + k);
+        const int32_t set = peri_select_points(b, huge, 1, &k);
+        HOLDS(PERI_ID_INDEX(set) == (int)row->value + 2 + k && peri_find_set(b, huge) == set);
         ENDS(PERI_ERROR_NAME, peri_select_points(b, huge, 1, &k));
     }
     free(huge);
@@ -529,15 +538,15 @@ static const extreme rows[] = {
     {"pairs 1e9 horizons apart, in space", "the same", pairs_far_apart, 1e9, 0, 3, PERI_OK, NULL, {1e-12, 1e-6, 1e-3}},
     {"pairs 1e3 horizons apart, in space", "the same; single precision: bonds of length 1 at places of 6e3, which are exact",
      pairs_far_apart, 1e3, 0, 3, PERI_OK, NULL, {1e-12, 1e-6, 1e-3}},
-    {"a horizon of 1e-200 spacings", "peri.h: the horizon is smaller than the spacing of the points", horizon_of, 1e-200, PERI_SPACE_SOLID, 0,
-     PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
+    {"a horizon of 1e-200 spacings", "peri.h: the horizon is smaller than the spacing of the points", horizon_of, 1e-200, PERI_SPACE_SOLID,
+     0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
     {"a horizon of 1e-200 spacings, 2D", "the same", horizon_of, 1e-200, PERI_SPACE_PLANE_STRESS, 0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
     {"a horizon of 5e-324 spacings", "the same", horizon_of, 5e-324, PERI_SPACE_SOLID, 0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
     {"cells of 1e-300", large, spacing_of, 1e-300, PERI_SPACE_SOLID, 0, PERI_ERROR_TOO_LARGE, "spacing", {0, 0, 0}},
     {"cells of 5e-324", large, spacing_of, 5e-324, PERI_SPACE_PLANE_STRAIN, 0, PERI_ERROR_TOO_LARGE, "spacing", {0, 0, 0}},
     {"cells of 1e300: one, which is 4 wide", "peri.h: at least one cell, that tiles the box; smaller than the horizon 3 it is not",
      spacing_of, 1e300, PERI_SPACE_SOLID, 0, PERI_ERROR_HORIZON, NULL, {0, 0, 0}},
-    {"nothing asked for, 2D", "peri.h: PERI_ERROR_CAPACITY, _ID, _SET, _ARGUMENT, or no work done; nothing changed", nothing, 0, 0,
+    {"nothing asked for, 2D", "peri.h: PERI_ERROR_CAPACITY, _INDEX, _EMPTY, _ARGUMENT, or no work done; nothing changed", nothing, 0, 0,
      PERI_SPACE_PLANE_STRAIN, PERI_OK, NULL, {0, 0, 0}},
     {"nothing asked for, 3D", "the same", nothing, 0, 0, PERI_SPACE_SOLID, PERI_OK, NULL, {0, 0, 0}},
     {"one entry less and more, 2D", "peri.h: PERI_ERROR_CAPACITY with the size; what fits is filled to its end and no further", off_by_one,

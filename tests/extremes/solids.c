@@ -1,7 +1,9 @@
 /* solids.c - equilibria of bodies: against factorised matrices, uniform stress; floating, breaking. */
 #include "extremes.h"
 
-static double tolerance_of(int32_t precision) { return precision == PERI_PRECISION_DOUBLE ? 1e-8 : precision == PERI_PRECISION_MIXED ? 1e-5 : 1e-4; }
+static double tolerance_of(int32_t precision) {
+    return precision == PERI_PRECISION_DOUBLE ? 1e-8 : precision == PERI_PRECISION_MIXED ? 1e-5 : 1e-4;
+}
 
 static double value_of(const peri_body *b) {
     peri_error e;
@@ -33,12 +35,12 @@ static peri_body *body_of(outcome *o, const solid *s) {
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m))) return b;
     memcpy(middle_hi, hi, sizeof hi);
     middle_hi[0] = middle_lo[0] = split;
-    if (s->ratio == 1) (void)extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+    if (s->ratio == 1) (void)extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     else {
         m.young = s->ratio;
         (void)extreme_fails(o, b, peri_add_material(b, &m));
-        (void)extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, middle_hi, 1));
-        (void)extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 2), middle_lo, hi, 1));
+        (void)extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, middle_hi, 1));
+        (void)extreme_fails(o, b, peri_add_box(b, material_id(b, 2), middle_lo, hi, 1));
     }
     if (o->status >= 0) (void)extreme_fails(o, b, peri_build(b));
     return b;
@@ -52,6 +54,7 @@ static solid plain(int32_t precision, int32_t space, int32_t law) {
     s.law = law;
     s.geometry = PERI_GEOMETRY_LINEAR;
     s.correction = PERI_CORRECTION_NONE;
+    s.kernel = PERI_KERNEL_BEST;
     s.nx = 6;
     s.ny = 4;
     s.nz = space == PERI_SPACE_SOLID ? 3 : 1;
@@ -176,8 +179,8 @@ static void compare(outcome *o, const dense *a, const solid *s, const peri_solve
     int64_t k;
     int32_t code;
     if (o->status >= 0) {
-        (void)extreme_fails(o, b, peri_prescribe_displacement(b, extreme_slab(o, b, 0, 0, 2), s->space == PERI_SPACE_SOLID ? 7 : 3,
-            NULL, NULL, NULL));
+        const int32_t axes = s->space == PERI_SPACE_SOLID ? PERI_AXIS_XYZ : PERI_AXIS_XY;
+        (void)extreme_fails(o, b, peri_prescribe_displacement(b, extreme_slab(o, b, 0, 0, 2), axes, NULL, NULL, NULL));
         (void)extreme_fails(o, b, peri_apply_body_force(b, extreme_slab(o, b, 0, s->nx - 1, s->nx), force, NULL, NULL));
     }
     if (o->status >= 0) {
@@ -322,7 +325,7 @@ static outcome floating(const extreme *row, int32_t precision) {
                 (void)extreme_fails(&o, b, code);
                 if (r.loose != dim * (dim + 1) / 2) extreme_take(&o, HUGE_VAL, "motions, space, law", space, law, (int)r.loose);
                 u = extreme_read(&o, b, PERI_FIELD_DISPLACEMENT);
-                strain[loose - 2] = extreme_read(&o, b, PERI_FIELD_STRAIN);
+                strain[loose - PERI_LOOSE_PINNED] = extreme_read(&o, b, PERI_FIELD_STRAIN);
                 for (k = 0; u && k < peri_point_count(b); ++k) { /* unit volumes */
                     const int column = (int)(k % s.nx);
                     int d;
@@ -384,7 +387,7 @@ static outcome burst(const extreme *row, int32_t precision) {
         for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
             for (loose = PERI_LOOSE_REFUSED; loose <= PERI_LOOSE_BALANCED && o.status >= 0; ++loose) {
                 const int dim = dimension(space);
-                const int32_t axes = dim == 3 ? 7 : 3;
+                const int32_t axes = dim == 3 ? PERI_AXIS_XYZ : PERI_AXIS_XY;
                 solid s = plain(precision, space, law);
                 peri_body *b;
                 peri_solve_desc st;

@@ -51,8 +51,8 @@ static peri_body *body_of(outcome *o, int32_t precision, int32_t space, int32_t 
             v[n++] = 0.5 + test_random(&seed);
         }
         (void)extreme_fails(o, b, peri_add_points(b, n, x, v, NULL));
-    } else if (k == MOVED) (void)extreme_fails(o, b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, 1, 5));
-    else (void)extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+    } else if (k == MOVED) (void)extreme_fails(o, b, peri_add_perturbed_box(b, material_id(b, 1), lo, hi, 1, 1, 5));
+    else (void)extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     if (extreme_fails(o, b, peri_build(b))) return b;
     if (k == CUT) (void)extreme_fails(o, b, peri_cut_if(b, PERI_CUT_INITIAL, cut_some, NULL));
     if (k == TRAPPED) { /* from both sides, all points deep in both: springs of twice the stiffness to the middle */
@@ -237,7 +237,7 @@ static void end_of(outcome *o, int32_t precision, int32_t law, int32_t integrato
     set = peri_select_box(b, NULL, lo, hi);
     randomize(o, b, PERI_FIELD_VELOCITY, 0.01, 17);
     (void)extreme_fails(o, b, peri_add_displacement(b, PERI_ALL, start));
-    grip = peri_prescribe_displacement(b, set, PERI_AXIS_X | PERI_AXIS_Y, start, glides ? glide : NULL, &dim);
+    grip = peri_prescribe_displacement(b, set, PERI_AXIS_XY, start, glides ? glide : NULL, &dim);
     (void)extreme_fails(o, b, grip);
     peri_advance_desc_init(&run);
     run.integrator = integrator;
@@ -312,7 +312,8 @@ static outcome pieces(const extreme *row, int32_t precision) {
                 run.integrator = row->choice;
                 randomize(&o, b, PERI_FIELD_VELOCITY, 0.01, 23);
                 if (o.status >= 0) {
-                    (void)extreme_fails(&o, b, peri_prescribe_velocity(b, peri_select_box(b, NULL, lo, hi), PERI_AXIS_Y, drive, NULL, NULL));
+                    (void)extreme_fails(&o, b, peri_prescribe_velocity(b, peri_select_box(b, NULL, lo, hi), PERI_AXIS_Y, drive, NULL,
+                                                                       NULL));
                     (void)extreme_fails(&o, b, peri_apply_body_force(b, PERI_ALL, pull_by, NULL, NULL));
                     run.time_step = 0.5 * peri_stable_step(b);
                 }

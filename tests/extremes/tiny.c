@@ -87,7 +87,7 @@ static outcome denormal(const extreme *row, int32_t precision) {
 static double *settle(outcome *o, const scene *s, int displaced, double size, int64_t *n, int32_t *status) {
     const double lo[3] = {-1, -1, -1}, hi[3] = {1, 99, 99}, far_lo[3] = {4, -1, -1}, far_hi[3] = {99, 99, 99};
     const double value[3] = {1e-3 * size, 4e-4 * size, 0};
-    const int32_t axes = s->space == PERI_SPACE_SOLID ? 7 : 3;
+    const int32_t axes = s->space == PERI_SPACE_SOLID ? PERI_AXIS_XYZ : PERI_AXIS_XY;
     peri_body *b = small_body(o, s);
     peri_solve_desc st;
     int32_t set;

@@ -30,10 +30,11 @@ static outcome joined(const extreme *row, int32_t precision) {
                 v[k] = 1;
             }
             if (extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))
-                || extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1)) || extreme_fails(&o, b, peri_add_points(b, count, x, v, NULL))
+                || extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1))
+                || extreme_fails(&o, b, peri_add_points(b, count, x, v, NULL))
                 || extreme_fails(&o, b, peri_build(b)))
                 return extreme_end(o, b);
-            (void)extreme_fails(&o, b, peri_prescribe_displacement(b, extreme_slab(&o, b, 0, -1, 2.5), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+            (void)extreme_fails(&o, b, peri_prescribe_displacement(b, extreme_slab(&o, b, 0, -1, 2.5), PERI_AXIS_XY, NULL, NULL, NULL));
             (void)extreme_fails(&o, b, peri_apply_body_force(b, extreme_slab(&o, b, 0, 2.5, 9), force, NULL, NULL));
             peri_solve_desc_init(&st);
             st.loose = loose;
@@ -67,7 +68,7 @@ static outcome strut(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     const double x[8] = {0, 0, 1, 0, 2, 0, 1, 1}, v[4] = {1, 1, 1, 1}, right[2] = {0.1, 0}, left[2] = {-0.1, 0},
                  spring = 9 / (PI * pow(1.2, 3));
-    const int32_t of[4] = {0, 0, 0, 1}, ends[3] = {0, 2, 3}, middle = 1;
+    const int32_t ends[3] = {0, 2, 3}, middle = 1;
     const double push[2] = {0, -1e-3};
     double low = 0.1, high = 0.5, u[8] = {0};
     peri_body_desc d;
@@ -80,11 +81,12 @@ static outcome strut(const extreme *row, int32_t precision) {
     if (extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))) return extreme_end(o, b);
     (void)extreme_fails(&o, b, peri_add_material(b, &m));
     m.young = 0.01;
-    (void)extreme_fails(&o, b, peri_set_interface(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 2), &m));
+    (void)extreme_fails(&o, b, peri_set_interface(b, material_id(b, 1), material_id(b, 2), &m));
+    const int32_t strut_id = material_id(b, 1), of[4] = {strut_id, strut_id, strut_id, material_id(b, 2)};
     (void)extreme_fails(&o, b, peri_add_points(b, 4, x, v, of));
     if (o.status >= 0) (void)extreme_fails(&o, b, peri_build(b));
     if (o.status < 0) return extreme_end(o, b);
-    (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, 3, ends), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+    (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, 3, ends), PERI_AXIS_XY, NULL, NULL, NULL));
     (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, 1, &ends[0]), PERI_AXIS_X, right, NULL, NULL));
     (void)extreme_fails(&o, b, peri_prescribe_displacement(b, peri_select_points(b, NULL, 1, &ends[1]), PERI_AXIS_X, left, NULL, NULL));
     if (row->choice) (void)extreme_fails(&o, b, peri_apply_body_force(b, peri_select_points(b, NULL, 1, &middle), push, NULL, NULL));
@@ -121,9 +123,9 @@ static outcome slender(const extreme *row, int32_t precision) {
     d.geometry = PERI_GEOMETRY_LINEAR;
     extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     if (extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(&o, b, peri_add_material(b, &m))) return extreme_end(o, b);
-    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+    (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     if (o.status >= 0 && !extreme_fails(&o, b, peri_build(b))) {
-        (void)extreme_fails(&o, b, peri_prescribe_displacement(b, extreme_slab(&o, b, 0, 0, 2), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
+        (void)extreme_fails(&o, b, peri_prescribe_displacement(b, extreme_slab(&o, b, 0, 0, 2), PERI_AXIS_XY, NULL, NULL, NULL));
         (void)extreme_fails(&o, b, peri_apply_body_force(b, extreme_slab(&o, b, 0, 999, 1000), row->choice ? bend : pull, NULL, NULL));
     }
     peri_solve_desc_init(&st);
@@ -159,7 +161,8 @@ static const extreme rows[] = {
     {"the same, with a push aside", "its equation of balance, by bisection", strut, 0, 0, 1, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},
     {"a strip 1 : 500 points, pulled", "a truss of chords, posts and braces", slender, PERI_PRECONDITIONER_MULTILEVEL, 0, 0, PERI_OK, NULL,
      {1e-6, 1e-3, 1e-2}},
-    {"the same, block Jacobi", "a truss of chords, posts and braces", slender, PERI_PRECONDITIONER_BLOCK_JACOBI, 0, 0, PERI_OK, NULL, {1e-6, 1e-3, 1e-2}},
+    {"the same, block Jacobi", "a truss of chords, posts and braces", slender, PERI_PRECONDITIONER_BLOCK_JACOBI, 0, 0, PERI_OK, NULL,
+     {1e-6, 1e-3, 1e-2}},
     {"a strip 1 : 500 points, bent", "F L^3/(3 E I) of two chords, E I = k/2", slender, PERI_PRECONDITIONER_MULTILEVEL, 0, 1, PERI_OK, NULL,
      {0.01, 0.01, 0.01}},
 };

@@ -119,11 +119,12 @@ static void keep_all(record *r, outcome *o, peri_body *b, const units *s, const 
     numbers[0] = (double)r->broken;
     numbers[1] = (double)peri_cut_count(b);
     keep(r, "broken and cut", numbers, 2, 1);
-    if (c->law == PERI_LAW_BOND_BASED && !extreme_fails(o, b, peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), &numbers[0], &numbers[1]))) {
+    const int32_t id = material_id(b, 1);
+    if (c->law == PERI_LAW_BOND_BASED && !extreme_fails(o, b, peri_get_bond_constants(b, id, id, &numbers[0], &numbers[1]))) {
         keep(r, "micromodulus", numbers, 1, s->stress / (s->length * cube(s, c)));
         keep(r, "critical stretch", numbers + 1, 1, 1);
     }
-    if (c->criterion != PERI_CRITERION_STRETCH && !extreme_fails(o, b, peri_get_critical_energy(b, peri_id(b, PERI_KIND_MATERIAL, 1), numbers)))
+    if (c->criterion != PERI_CRITERION_STRETCH && !extreme_fails(o, b, peri_get_critical_energy(b, id, numbers)))
         keep(r, "critical energy", numbers, 1, s->stress / cube(s, c));
 }
 
@@ -171,9 +172,9 @@ static peri_body *bar(outcome *o, const units *s, const scene *c, double limit) 
     if (c->source == 3) d.correction = PERI_CORRECTION_MOMENT;
     if (limit > 0) m.fracture_energy = limit * 1e-3 * s->stress * l;
     if (extreme_fails(o, NULL, peri_body_create(&d, &b, NULL)) || extreme_fails(o, b, peri_add_material(b, &m))) return b;
-    if (c->source == 1) (void)extreme_fails(o, b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, l, 0.7, 3));
+    if (c->source == 1) (void)extreme_fails(o, b, peri_add_perturbed_box(b, material_id(b, 1), lo, hi, l, 0.7, 3));
     else if (c->source == 2) give_points(o, b, hi, l, dim_of(c));
-    else (void)extreme_fails(o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, l));
+    else (void)extreme_fails(o, b, peri_add_box(b, material_id(b, 1), lo, hi, l));
     if (o->status == PERI_OK) (void)extreme_fails(o, b, peri_build(b));
     return b;
 }
@@ -189,7 +190,8 @@ static int32_t slab(outcome *o, peri_body *b, const units *s, double from, doubl
 static void notch(outcome *o, peri_body *b, const units *s, const scene *c) {
     const double l = s->length, lo[3] = {3 * l, 2.3 * l, -l}, edge1[3] = {0, 9 * l, 0}, edge2[3] = {0, 0, 9 * l};
     const double from[2] = {6 * l, 3.3 * l}, to[2] = {6 * l, 9 * l};
-    (void)extreme_fails(o, b, c->space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, lo, edge1, edge2) : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
+    (void)extreme_fails(o, b, c->space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, lo, edge1, edge2)
+                                                           : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
 }
 
 /* Pulled apart by its ends, loaded, damped, thrown at a plane and a ball: everything that acts has other units. */
@@ -210,9 +212,8 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
         for (k = 0; k < 2; ++k) (void)extreme_fails(o, b, peri_set_no_fail(b, sets[k], 1));
     loads[0] = peri_prescribe_velocity(b, sets[0], PERI_AXIS_X, left, NULL, NULL);
     (void)extreme_fails(o, b, loads[0]);
-    (void)extreme_fails(o, b, peri_prescribe_velocity(b, sets[1], PERI_AXIS_X | PERI_AXIS_Y, right, NULL, NULL));
-    loads[1] = peri_apply_layer_traction(b, slab(o, b, s, 2, 4), (c->space == PERI_SPACE_SOLID ? 2 : 1) * l * (dim_of(c) == 3 ? l : 1), pressure,
-                                   NULL, NULL);
+    (void)extreme_fails(o, b, peri_prescribe_velocity(b, sets[1], PERI_AXIS_XY, right, NULL, NULL));
+    loads[1] = peri_apply_layer_traction(b, slab(o, b, s, 2, 4), (dim_of(c) == 3 ? 2 * l : 1) * l, pressure, NULL, NULL);
     (void)extreme_fails(o, b, loads[1]);
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, weight, NULL, NULL));
     (void)extreme_fails(o, b, peri_add_velocity(b, PERI_ALL, down));
@@ -240,7 +241,7 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
 static peri_body *hold(outcome *o, const units *s, const scene *c, record *r) {
     const double l = s->length, width = c->space == PERI_SPACE_SOLID ? 7 : 12, high = c->space == PERI_SPACE_SOLID ? 4 : 5;
     const double along[3] = {1, 0, 0}, value[3] = {1e-3 * s->stress, 2e-4 * s->stress, 0}, area = high * l * (dim_of(c) == 3 ? 3 * l : 1);
-    const int32_t axes = PERI_AXIS_X | PERI_AXIS_Y | (c->space == PERI_SPACE_SOLID ? PERI_AXIS_Z : 0);
+    const int32_t axes = PERI_AXIS_XY | (c->space == PERI_SPACE_SOLID ? PERI_AXIS_Z : 0);
     double *u, force[3];
     int64_t n;
     int32_t held;
@@ -318,7 +319,7 @@ static outcome every_unit(const extreme *row, int32_t precision) {
             /* spaces change with k, densities with n: turned by the modulus, so that they meet in all ways */
             c.space = PERI_SPACE_PLANE_STRESS + (n + n / 3 + n / 9) % 3;
             c.geometry = PERI_GEOMETRY_NONLINEAR + n / 2 % 2;
-            if (row->other == 2) c.source = PERI_SOURCE_BOX + PERI_SPACE_SOLID - c.space;
+            if (row->other == 2) c.source = 1 + PERI_SPACE_SOLID - c.space;
             compare(&o, row, act, &s, &c, &want[(PERI_SPACE_SOLID - c.space) + 3 * (PERI_GEOMETRY_LINEAR - c.geometry)]);
         }
     }
@@ -379,7 +380,8 @@ static outcome far_units(const extreme *row, int32_t precision) {
     memset(want, 0, sizeof want);
     for (k = 0; k < 2; ++k)
         for (space = 0; space < 3; ++space) {
-            const scene c = {space + 1, precision, k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+            const scene c = {PERI_SPACE_PLANE_STRESS + space, precision, k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED,
+                             PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
             o = extreme_end(o, pull(&o, &one, &c, &want[k][space]));
         }
     for (a = -most; a <= most; ++a)
@@ -387,10 +389,11 @@ static outcome far_units(const extreme *row, int32_t precision) {
             for (d = -most; d <= most && o.status == PERI_OK; ++d) {
                 const double ten = pow(10, row->value);
                 const units s = {pow(ten, a), pow(ten, e), pow(ten, d), pow(ten, a)};
-                scene c = {1 + (a + e + d + 3 * most) % 3, precision, 0, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+                scene c = {PERI_SPACE_PLANE_STRESS + (a + e + d + 3 * most) % 3, precision, 0, PERI_GEOMETRY_NONLINEAR,
+                           PERI_CRITERION_STRETCH, 0, 0};
                 k = (a + d + 2 * most) % 2;
                 c.law = k ? PERI_LAW_CORRESPONDENCE : PERI_LAW_BOND_BASED;
-                compare(&o, row, pull, &s, &c, &want[k][c.space - 1]);
+                compare(&o, row, pull, &s, &c, &want[k][c.space - PERI_SPACE_PLANE_STRESS]);
                 right += o.status == PERI_OK;
                 if (o.status == PERI_ERROR_RANGE && !row->choice) o.status = PERI_OK;
                 else if (o.status < 0)
@@ -407,7 +410,8 @@ static outcome one_far_unit(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     units s = one;
     record r = {{0}, {0}, {0}, 0, 0};
-    const scene c = {row->other == 2 ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_SOLID, precision, PERI_LAW_LPS, PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, 0, 0};
+    const scene c = {row->other == 2 ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_SOLID, precision, PERI_LAW_LPS, PERI_GEOMETRY_NONLINEAR,
+                     PERI_CRITERION_STRETCH, 0, 0};
     double *const which[4] = {&s.length, &s.stress, &s.density, &s.thickness};
     *which[row->choice] = pow(10, row->value);
     o = extreme_end(o, pull(&o, &s, &c, &r));
@@ -429,7 +433,7 @@ static outcome planned_far(const extreme *row, int32_t precision) {
         peri_body *b = NULL;
         outcome built = {PERI_OK, "", 0};
         int i, same;
-        extreme_desc(&d, 1 + k % 3, precision, 2 * l);
+        extreme_desc(&d, PERI_SPACE_PLANE_STRESS + k % 3, precision, 2 * l);
         extreme_material(&m, PERI_LAW_LPS, 0.2, 0.1);
         if (k / 41 == 1) m.young = ten;
         if (k / 41 == 2) m.density = ten;
@@ -439,12 +443,12 @@ static outcome planned_far(const extreme *row, int32_t precision) {
         p.spacing = l;
         for (i = 0; i < 3; ++i) p.hi[i] = 5 * l;
         if (!extreme_fails(&built, NULL, peri_body_create(&d, &b, NULL)) && !extreme_fails(&built, b, peri_add_material(b, &m))
-            && !extreme_fails(&built, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), p.lo, p.hi, l)))
+            && !extreme_fails(&built, b, peri_add_box(b, material_id(b, 1), p.lo, p.hi, l)))
             (void)extreme_fails(&built, b, peri_build(b));
         same = peri_plan(&p, &report, &error) == built.status && strcmp(built.field, error.field) == 0;
         if (built.status == PERI_OK) /* a box without correction: exact (peri.h) */
             same = same && fabs(report.stable_step - peri_stable_step(b)) <= 1e-5 * peri_stable_step(b);
-        extreme_note(&o, row, precision, same ? 0 : 1, "%g of kind %d, space %d: built %d %s, planned %d %s", ten, k / 41, 1 + k % 3,
+        extreme_note(&o, row, precision, same ? 0 : 1, "%g of kind %d, space %d: built %d %s, planned %d %s", ten, k / 41, d.space,
                      (int)built.status, built.field, (int)error.code, error.field);
         built = extreme_end(built, b);
         if (built.status == NOT_FINITE) o.status = NOT_FINITE;
@@ -468,7 +472,8 @@ static outcome constants(const extreme *row, int32_t precision) {
         m.fracture_energy = row->other;
     }
     if (!extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL)) && !extreme_fails(&o, b, peri_add_material(b, &m)))
-        (void)extreme_fails(&o, b, row->choice ? peri_get_critical_energy(b, peri_id(b, PERI_KIND_MATERIAL, 1), &got) : peri_get_bond_constants(b, peri_id(b, PERI_KIND_MATERIAL, 1), peri_id(b, PERI_KIND_MATERIAL, 1), &got, NULL));
+        (void)extreme_fails(&o, b, row->choice ? peri_get_critical_energy(b, material_id(b, 1), &got)
+                                               : peri_get_bond_constants(b, material_id(b, 1), material_id(b, 1), &got, NULL));
     /* c = 18 K/(pi h^4), K = E/1.5; w0 = 4 G0/(pi h^4) */
     want = (row->choice ? 4 * row->other : 12 * row->other) / 3.14159265358979323846 / h / h / h / h;
     if (o.status == PERI_OK) extreme_note(&o, row, precision, fabs(got / want - 1), "%g, not %g", got, want);
@@ -524,7 +529,7 @@ static outcome obstacle(const extreme *row, int32_t precision) {
     extreme_material(&m, PERI_LAW_BOND_BASED, 0, 0);
     (void)extreme_fails(&o, NULL, peri_body_create(&d, &b, NULL));
     (void)extreme_fails(&o, b, peri_add_material(b, &m));
-    (void)extreme_fails(&o, b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+    (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     if (extreme_fails(&o, b, peri_build(b))) return extreme_end(o, b);
     id = row->choice == 1 ? peri_add_ball_obstacle(b, centre, size, 2, NULL, NULL) : peri_add_plane_obstacle(b, place, up, 2, NULL, NULL);
     if (!extreme_fails(&o, b, id) && !extreme_fails(&o, b, peri_get_obstacle_force(b, id, force)))
@@ -543,18 +548,21 @@ static outcome obstacle(const extreme *row, int32_t precision) {
 #define TRUTH "dimensional analysis: numbers over their units do not depend on the units"
 
 static const extreme rows[] = {
-    {"motion in all units, bond-based", TRUTH, every_unit, 1, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, MOTION},
-    {"motion in all units, LPS", TRUTH, every_unit, 1, 0, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, Oterkus", TRUTH, every_unit, 1, 0, PERI_LAW_OTERKUS, PERI_OK, NULL, MOTION},
-    {"motion in all units, correspondence", TRUTH, every_unit, 1, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
-    {"motion in all units, bonds break by energy", TRUTH, every_unit, 2, 0, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, nodes break by energy", TRUTH, every_unit, 3, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
-    {"motion in all units, clouds and weights, LPS", TRUTH, every_unit, 1, 2, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
-    {"motion in all units, clouds and weights, correspondence", TRUTH, every_unit, 1, 2, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
-    {"equilibrium in all units, bond-based", TRUTH, every_unit, 1, 1, PERI_LAW_BOND_BASED, PERI_OK, NULL, REST},
-    {"equilibrium in all units, LPS", TRUTH, every_unit, 1, 1, PERI_LAW_LPS, PERI_OK, NULL, REST},
-    {"equilibrium in all units, Oterkus", TRUTH, every_unit, 1, 1, PERI_LAW_OTERKUS, PERI_OK, NULL, REST},
-    {"equilibrium in all units, correspondence", TRUTH, every_unit, 1, 1, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, REST},
+    {"motion in all units, bond-based", TRUTH, every_unit, PERI_CRITERION_STRETCH, 0, PERI_LAW_BOND_BASED, PERI_OK, NULL, MOTION},
+    {"motion in all units, LPS", TRUTH, every_unit, PERI_CRITERION_STRETCH, 0, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
+    {"motion in all units, Oterkus", TRUTH, every_unit, PERI_CRITERION_STRETCH, 0, PERI_LAW_OTERKUS, PERI_OK, NULL, MOTION},
+    {"motion in all units, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 0, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL, MOTION},
+    {"motion in all units, bonds break by energy", TRUTH, every_unit, PERI_CRITERION_BOND_ENERGY, 0, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
+    {"motion in all units, nodes break by energy", TRUTH, every_unit, PERI_CRITERION_NODE_ENERGY, 0, PERI_LAW_CORRESPONDENCE, PERI_OK,
+     NULL, MOTION},
+    {"motion in all units, clouds and weights, LPS", TRUTH, every_unit, PERI_CRITERION_STRETCH, 2, PERI_LAW_LPS, PERI_OK, NULL, MOTION},
+    {"motion in all units, clouds and weights, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 2, PERI_LAW_CORRESPONDENCE,
+     PERI_OK, NULL, MOTION},
+    {"equilibrium in all units, bond-based", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_BOND_BASED, PERI_OK, NULL, REST},
+    {"equilibrium in all units, LPS", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_LPS, PERI_OK, NULL, REST},
+    {"equilibrium in all units, Oterkus", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_OTERKUS, PERI_OK, NULL, REST},
+    {"equilibrium in all units, correspondence", TRUTH, every_unit, PERI_CRITERION_STRETCH, 1, PERI_LAW_CORRESPONDENCE, PERI_OK, NULL,
+     REST},
     {"motion in powers of two", "such scaling rounds nothing: the same bits", same_bits, 0, 0, 0, PERI_OK, NULL, NONE},
     {"equilibrium in powers of two", "such scaling rounds nothing: the same bits", same_bits, 0, 1, 0, PERI_OK, NULL, NONE},
     {"plates of any thickness", "energies, forces, momenta by thickness; motion the same", every_thickness, 0, 0, 0, PERI_OK, NULL, MOTION},
