@@ -394,7 +394,7 @@ PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t
    as it was: add what is missing and build again. */
 PERI_API int32_t peri_build(peri_body *body);
 
-/* ---- the built body: nouns return that number; of NULL: PERI_ERROR_ARGUMENT */
+/* ---- the built body: nouns return that number, 0 for NULL */
 
 PERI_API int32_t peri_dimension(const peri_body *body); /* 2 or 3 */
 PERI_API int64_t peri_point_count(const peri_body *body);
