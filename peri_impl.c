@@ -95,6 +95,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/stale.c"        /* a change                      -> what is stale -> up to date again           */
 #include "src/body/motion.c"       /* displacement and velocity from outside, reset                                */
 #include "src/body/cracks.c"       /* initial cracks, no-fail zones, break events                                  */
+#include "src/body/callbacks.c"    /* how runs begin and end; a body that a callback was left in by a jump          */
 #include "src/body/boundary.c"     /* supports, loads and obstacles, added and removed                             */
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */

@@ -123,8 +123,8 @@ static int64_t peri__builder_bytes(const peri__estimate *s) {
     int64_t slots = 16, room = 8;
     while (slots < 2 * groups) slots *= 2;
     while (room < s->model.stencil.kept) room *= 2;
-    int64_t bytes = (int64_t)peri__block_bytes(1, sizeof(peri__builder)) + (int64_t)peri__block_bytes(slots, sizeof(int32_t));
-    return bytes + (int64_t)peri__block_bytes(room, sizeof(peri__column));
+    int64_t bytes = (int64_t)peri__scratch_bytes(1, sizeof(peri__builder)) + (int64_t)peri__scratch_bytes(slots, sizeof(int32_t));
+    return bytes + (int64_t)peri__scratch_bytes(room, sizeof(peri__column));
 }
 
 /* What peri_build takes to search families: the places twice, and the cells. The order of points is the model's where that has a list. */
@@ -133,10 +133,10 @@ static int64_t peri__search_bytes(const peri__estimate *s, int listed) {
     double extent[3] = { 0.0, 0.0, 0.0 };
     int64_t cells[3];
     for (int32_t d = 0; d < m->dim; ++d) extent[d] = (double)(s->n[d] - 1) * s->piece.cell[d] / m->length;
-    return (int64_t)peri__block_bytes(m->points * m->dim, sizeof(double))
-         + (int64_t)peri__block_bytes((m->points + PERI_NEAR_PIECE) * m->dim, sizeof(double))
+    return (int64_t)peri__scratch_bytes(m->points * m->dim, sizeof(double))
+         + (int64_t)peri__scratch_bytes((m->points + PERI_NEAR_PIECE) * m->dim, sizeof(double))
          + (listed ? 0 : (int64_t)peri__block_bytes(m->points, sizeof(int32_t)))
-         + (int64_t)peri__block_bytes(peri__divide(extent, s->cloud.reach2, m->points, cells) + 1, sizeof(int32_t));
+         + (int64_t)peri__scratch_bytes(peri__divide(extent, s->cloud.reach2, m->points, cells) + 1, sizeof(int32_t));
 }
 
 static int64_t peri__model_bytes(const peri__estimate *s) {
@@ -196,7 +196,7 @@ static void peri__plan_bytes(peri__estimate *s, const peri_plan_desc *plan, peri
     peri__model *m = &s->model;
     peri__setup *setup = &s->body.setup;
     const int stencil = peri__estimate_stencil(s), listed = stencil <= 0 || s->corrected;
-    const int64_t groups = (m->points + PERI_GROUP - 1) / PERI_GROUP, sums = (int64_t)peri__block_bytes(m->blocks, sizeof(peri__sums));
+    const int64_t groups = (m->points + PERI_GROUP - 1) / PERI_GROUP, sums = (int64_t)peri__scratch_bytes(m->blocks, sizeof(peri__sums));
     const int64_t bare = (int64_t)peri__block_bytes(1, sizeof(peri_body));
     int64_t most, builder = stencil < 0 ? 0 : peri__builder_bytes(s);
     if (stencil == 0) builder += 2 * (int64_t)peri__block_bytes(groups, sizeof(int64_t));
@@ -216,7 +216,7 @@ static void peri__plan_bytes(peri__estimate *s, const peri_plan_desc *plan, peri
     most = peri__model_bytes(s) + (s->corrected ? 0 : builder);
     if (listed) {
         peri__mark_list(s, there, other);
-        int64_t factors = s->corrected ? (int64_t)peri__block_bytes(m->entries, sizeof(double)) : 0;
+        int64_t factors = s->corrected ? (int64_t)peri__scratch_bytes(m->entries, sizeof(double)) : 0;
         const int64_t bytes = peri__model_bytes(s) + (s->corrected && builder > factors ? builder : factors);
         if (bytes > most) most = bytes;
     }
@@ -487,14 +487,17 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
             status = peri__plan_step(&s, &made.stable_step);
         if (status == PERI_OK) *report = made;
     }
+    status = peri__heed_influence(&s.body, status);
     if (status < 0) {
         if (error) *error = s.body.error;
         return status;
     }
     if (plan->measure) {
         status = peri__open_estimate(&s, plan);
+        status = peri__heed_influence(&s.body, status);
+        if (status < 0 && error) *error = s.body.error;
         if (status == PERI_OK) peri__count_bonds(&s);
-        status = peri__measure_plan(&s, plan, report, error);
+        if (status == PERI_OK) status = peri__measure_plan(&s, plan, report, error);
         if (status < 0) memset(report, 0, sizeof *report);
     }
     return status;

@@ -17,16 +17,37 @@ static void peri__free(void *user, void *pointer, uint64_t bytes) {
     free(pointer);
 }
 
-/* What the hook is asked for where count items of size bytes are wanted. */
+/* Before a block lies what the hook gave. Blocks that a call takes for itself also know each other: where a callback leaves the call by a
+   jump, peri_unlock finds them by that. */
+struct peri__taken {
+    peri__taken *next;
+    uint64_t     bytes;
+    void        *raw;
+};
+
+/* What the hook is asked for where count items of size bytes are wanted, of those that stay; and of those of calls. */
 static uint64_t peri__block_bytes(int64_t count, size_t size) { return (uint64_t)count * size + PERI_ALIGN + sizeof(void *); }
+static uint64_t peri__scratch_bytes(int64_t count, size_t size) { return (uint64_t)count * size + PERI_ALIGN + sizeof(peri__taken); }
+
+static peri__taken *peri__head_of(void *block) { return (peri__taken *)((uintptr_t)block - sizeof(peri__taken)); }
 
 /* Memory for count items of size bytes, as the hook gives it; NULL where that fails or the size does not fit. count 0 gives a block. */
 static void *peri__new_unset(const peri__memory *memory, int64_t count, size_t size) {
     if (count < 0 || (uint64_t)count > ((uint64_t)SIZE_MAX / 2 - PERI_ALIGN * 2) / size) return NULL;
-    void *raw = memory->allocate(memory->user, peri__block_bytes(count, size));
+    const size_t head = memory->taken ? sizeof(peri__taken) : sizeof(void *);
+    const uint64_t bytes = memory->taken ? peri__scratch_bytes(count, size) : peri__block_bytes(count, size);
+    void *raw = memory->allocate(memory->user, bytes);
     if (!raw) return NULL;
-    uintptr_t place = ((uintptr_t)raw + sizeof(void *) + PERI_ALIGN - 1) & ~(uintptr_t)(PERI_ALIGN - 1);
-    memcpy((void *)(place - sizeof(void *)), &raw, sizeof raw);
+    const uintptr_t place = ((uintptr_t)raw + head + PERI_ALIGN - 1) & ~(uintptr_t)(PERI_ALIGN - 1);
+    if (!memory->taken) {
+        memcpy((void *)(place - sizeof(void *)), &raw, sizeof raw);
+        return (void *)place;
+    }
+    peri__taken *taken = peri__head_of((void *)place);
+    taken->next = *memory->taken;
+    taken->bytes = bytes;
+    taken->raw = raw;
+    *memory->taken = taken;
     return (void *)place;
 }
 
@@ -44,10 +65,27 @@ static void *peri__new_tail(const peri__memory *memory, int64_t count, size_t si
     return made;
 }
 
+/* Gives back a block of a call: mostly one of the last that were taken. */
+static void peri__delete_taken(const peri__memory *memory, peri__taken *taken) {
+    peri__taken **at = memory->taken;
+    while (*at != taken) at = &(*at)->next;
+    *at = taken->next;
+    memory->release(memory->user, taken->raw, taken->bytes);
+}
+
+/* Gives back all of them. */
+static void peri__delete_all_taken(const peri__memory *memory) {
+    while (*memory->taken) peri__delete_taken(memory, *memory->taken);
+}
+
 /* count and size as at peri__new. */
 static void peri__delete(const peri__memory *memory, void *pointer, int64_t count, size_t size) {
     void *raw;
     if (!pointer) return;
+    if (memory->taken) {
+        peri__delete_taken(memory, peri__head_of(pointer));
+        return;
+    }
     memcpy(&raw, (void *)((uintptr_t)pointer - sizeof(void *)), sizeof raw);
     memory->release(memory->user, raw, peri__block_bytes(count, size));
 }

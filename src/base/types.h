@@ -71,10 +71,13 @@
 #define PERI_SAME_NUMBER_(name, same) typedef char peri__number_of_##name[(same) ? 1 : -1];
 #define PERI_SAME_COUNT(name, list, count) typedef char peri__count_of_##name[(list(PERI_ONE_)) == (count) ? 1 : -1]
 
+typedef struct peri__taken peri__taken; /* a block that a call has taken for itself, see memory.c                        */
+
 typedef struct peri__memory {
     peri_allocate_fn allocate;
     peri_release_fn  release;
     void            *user;
+    peri__taken    **taken; /* where the blocks of calls are listed; NULL: these blocks belong to a body or a model      */
 } peri__memory;
 
 /* Where points came from: a lattice of cells, or the caller's arrays. A point of a lattice piece is at
@@ -200,6 +203,7 @@ typedef struct peri__model {
     uint8_t   *material; /* [points]                                                                                     */
     int32_t   *count;    /* [points] family sizes                                                                        */
     peri__stencil stencil;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
+    int32_t   *sorted;   /* the same order while peri_build works, whether it will be kept or not; else NULL             */
     int32_t   *order;    /* [points] id by place, see search.c: the order of the rows in the list, of the passes over it and of the
                             body->records; NULL, places then being ids, where rows were not searched, and on columns */
     int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
@@ -416,6 +420,7 @@ typedef struct peri__progress {
     int32_t      loaded;             /* 1: loads have acted, by a solve or a run                                       */
     double       load_factor;        /* of constant loads and supports; the time of callbacks where `still`              */
     int32_t      still;              /* 1: the last motion was a static one                                              */
+    int32_t      torn;               /* 1: a run is under way; and where no call is, a callback left it by a jump        */
     uint32_t     stale;              /* bits of peri__stale                                                              */
     peri__ledger ledger;
 } peri__progress;
@@ -450,7 +455,8 @@ struct peri__ops { /* kernels of one precision, dimension and instruction set; a
 
 struct peri_body {
     peri_body_desc desc;
-    peri__memory   memory;
+    peri__memory   memory, scratch; /* for what the body keeps; for what a call takes for itself and gives back          */
+    peri__taken   *taken;    /* blocks of scratch: of calls under way, or that a callback was left in by a jump          */
     peri_error     error;
     int32_t        number;  /* of the body in its ids, 1..127                                                            */
     int32_t        dim, f32, b32; /* single precision: of the state; of the arithmetic of bonds, weights and constants   */
@@ -462,6 +468,7 @@ struct peri_body {
     peri__setup      setup;
 
     peri__model      *model; /* NULL before peri_build                                                                   */
+    peri__model      *building; /* what peri_build is at work on; else NULL                                              */
     const peri__ops  *ops;
     void     *u, *v, *f;     /* real [dim][stride]; f: force density                                                     */
     void     *records;          /* real [places][record_reals] for list.inl: x, u, then p and q, or Q and k of a gradient, or material;
@@ -507,6 +514,9 @@ struct peri_body {
 
     peri__progress now;
     int32_t        running; /* peri__running                                                                             */
+    int32_t        stop;    /* 1: a load or an obstacle asked the run to stop                                            */
+    int32_t        break_said;     /* what on_break returned in this run, if not 0: the failure, or the first wish to stop */
+    int32_t        influence_said; /* what influence_fn returned as it failed in this call, else 0                       */
 };
 
 #endif

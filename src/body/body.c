@@ -93,6 +93,7 @@ static peri__memory peri__hooks(const peri_body_desc *desc) {
     memory.allocate = desc->allocate ? desc->allocate : peri__malloc;
     memory.release = desc->release ? desc->release : peri__free;
     memory.user = desc->memory_user;
+    memory.taken = NULL;
     return memory;
 }
 
@@ -109,7 +110,8 @@ static peri__progress peri__at_start(int64_t cut) {
 /* b is all zero. */
 static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->desc = *desc;
-    b->memory = peri__hooks(desc);
+    b->memory = b->scratch = peri__hooks(desc);
+    b->scratch.taken = &b->taken;
     b->dim = desc->space == PERI_SPACE_SOLID ? 3 : 2;
     b->f32 = desc->precision == PERI_PRECISION_SINGLE;
     b->b32 = desc->precision != PERI_PRECISION_DOUBLE;
@@ -288,14 +290,15 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     return status;
 }
 
-static void *peri__new_vector(const peri_body *b) {
-    char *vector = (char *)peri__new(&b->memory, peri__vector_reals(b->model), peri__real(b));
+/* Vectors with their margins, of b->memory or b->scratch. */
+static void *peri__new_vector(const peri_body *b, const peri__memory *memory) {
+    char *vector = (char *)peri__new(memory, peri__vector_reals(b->model), peri__real(b));
     return vector ? vector + (size_t)b->model->margin * peri__real(b) : NULL;
 }
 
-static void peri__delete_vector(const peri_body *b, void *vector) {
+static void peri__delete_vector(const peri_body *b, const peri__memory *memory, void *vector) {
     if (!vector) return;
-    peri__delete(&b->memory, (char *)vector - (size_t)b->model->margin * peri__real(b), peri__vector_reals(b->model), peri__real(b));
+    peri__delete(memory, (char *)vector - (size_t)b->model->margin * peri__real(b), peri__vector_reals(b->model), peri__real(b));
 }
 
 /* ---- state -------------------------------------------------------------------------------------------------------- */
@@ -316,7 +319,7 @@ static void peri__free_state(peri_body *b) {
     const peri__model *m = b->model;
     void **vectors[3] = { &b->u, &b->v, &b->f };
     for (int k = 0; k < 3; ++k) {
-        peri__delete_vector(b, *vectors[k]);
+        peri__delete_vector(b, memory, *vectors[k]);
         *vectors[k] = NULL;
     }
     peri__array arrays[PERI_ARRAYS];
@@ -402,9 +405,9 @@ static int32_t peri__new_state(peri_body *b) {
     b->ops = b->f32 ? (b->dim == 3 ? &peri__ops_f3 : &peri__ops_f2)
            : b->b32 ? (b->dim == 3 ? &peri__ops_m3 : &peri__ops_m2)
                     : b->dim == 3 ? &peri__ops_d3 : &peri__ops_d2;
-    b->u = peri__new_vector(b);
-    b->v = peri__new_vector(b);
-    b->f = peri__new_vector(b);
+    b->u = peri__new_vector(b, &b->memory);
+    b->v = peri__new_vector(b, &b->memory);
+    b->f = peri__new_vector(b, &b->memory);
     if (!b->u || !b->v || !b->f || (m->breakable && !peri__need_alive(b)) || !peri__need_arrays(b))
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
     int32_t status = peri__update_classes(b);
@@ -416,50 +419,57 @@ static int32_t peri__new_state(peri_body *b) {
                                                                     : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
 }
 
+/* Ends a build that failed, or that was left: the body is as before it. */
+static void peri__drop_build(peri_body *b) {
+    if (!b->building) return;
+    if (b->model) peri__free_state(b);
+    peri__drop_sorted(b->building);
+    peri__release_model(b, b->building);
+    b->model = b->building = NULL;
+}
+
 static void peri__free_cloud(const peri_body *b, peri__cloud *cloud, int64_t points) {
-    peri__delete(&b->memory, cloud->x, points * b->dim, sizeof(double));
+    peri__delete(&b->scratch, cloud->x, points * b->dim, sizeof(double));
     peri__free_cells(cloud);
 }
 
-PERI_API int32_t peri_build(peri_body *b) {
-    PERI_NEED_UNBUILT(b);
+/* Families, then the state. What is made is reached from b->building, or taken of b->scratch. */
+static int32_t peri__make_model(peri_body *b) {
+    const int64_t points = b->setup.point_count, blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
     peri__cloud cloud;
-    peri__model *m;
-    peri__sums *sums;
-    int64_t points = b->setup.point_count, blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
-    int32_t status;
-    if (b->material_count == 0) return peri__fail(b, PERI_ERROR_MATERIAL, "material", -1, 0.0);
-    if (points == 0) return peri__fail(b, PERI_ERROR_EMPTY, "points", -1, 0.0);
-
-    memset(&cloud, 0, sizeof cloud);
-    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
-    m = (peri__model *)peri__new(&b->memory, 1, sizeof *m);
-    if (!m) {
-        peri__leave(b, former);
-        return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
-    }
+    peri__model *m = (peri__model *)peri__new(&b->memory, 1, sizeof *m);
+    if (!m) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    b->building = m;
     m->memory = b->memory;
     m->users = 1;
+    memset(&cloud, 0, sizeof cloud);
     cloud.body = b;
     cloud.model = m;
-    cloud.x = (double *)peri__new(&b->memory, points * b->dim, sizeof(double));
-    sums = (peri__sums *)peri__new(&b->memory, blocks, sizeof *sums);
-    status = cloud.x && sums ? peri__fill_model(b, m, &cloud, sums) : peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    cloud.x = (double *)peri__new(&b->scratch, points * b->dim, sizeof(double));
+    peri__sums *sums = (peri__sums *)peri__new(&b->scratch, blocks, sizeof *sums);
+    int32_t status = cloud.x && sums ? peri__fill_model(b, m, &cloud, sums) : peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    status = peri__heed_influence(b, status);
     peri__free_cloud(b, &cloud, points);
     if (status == PERI_OK) {
         b->model = m;
         status = peri__new_state(b);
-        if (status < 0) {
-            peri__free_state(b);
-            b->model = NULL;
-        }
     }
-    peri__delete(&b->memory, sums, blocks, sizeof *sums);
+    peri__delete(&b->scratch, sums, blocks, sizeof *sums);
+    return status;
+}
+
+PERI_API int32_t peri_build(peri_body *b) {
+    PERI_NEED_UNBUILT(b);
+    if (b->material_count == 0) return peri__fail(b, PERI_ERROR_MATERIAL, "material", -1, 0.0);
+    if (b->setup.point_count == 0) return peri__fail(b, PERI_ERROR_EMPTY, "points", -1, 0.0);
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    const int32_t status = peri__make_model(b);
     peri__leave(b, former);
     if (status < 0) {
-        peri__release_model(b, m);
+        peri__drop_build(b);
         return status;
     }
+    b->building = NULL;
     peri__free_setup(b);
     return PERI_OK;
 }
@@ -479,11 +489,4 @@ PERI_API void peri_body_destroy(peri_body *b) {
     peri__free_setup(b);
     peri__delete(&memory, b->interfaces, b->interface_capacity, sizeof *b->interfaces);
     peri__delete(&memory, b, 1, sizeof *b);
-}
-
-PERI_API int32_t peri_unlock(peri_body *b) {
-    PERI_NEED_BODY(b);
-    if (!b->running) return peri__fail(b, PERI_ERROR_ORDER, "peri_unlock", -1, 0.0);
-    b->running = PERI__IDLE;
-    return PERI_OK;
 }

@@ -16,9 +16,9 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         ok = ok && copy_;                                                                                              \
         memcpy(&b->member, &copy_, sizeof copy_);                                                                      \
     }
-    b->u = peri__new_vector(b);
-    b->v = peri__new_vector(b);
-    b->f = peri__new_vector(b);
+    b->u = peri__new_vector(b, memory);
+    b->v = peri__new_vector(b, memory);
+    b->f = peri__new_vector(b, memory);
     ok = b->u && b->v && b->f;
     if (ok) {
         memcpy(b->u, from->u, (size_t)vector * peri__real(b));
@@ -84,6 +84,7 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
     b->on_break = from->on_break;
     b->break_user = from->break_user;
     b->now = from->now;
+    if (from->running) b->now.torn = 0; /* on_frame comes at a whole step */
     (void)peri__count_users(&b->model->users, 1);
     int ok = peri__copy_state(b, from);
     if (ok && from->interface_count > 0) {

@@ -60,11 +60,17 @@ static void peri__add_face(peri__crack *c, const double *normal, const double *p
     c->faces++;
 }
 
+static int32_t peri__check_standing(peri_body *b, int32_t standing) {
+    PERI_NEED_CHOICE(b, standing, standing);
+    if (standing == PERI_CUT_INITIAL && b->now.steps > 0) return peri__fail(b, PERI_ERROR_ORDER, "standing", -1, standing);
+    return PERI_OK;
+}
+
 /* Flags for cuts, taken on the first: alive for every bond, and which of them is not part of the initial crack. */
 static int32_t peri__need_flags(peri_body *b, int32_t standing) {
-    PERI_NEED_CHOICE(b, standing, standing);
     const int initial = standing == PERI_CUT_INITIAL;
-    if (initial && b->now.steps > 0) return peri__fail(b, PERI_ERROR_ORDER, "standing", -1, standing);
+    const int32_t status = peri__check_standing(b, standing);
+    if (status < 0) return status;
     if (initial && !b->uncut) b->uncut = peri__new_flags(b);
     if ((initial && !b->uncut) || !peri__need_alive(b)) return peri__fail(b, PERI_ERROR_MEMORY, "damage", -1, 0.0);
     return PERI_OK;
@@ -297,34 +303,61 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int32_t standing, int64_t count, c
     return cut;
 }
 
-PERI_API int64_t peri_cut_if(peri_body *b, int32_t standing, peri_pair_fn cut, void *user) {
-    int64_t count = 0;
-    PERI_NEED_CHANGEABLE(b);
-    PERI_NEED(b, cut, "cut");
+/* Flags those bonds i < j that `cut` takes, by the row of i. What it returned last, or 0. */
+static int32_t peri__choose_cuts(const peri_body *b, int32_t standing, peri_pair_fn cut, void *user, uint32_t *chosen) {
     const peri__model *m = b->model;
-    int32_t status = peri__need_flags(b, standing);
-    if (status < 0) return status;
-    peri__note_energy(b);
-    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
         peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
-            int64_t j = row.ids[k];
+            const int64_t j = row.ids[k];
             double xi[3], xj[3];
             if (j < i || !peri__is_alive(b, i, k)) continue;
             for (int32_t d = 0; d < m->dim; ++d) {
                 xi[d] = m->origin[d] + m->length * peri__cut_at(b, standing, i, d);
                 xj[d] = m->origin[d] + m->length * peri__cut_at(b, standing, j, d);
             }
-            if (!cut(user, (int32_t)i, (int32_t)j, xi, xj)) continue;
-            count += peri__cut_one(b, standing, i, k);
-            (void)peri__cut_one(b, standing, j, peri__find_bond(m, j, i));
+            const int32_t said = cut(user, (int32_t)i, (int32_t)j, xi, xj);
+            if (said < 0) return said;
+            if (said > 0) chosen[i * m->words + k / 32] |= (uint32_t)1 << (k % 32);
         }
     }
-    peri__leave(b, former);
-    peri__changed(b, PERI__CUTS); /* not before: a callback that reads would bring up to date what half the cuts have made stale */
+    return 0;
+}
+
+/* Cuts the bonds flagged. */
+static int64_t peri__cut_chosen(peri_body *b, int32_t standing, const uint32_t *chosen) {
+    const peri__model *m = b->model;
+    int64_t count = 0;
+    peri__changed(b, PERI__CUTS);
+    for (int64_t i = 0; i < m->points; ++i) {
+        peri__row row;
+        peri__read_row(b, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            if (!(chosen[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+            count += peri__cut_one(b, standing, i, k);
+            (void)peri__cut_one(b, standing, row.ids[k], peri__find_bond(m, row.ids[k], i));
+        }
+    }
     return count;
+}
+
+PERI_API int64_t peri_cut_if(peri_body *b, int32_t standing, peri_pair_fn cut, void *user) {
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED(b, cut, "cut");
+    const int64_t words = b->model->points * b->model->words;
+    int64_t status = peri__check_standing(b, standing);
+    if (status < 0) return status;
+    uint32_t *chosen = (uint32_t *)peri__new(&b->scratch, words, sizeof *chosen);
+    if (!chosen) return peri__fail(b, PERI_ERROR_MEMORY, "cut", -1, 0.0);
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    const int32_t said = peri__choose_cuts(b, standing, cut, user, chosen);
+    peri__leave(b, former);
+    if (said < 0) status = peri__fail(b, PERI_ERROR_CALLBACK, "peri_pair_fn", -1, said);
+    if (status == PERI_OK) status = peri__need_flags(b, standing);
+    if (status == PERI_OK) status = peri__cut_chosen(b, standing, chosen);
+    peri__delete(&b->scratch, chosen, words, sizeof *chosen);
+    return status;
 }
 
 PERI_API int32_t peri_bond_is_intact(peri_body *b, int32_t i, int32_t j) {
@@ -371,18 +404,19 @@ PERI_API int32_t peri_on_break(peri_body *b, peri_break_fn fn, void *user) {
     return PERI_OK;
 }
 
-/* Reports the bonds that broke in this step. */
+/* Reports the bonds that broke in this step: all of them, until the callback fails, which ends reports for the run. */
 static void peri__report_breaks(peri_body *b) {
     const peri__model *m = b->model;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
-    for (int64_t i = 0; i < m->points; ++i) {
+    for (int64_t i = 0; i < m->points && b->break_said >= 0; ++i) {
         if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
         peri__row row;
         peri__read_row(b, i, &row);
-        for (int64_t k = peri__next_bond(&row, i); k >= 0; k = peri__next_bond(&row, row.ids[k])) {
+        for (int64_t k = peri__next_bond(&row, i); k >= 0 && b->break_said >= 0; k = peri__next_bond(&row, row.ids[k])) {
             int64_t at = i * m->words + k / 32, j = row.ids[k];
             if (!((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
-            b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, &row, k));
+            const int32_t said = b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, &row, k));
+            if (said < 0 || b->break_said == 0) b->break_said = said;
         }
     }
     peri__leave(b, former);

@@ -33,6 +33,7 @@ static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
     const int32_t *points = load->all ? load->all : b->sets[load->set - 1].points;
     const int32_t said = load->fn(load->user, time, load->count, points, load->value);
     if (said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_load_fn", -1, said);
+    if (said > 0) b->stop = 1;
     for (int64_t k = 0; k < load->count * b->dim; ++k)
         if (!peri__finite(load->value[k]))
             return peri__fail(b, PERI_ERROR_CALLBACK, "value", peri__set_point(b, load->set, k / b->dim), load->value[k]);

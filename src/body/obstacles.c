@@ -12,6 +12,7 @@ static int32_t peri__move_obstacles(peri_body *b, double time) {
         for (int32_t d = 0; d < b->dim; ++d) place[d] = b->model->origin[d] + o->position0[d] * b->model->length;
         const int32_t said = o->motion(o->user, time, place);
         if (said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_motion_fn", -1, said);
+        if (said > 0) b->stop = 1;
         if (!peri__finite_vector(place, b->dim)) return peri__fail(b, PERI_ERROR_CALLBACK, "place", -1, peri__not_finite(place, b->dim));
         peri__inner(b, place, o->position);
     }

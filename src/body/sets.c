@@ -44,7 +44,7 @@ PERI_API int32_t peri_find_set(const peri_body *b, const char *name) {
     return set ? set : peri__fail_const(b, PERI_ERROR_NAME, "name", -1, 0.0);
 }
 
-/* Takes over points[capacity], of which the first count are the set (ascending); frees them where it fails. */
+/* Takes over points[capacity] of b->scratch, of which the first count are the set (ascending). */
 static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, int64_t capacity, int64_t count) {
     peri__set set;
     int32_t status = PERI_OK;
@@ -67,7 +67,7 @@ static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, in
             status = peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
         }
     }
-    peri__delete(&b->memory, points, capacity, sizeof *points);
+    peri__delete(&b->scratch, points, capacity, sizeof *points);
     if (status < 0) return status;
     b->sets[b->set_count++] = set;
     return peri__id(b, PERI_KIND_SET, b->set_count - 1);
@@ -75,16 +75,22 @@ static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, in
 
 static int32_t peri__select(peri_body *b, const char *name, peri_point_fn take, void *user) {
     const peri__model *m = b->model;
-    int32_t *points = (int32_t *)peri__new(&b->memory, m->points, sizeof *points);
+    int32_t *points = (int32_t *)peri__new(&b->scratch, m->points, sizeof *points);
     int64_t count = 0;
     if (!points) return peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
+    int32_t said = 0;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
-    for (int64_t i = 0; i < m->points; ++i) {
+    for (int64_t i = 0; i < m->points && said >= 0; ++i) {
         double x[3];
         for (int32_t d = 0; d < m->dim; ++d) x[d] = peri__position(b, i, d);
-        if (take(user, i, x)) points[count++] = (int32_t)i;
+        said = take(user, i, x);
+        if (said > 0) points[count++] = (int32_t)i;
     }
     peri__leave(b, former);
+    if (said < 0) {
+        peri__delete(&b->scratch, points, m->points, sizeof *points);
+        return peri__fail(b, PERI_ERROR_CALLBACK, "peri_point_fn", -1, said);
+    }
     return peri__new_set(b, name, points, m->points, count);
 }
 
@@ -140,11 +146,11 @@ PERI_API int32_t peri_select_points(peri_body *b, const char *name, int64_t coun
         if (points[k] < 0 || points[k] >= m->points) return peri__fail(b, PERI_ERROR_INDEX, "points", k, points[k]);
     /* mark, then collect: ascending, and each once */
     uint8_t *marked = (uint8_t *)peri__new(&b->memory, m->points, 1);
-    int32_t *ids = (int32_t *)peri__new(&b->memory, m->points, sizeof *ids);
+    int32_t *ids = (int32_t *)peri__new(&b->scratch, m->points, sizeof *ids);
     int64_t kept = 0;
     if (!marked || !ids) {
         peri__delete(&b->memory, marked, m->points, 1);
-        peri__delete(&b->memory, ids, m->points, sizeof *ids);
+        peri__delete(&b->scratch, ids, m->points, sizeof *ids);
         return peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
     }
     for (int64_t k = 0; k < count; ++k) marked[points[k]] = 1;

@@ -80,6 +80,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
+    int broke = 0;
     peri__operands operands = peri__operands_of(b);
     int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
@@ -115,7 +116,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
             b->now.ledger.fracture += total.a;
             b->now.broken += total.n;
         }
-        if (b->before && total.n > 0) peri__report_breaks(b);
+        broke = total.n > 0;
     }
     peri__hold_supports(b, dt, damping);
 
@@ -127,6 +128,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         operands.loss_old = 0.0;
         peri__kick(b, &operands, &bad);
     }
+    if (b->before && broke) peri__report_breaks(b);
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
     return PERI_OK;
 }
@@ -161,10 +163,11 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
 /* on_frame, and what it may have changed. */
 static int32_t peri__show_frame(peri_body *b, const peri_advance_desc *r) {
     const int32_t former = peri__enter(b, PERI__IN_FRAME);
-    int32_t stop = r->on_frame(r->user, b);
+    const int32_t said = r->on_frame(r->user, b);
     peri__leave(b, former);
-    if (stop) return PERI_STOPPED;
-    int32_t status = peri__ensure(b, PERI__STALE_FORCE);
+    int32_t status = peri__heed(b, said, "peri_frame_fn");
+    if (status != PERI_OK) return status;
+    status = peri__ensure(b, PERI__STALE_FORCE);
     (void)peri__ensure(b, PERI__STALE_LEDGER);
     return status;
 }
@@ -209,14 +212,14 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
     plan.dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b);
     int32_t status = peri__plan_steps(b, r, r->duration, &plan);
     if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE | PERI__STALE_LEDGER);
-    if (status < 0) return status;
+    if (status == PERI_OK) status = peri__heed_callbacks(b);
     while (plan.done < plan.steps && status == PERI_OK) {
         /* a stretch of steps of one size, up to the next frame */
         int64_t stretch = (plan.done < plan.full ? plan.full : plan.steps) - plan.done, run = 0;
         double size = peri__next_size(&plan);
         if (r->on_frame && r->frame_steps > 0 && stretch > left_to_frame) stretch = left_to_frame;
         if (central) peri__stagger(b, size, damping);
-        while (run < stretch && status == PERI_OK && (run == 0 || !peri__outrun(b, r, size))) {
+        while (run < stretch && status == PERI_OK && (run == 0 || !(peri__outrun(b, r, size) || peri__heed_callbacks(b)))) {
             int64_t full = plan.done < plan.full ? plan.done + 1 : plan.full;
             double next = plan.start + ((double)full * plan.dt + (double)(plan.done + 1 - full) * plan.last) * m->time;
             if (plan.done + 1 == plan.steps && r->steps == 0) next = plan.end;
@@ -227,10 +230,13 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
         if (central && status == PERI_OK) status = peri__unstagger(b, size, damping);
         left_to_frame -= run;
         if (status != PERI_OK) break;
-        if (r->on_frame && (plan.done == plan.steps || (r->frame_steps > 0 && left_to_frame == 0))) {
+        const int32_t heeded = peri__heed_callbacks(b);
+        if (heeded < 0) return heeded;
+        if (r->on_frame && (plan.done == plan.steps || heeded == PERI_STOPPED || (r->frame_steps > 0 && left_to_frame == 0))) {
             left_to_frame = r->frame_steps;
             status = peri__show_frame(b, r);
         }
+        if (status == PERI_OK) status = peri__heed_callbacks(b);
         if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, peri__next_size(&plan))) {
             if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
             plan.dt = r->safety * peri__stable(b);
@@ -243,15 +249,16 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
 PERI_API int32_t peri_advance(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED_IDLE(b);
     int32_t status = peri__check_run(b, r);
+    if (status == PERI_OK) status = peri__check_whole(b);
     if (status < 0) return status;
-    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    const int32_t former = peri__begin_run(b);
     const double factor = !peri__is_nan(r->load_factor) ? r->load_factor : b->now.loaded ? b->now.load_factor : 1.0;
     if (b->now.still || factor != b->now.load_factor) peri__changed(b, PERI__ACTION); /* callbacks are asked for another time */
     b->now.still = 0;
     b->now.loaded = 1;
     b->now.load_factor = factor;
     status = peri__march(b, r);
-    peri__leave(b, former);
+    peri__end_run(b, former);
     return status;
 }
 

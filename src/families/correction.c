@@ -186,18 +186,18 @@ static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     if (!peri__corrects(b, m)) return PERI_OK;
     if (!m->pairwise) m->back = peri__new(&m->memory, m->entries, real);
     f.cloud = c;
-    f.factor = (double *)peri__new(&m->memory, m->entries, sizeof *f.factor);
+    f.factor = (double *)peri__new(&b->scratch, m->entries, sizeof *f.factor);
     if (!f.factor || !m->back) {
-        peri__delete(&m->memory, f.factor, m->entries, sizeof *f.factor);
+        peri__delete(&b->scratch, f.factor, m->entries, sizeof *f.factor);
         return peri__fail(b, PERI_ERROR_MEMORY, "correction", -1, 0.0);
     }
-    (void)peri__moment(&b->desc, m->dim, 0.5 * m->spacing / h, &moment);
+    (void)peri__moment(b, m->dim, 0.5 * m->spacing / h, &moment);
     f.full = m->dim == 3 ? 4.0 * PERI_PI * h * h * h * h * moment : 2.0 * PERI_PI * h * h * h * moment;
     f.whole = m->dim == 3 ? 4.0 / 3.0 * PERI_PI * h * h * h : PERI_PI * h * h;
     peri__for_points(b, m->points, 64 * m->width, peri__fit_block, &f, sums);
     missed = peri__total(sums, m->points).n;
     if (missed > 0) peri__log(b, 0, "moment correction: some families near surfaces have no isotropic weights; the nearest are taken");
     peri__for_points(b, m->points, 8 * m->width, peri__apply_block, &f, sums);
-    peri__delete(&m->memory, f.factor, m->entries, sizeof *f.factor);
+    peri__delete(&b->scratch, f.factor, m->entries, sizeof *f.factor);
     return PERI_OK;
 }

@@ -21,10 +21,21 @@ static const peri__polynomial peri__septic  = { 8, { 1, 0, 0, 0, -35, 84, -70, 2
 static const peri__polynomial peri__power_2 = { 3, { 1, -2, 1 }, 2, 1, { 1 } };
 static const peri__polynomial peri__power_3 = { 4, { 1, -3, 3, -1 }, 3, 1, { 1 } };
 
-/* The caller's function; not finite where it failed. */
-static double peri__user_influence(const peri_body_desc *desc, double q) {
+/* The caller's function, on the caller's thread. Once it has failed it is not called again, and what it makes is not finite:
+   peri__heed_influence turns what comes of that into the failure. */
+static double peri__user_influence(peri_body *b, double q) {
     double w = 0.0;
-    return desc->influence_fn(desc->influence_user, q, &w) < 0 ? (double)NAN : w;
+    if (b->influence_said < 0) return (double)NAN;
+    const int32_t said = b->desc.influence_fn(b->desc.influence_user, q, &w);
+    if (said < 0) b->influence_said = said;
+    return said < 0 ? (double)NAN : w;
+}
+
+/* The status of a call that asked influence_fn, or that this failed. */
+static int32_t peri__heed_influence(peri_body *b, int32_t status) {
+    const int32_t said = b->influence_said;
+    b->influence_said = 0;
+    return said < 0 ? peri__fail(b, PERI_ERROR_CALLBACK, "peri_influence_fn", -1, said) : status;
 }
 
 /* X(name, number, w, moment, polynomial): w of q and edge; the moment I_k of k, 0 where none is finite, or by quadrature; the polynomial
@@ -48,7 +59,7 @@ static double peri__user_influence(const peri_body_desc *desc, double q) {
     X(POLE_EDGE, 413, q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0, PERI_BY_QUADRATURE, NULL)                          \
     X(POLE_HALF, 414, 1.0 / (2.0 * q - 1.0), 0.0, NULL)                                                                 \
     X(POLE_QUARTER, 415, peri__in_range(exp(1.0 / (q - 0.25))), 0.0, NULL)                                              \
-    X(USER, 416, peri__in_range(peri__user_influence(desc, q)), PERI_BY_QUADRATURE, NULL)
+    X(USER, 416, peri__in_range(peri__user_influence(b, q)), PERI_BY_QUADRATURE, NULL)
 
 #define PERI_INFLUENCE_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(INFLUENCE_##name, PERI_INFLUENCE_##name == (number))
 PERI_INFLUENCE_LIST(PERI_INFLUENCE_NUMBER_)
@@ -83,12 +94,12 @@ static const peri__polynomial *peri__polynomial_of(int32_t influence) {
 #undef PERI_POLYNOMIAL_CASE_
 }
 
-/* w(q) of the descriptor. edge = spacing/(2 horizon), for PERI_INFLUENCE_POLE_EDGE only. A q within the horizon's tolerance
+/* w(q) of the body's descriptor. edge = spacing/(2 horizon), for PERI_INFLUENCE_POLE_EDGE only. A q within the horizon's tolerance
    counts as inside. */
-static double peri__influence(const peri_body_desc *desc, double q, double edge) {
+static double peri__influence(peri_body *b, double q, double edge) {
 #define PERI_INFLUENCE_CASE_(name, number, w, moment, polynomial)                                                      \
     case PERI_INFLUENCE_##name: return w;
-    switch (desc->influence) {
+    switch (b->desc.influence) {
         PERI_INFLUENCE_LIST(PERI_INFLUENCE_CASE_)
     default: return 0.0;
     }
@@ -96,35 +107,35 @@ static double peri__influence(const peri_body_desc *desc, double q, double edge)
 }
 
 /* The same of count values in place, to the last bit. */
-static void peri__influences(const peri_body_desc *desc, double *q, int64_t count, double edge) {
-    const peri__polynomial *p = peri__polynomial_of(desc->influence);
+static void peri__influences(peri_body *b, double *q, int64_t count, double edge) {
+    const peri__polynomial *p = peri__polynomial_of(b->desc.influence);
     for (int64_t n = 0; p && n < count; ++n) q[n] = peri__polynomial_value(p, q[n]);
-    for (int64_t n = 0; !p && n < count; ++n) q[n] = peri__influence(desc, q[n], edge);
+    for (int64_t n = 0; !p && n < count; ++n) q[n] = peri__influence(b, q[n], edge);
 }
 
-static double peri__moment_by_panels(const peri_body_desc *desc, int power, double edge, int panels) {
+static double peri__moment_by_panels(peri_body *b, int power, double edge, int panels) {
     double x[PERI_GAUSS], w[PERI_GAUSS], sum = 0.0;
     peri__gauss(x, w);
     for (int p = 0; p < panels; ++p)
         for (int k = 0; k < PERI_GAUSS; ++k) {
             double q = (p + x[k]) / panels;
-            sum += w[k] / panels * peri__influence(desc, q, edge) * pow(q, power);
+            sum += w[k] / panels * peri__influence(b, q, edge) * pow(q, power);
         }
     return sum;
 }
 
 /* I_k, in closed form where there is one, else by Gauss-Legendre quadrature over panels, accepted only where halving the
    panels changes nothing: a function without a finite moment is refused, not guessed. Returns 0 where there is none. */
-static int peri__moment(const peri_body_desc *desc, int k, double edge, double *moment) {
+static int peri__moment(peri_body *b, int k, double edge, double *moment) {
 #define PERI_MOMENT_CASE_(name, number, w, closed, polynomial)                                                         \
     case PERI_INFLUENCE_##name: *moment = closed; break;
-    switch (desc->influence) {
+    switch (b->desc.influence) {
         PERI_INFLUENCE_LIST(PERI_MOMENT_CASE_)
     default: return 0;
     }
 #undef PERI_MOMENT_CASE_
     if (*moment >= 0.0) return *moment > 0.0;
-    double coarse = peri__moment_by_panels(desc, k, edge, 64);
-    *moment = peri__moment_by_panels(desc, k, edge, 128);
+    double coarse = peri__moment_by_panels(b, k, edge, 64);
+    *moment = peri__moment_by_panels(b, k, edge, 128);
     return peri__finite(*moment) && *moment > 0.0 && fabs(*moment - coarse) <= 1e-6 * *moment;
 }

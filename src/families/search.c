@@ -118,14 +118,20 @@ static void peri__placed_block(void *context, int64_t begin, int64_t end, peri__
         for (int32_t d = 0; d < dim; ++d) c->placed[d * (c->model->points + PERI_NEAR_PIECE) + p] = c->x[(int64_t)c->order[p] * dim + d];
 }
 
+/* The order of the search, where no rows lie in it. */
+static void peri__drop_sorted(peri__model *m) {
+    if (m->sorted != m->order) peri__delete(&m->memory, m->sorted, m->points, sizeof *m->sorted);
+    m->sorted = NULL;
+}
+
 /* Chooses the grid and sorts the points into it; within a cell by id. */
 static int32_t peri__sort_cells(peri__cloud *c) {
-    const peri__model *m = c->model;
-    const peri__memory *memory = &m->memory;
+    peri__model *m = c->model;
+    const peri__memory *memory = &c->body->scratch;
     peri__choose_cells(c);
     c->isa = peri__isa(c->body->desc.instructions);
     c->start = (int32_t *)peri__new(memory, c->cell_count + 1, sizeof *c->start);
-    c->order = (int32_t *)peri__new(memory, m->points, sizeof *c->order);
+    c->order = m->sorted = (int32_t *)peri__new(&m->memory, m->points, sizeof *c->order);
     c->cell = (int32_t *)peri__new(memory, m->points, sizeof *c->cell);
     if (!c->start || !c->order || !c->cell) return PERI_ERROR_MEMORY;
     peri__for_points(c->body, m->points, 4, peri__cells_block, c, NULL);
@@ -143,11 +149,12 @@ static int32_t peri__sort_cells(peri__cloud *c) {
 }
 
 static void peri__free_cells(peri__cloud *c) {
-    const peri__model *m = c->model;
-    peri__delete(&m->memory, c->start, c->cell_count + 1, sizeof *c->start);
-    if (m->order != c->order) peri__delete(&m->memory, c->order, m->points, sizeof *c->order);
-    peri__delete(&m->memory, c->cell, m->points, sizeof *c->cell);
-    peri__delete(&m->memory, c->placed, (m->points + PERI_NEAR_PIECE) * m->dim, sizeof *c->placed);
+    peri__model *m = c->model;
+    const peri__memory *memory = &c->body->scratch;
+    peri__delete(memory, c->start, c->cell_count + 1, sizeof *c->start);
+    peri__delete(memory, c->cell, m->points, sizeof *c->cell);
+    peri__delete(memory, c->placed, (m->points + PERI_NEAR_PIECE) * m->dim, sizeof *c->placed);
+    peri__drop_sorted(m);
     c->start = c->order = c->cell = NULL;
     c->placed = NULL;
 }

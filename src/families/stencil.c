@@ -200,7 +200,7 @@ static int peri__build_row(peri__builder *d, int64_t i, const int32_t *ids, int6
 
 /* Keeps the columns of the group at hand, or finds an earlier group with the same. */
 static int32_t peri__build_group(peri__builder *d, int64_t g) {
-    const peri__memory *memory = &d->cloud->body->memory;
+    const peri__memory *memory = &d->cloud->body->scratch;
     peri__stencil *l = &d->cloud->model->stencil;
     const peri__column *group = d->group[d->now];
     const size_t bytes = (size_t)d->group_count * sizeof *group;
@@ -449,7 +449,7 @@ static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
     if (b->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID) return 0;
     if (b->desc.kernel != PERI_KERNEL_BEST) return 0;
     if (m->ids ? m->back != m->weight : b->setup.ibond || peri__corrects(b, m)) return 0;
-    peri__builder *d = (peri__builder *)peri__new(&b->memory, 1, sizeof *d);
+    peri__builder *d = (peri__builder *)peri__new(&b->scratch, 1, sizeof *d);
     l->groups = (m->points + PERI_GROUP - 1) / PERI_GROUP;
     l->begin = (int64_t *)peri__new(&m->memory, l->groups + 1, sizeof *l->begin);
     l->first = (int64_t *)peri__new(&m->memory, l->groups, sizeof *l->first);
@@ -459,12 +459,12 @@ static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
         d->ids_of = -1;
         d->seen_slots = 16;
         while (d->seen_slots < 2 * l->groups) d->seen_slots *= 2;
-        d->seen = (int32_t *)peri__new(&b->memory, d->seen_slots, sizeof *d->seen);
+        d->seen = (int32_t *)peri__new(&b->scratch, d->seen_slots, sizeof *d->seen);
         if (d->seen && l->begin && l->first) status = peri__build_groups(d);
         if (status == PERI_OK) status = peri__keep_stencil(d);
-        peri__delete(&b->memory, d->seen, d->seen_slots, sizeof *d->seen);
-        peri__delete(&b->memory, d->column, d->capacity, sizeof *d->column);
-        peri__delete(&b->memory, d, 1, sizeof *d);
+        peri__delete(&b->scratch, d->seen, d->seen_slots, sizeof *d->seen);
+        peri__delete(&b->scratch, d->column, d->capacity, sizeof *d->column);
+        peri__delete(&b->scratch, d, 1, sizeof *d);
     }
     if (status < 0) peri__free_stencil(m);
     return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0) : 0;

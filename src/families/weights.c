@@ -8,7 +8,7 @@
 /* The centroid rule made objective: beta_ij w |centroid bond|/|bond|, w at the centroid of the part of j within the horizon of i. */
 static double peri__moment_weight(const peri__cloud *c, int64_t i, int64_t j, double bond, double edge) {
     double centre[3], beta = peri__partial_volume(c, i, j, centre), length = sqrt(peri__dot(centre, centre, c->model->dim));
-    return beta * peri__influence(&c->body->desc, length / c->model->horizon, edge) * length / bond;
+    return beta * peri__influence(c->body, length / c->model->horizon, edge) * length / bond;
 }
 
 /* sum of beta V_j over the whole family of a point. */
@@ -59,7 +59,7 @@ static int peri__weigh_bond(const peri__cloud *c, peri__partial_volumes *parts, 
     if (desc->quadrature == PERI_QUADRATURE_PARTIAL_MOMENT)
         w = 0.5 * (peri__moment_weight(c, i, j, length, c->edge) + peri__moment_weight(c, j, i, length, c->edge));
     else
-        w = beta * peri__influence(desc, bond->length / m->horizon, c->edge);
+        w = beta * peri__influence(c->body, bond->length / m->horizon, c->edge);
     bond->weight = w * m->volume[j];
     bond->partial_volume = beta * m->volume[j];
     return peri__finite(w);
@@ -204,7 +204,7 @@ PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *
         for (int64_t k = 0; k < taken; ++k) weight[k] = 1.0;
     } else {
         for (int64_t k = 0; k < taken; ++k) weight[k] = length[k] / m->horizon;
-        peri__influences(desc, weight, taken, c->edge);
+        peri__influences(c->body, weight, taken, c->edge);
     }
     if (c->even > 0.0)
         for (int64_t k = 0; k < taken; ++k) weight[k] *= c->even;

@@ -30,7 +30,7 @@ static int peri__is_planar(int32_t quadrature) {
 
 /* Everything that building families and weights needs to know about the points; inner units. */
 typedef struct peri__cloud {
-    const peri_body *body;
+    peri_body       *body;
     peri__model     *model;
     double          *x;        /* [points*dim]                                                                           */
     double           reach2;   /* square of the largest distance of a bond                                               */

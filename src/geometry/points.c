@@ -101,22 +101,24 @@ static void peri__site(const peri__piece *piece, int64_t k, int64_t *index) {
     index[2] = k / piece->cells[0] / piece->cells[1];
 }
 
-/* Marks the sites that `inside` takes, one bit each, and counts them. It sees every site once, in order. */
+/* Marks the sites that `inside` takes, one bit each, and counts them. It sees every site once, in order, until it fails. */
 static int64_t peri__mark_sites(peri_body *b, const peri__piece *piece, int64_t sites, peri_point_fn inside, void *user,
                                 uint8_t *taken) {
     int64_t count = 0;
+    int32_t said = 0;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
-    for (int64_t k = 0; k < sites; ++k) {
+    for (int64_t k = 0; k < sites && said >= 0; ++k) {
         int64_t index[3];
         double x[3];
         peri__site(piece, k, index);
         for (int32_t d = 0; d < b->dim; ++d) x[d] = piece->origin[d] + ((double)index[d] + 0.5) * piece->cell[d];
-        if (!inside(user, k, x)) continue;
+        said = inside(user, k, x);
+        if (said <= 0) continue;
         taken[k / 8] = (uint8_t)(taken[k / 8] | 1 << k % 8);
         count++;
     }
     peri__leave(b, former);
-    return count;
+    return said < 0 ? peri__fail(b, PERI_ERROR_CALLBACK, "peri_point_fn", -1, said) : count;
 }
 
 /* Adds the sites of a lattice that `inside` takes (all where it is NULL). */
@@ -129,9 +131,10 @@ static int64_t peri__add_lattice(peri_body *b, int32_t material, peri__piece *pi
     if (!(cell_volume > 0.0 && peri__finite(cell_volume)))
         return peri__fail(b, PERI_ERROR_RANGE, "spacing", -1, cell_volume);
     if (inside) {
-        taken = (uint8_t *)peri__new(&b->memory, sites / 8 + 1, 1);
+        taken = (uint8_t *)peri__new(&b->scratch, sites / 8 + 1, 1);
         if (!taken) return peri__fail(b, PERI_ERROR_MEMORY, "peri_add_shape", -1, 0.0);
         added = peri__mark_sites(b, piece, sites, inside, user, taken);
+        if (added < 0) status = (int32_t)added;
         if (added == 0) status = peri__fail(b, PERI_ERROR_EMPTY, "peri_add_shape", -1, 0.0);
     }
     if (status == PERI_OK) status = peri__reserve_points(b, added);
@@ -144,7 +147,7 @@ static int64_t peri__add_lattice(peri_body *b, int32_t material, peri__piece *pi
         s->material[point] = (uint8_t)(PERI_ID_INDEX(material) - 1);
         point++;
     }
-    peri__delete(&b->memory, taken, sites / 8 + 1, 1);
+    peri__delete(&b->scratch, taken, sites / 8 + 1, 1);
     if (status < 0) return status;
     piece->count = added;
     s->pieces[s->piece_count++] = *piece;

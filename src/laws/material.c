@@ -74,11 +74,11 @@ static peri__law peri__law_of(const peri_material_desc *m, int32_t space, double
 }
 
 /* Is the spring of Oterkus in a whole family less than shear asks for? See peri__calibrate; q m = D (D + 2) mu in the ball. */
-static int peri__is_soft(const peri_body *b, const peri__law *law, double edge) {
+static int peri__is_soft(peri_body *b, const peri__law *law, double edge) {
     const int dim = b->dim;
     double plain, length, m;
-    if (law->kind != PERI_LAW_OTERKUS || !peri__moment(&b->desc, dim - 1, edge, &plain) || !peri__moment(&b->desc, dim, edge, &length)
-        || !peri__moment(&b->desc, dim + 1, edge, &m))
+    if (law->kind != PERI_LAW_OTERKUS || !peri__moment(b, dim - 1, edge, &plain) || !peri__moment(b, dim, edge, &length)
+        || !peri__moment(b, dim + 1, edge, &m))
         return 0;
     const double room = m * plain / (length * length) - 1.0;
     return (dim + 2) * law->mu * room > law->bulk * dim * (1.0 + room);
@@ -246,7 +246,7 @@ static int32_t peri__constants(peri_body *b, const peri_material_desc *m, double
     for (int32_t k = 0; k < peri__count_criterion; ++k) pair->limit[k] = PERI_NEVER;
     pair->c = 0.0;
     if (!states || (stretch && m->fracture_energy > 0.0)) {
-        if (!peri__moment(&b->desc, (solid ? 3 : 2) + states, edge, &ic) || !peri__moment(&b->desc, (solid ? 4 : 3) + states, edge, &is))
+        if (!peri__moment(b, (solid ? 3 : 2) + states, edge, &ic) || !peri__moment(b, (solid ? 4 : 3) + states, edge, &is))
             return peri__fail(b, PERI_ERROR_INFLUENCE, "influence", b->desc.influence, 0.0);
         if (solid) {
             double bulk = modulus / 1.5; /* K = E/(3(1-2 nu)), nu = 1/4 */
@@ -301,6 +301,7 @@ PERI_API int32_t peri_get_bond_constants(peri_body *b, int32_t first, int32_t se
     if (status == PERI_OK) status = peri__constants(b, &b->materials[j], stress, length, edge, &own[j]);
     if (status == PERI_OK) status = peri__pair_constants(b, i, j, stress, length, edge, own, &pair);
     peri__leave(b, former);
+    status = peri__heed_influence(b, status);
     if (status < 0) return status;
     const double unit = stress / length / length / length / (solid ? length : b->desc.thickness), micromodulus = pair.c * unit;
     if (c && !(micromodulus >= DBL_MIN && peri__finite(micromodulus))) return peri__fail(b, PERI_ERROR_RANGE, "c", -1, micromodulus);

@@ -93,7 +93,7 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
     PERI_NEED_BUILT(b);
     PERI_NEED(b, write, "write");
     n = b->model->points;
-    double *values = (double *)peri__new(&b->memory, n * PERI_PACKED(b->dim), sizeof(double));
+    double *values = (double *)peri__new(&b->scratch, n * PERI_PACKED(b->dim), sizeof(double));
     if (!values) return peri__fail(b, PERI_ERROR_MEMORY, "peri_export_vtu_to", -1, 0.0);
     w.body = b;
     w.write = write;
@@ -135,7 +135,7 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
         peri__emit(&w, &vertex, 1);
     }
     peri__emit_text(&w, "\n</AppendedData>\n</VTKFile>\n");
-    peri__delete(&b->memory, values, n * PERI_PACKED(b->dim), sizeof(double));
+    peri__delete(&b->scratch, values, n * PERI_PACKED(b->dim), sizeof(double));
     return peri__finish(b, &w);
 }
 

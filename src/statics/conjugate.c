@@ -17,13 +17,13 @@ static int peri__is_linear(const peri_body *b) {
 static double peri__rounding(const peri_body *b) { return b->b32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
 
 static void *peri__take(peri__solver *s, int64_t count, size_t size) {
-    void *taken = peri__new(&s->body->memory, count, size);
+    void *taken = peri__new(&s->body->scratch, count, size);
     if (taken) s->bytes += count * (int64_t)size;
     return taken;
 }
 
 static void *peri__take_vector(peri__solver *s) {
-    void *taken = peri__new_vector(s->body);
+    void *taken = peri__new_vector(s->body, &s->body->scratch);
     if (taken) s->bytes += peri__vector_reals(s->body->model) * (int64_t)peri__real(s->body);
     return taken;
 }
@@ -34,13 +34,13 @@ static void peri__free_solver(peri__solver *s) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
     void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->from, s->load };
-    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, vectors[k]);
-    peri__delete(&b->memory, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
-    peri__delete(&b->memory, s->t.change, peri__response_reals(m), peri__bond_real(b));
-    peri__delete(&b->memory, s->constrained, m->points, 1);
-    peri__delete(&b->memory, s->part_of, m->points, sizeof *s->part_of);
-    peri__delete(&b->memory, s->queue, m->points, sizeof *s->queue);
-    peri__delete(&b->memory, s->parts, s->part_capacity, sizeof *s->parts);
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, &b->scratch, vectors[k]);
+    peri__delete(&b->scratch, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
+    peri__delete(&b->scratch, s->t.change, peri__response_reals(m), peri__bond_real(b));
+    peri__delete(&b->scratch, s->constrained, m->points, 1);
+    peri__delete(&b->scratch, s->part_of, m->points, sizeof *s->part_of);
+    peri__delete(&b->scratch, s->queue, m->points, sizeof *s->queue);
+    peri__delete(&b->scratch, s->parts, s->part_capacity, sizeof *s->parts);
     peri__free_levels(s->levels);
 }
 
@@ -95,12 +95,14 @@ static int peri__is_nothing(const peri__solver *s, double residual, double loads
     return (residual <= nothing && s->scale <= nothing) || (loads == 0.0 && residual <= s->floor && s->scale <= s->floor);
 }
 
-/* One more iteration, told to the callback. */
+/* One more iteration, told to the callback. Here a run ends that it, a load or an obstacle wishes to stop. */
 static int32_t peri__count_iteration(peri__solver *s, double residual) {
     const peri_solve_desc *st = s->settings;
     s->report.iterations++;
     s->left--;
-    return st->on_iteration && st->on_iteration(st->user, s->report.iterations, residual) ? PERI_STOPPED : PERI_OK;
+    int32_t status = PERI_OK;
+    if (st->on_iteration) status = peri__heed(s->body, st->on_iteration(st->user, s->report.iterations, residual), "peri_iteration_fn");
+    return status == PERI_OK && s->body->stop ? PERI_STOPPED : status;
 }
 
 /* Adds to d the solution of K d = r, r becoming what is left, until |r| <= reach*scale. `loads`: that part of the scale which stays.

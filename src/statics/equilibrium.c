@@ -323,7 +323,7 @@ static int32_t peri__newton(peri__solver *s) {
         if (s->settings->method == PERI_METHOD_BICGSTAB) status = peri__solve_assembled(s, reach, loads);
         else status = peri__conjugate(s, reach, loads, at_rest);
         s->negative = status == PERI_ERROR_INDEFINITE;
-        if (status == PERI_ERROR_MEMORY) return status;
+        if (status == PERI_ERROR_MEMORY || status == PERI_ERROR_CALLBACK) return status;
         if (status == PERI_ERROR_LOOSE || (linear && s->negative))
             return peri__fail_step(s, status, "peri_solve", peri__most_moved(s), 0.0);
         if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "PERI_FIELD_DISPLACEMENT", -1, s->report.residual);

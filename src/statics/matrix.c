@@ -175,8 +175,8 @@ static int32_t peri__couple(peri_body *b, peri_matrix *a, int32_t *mark, int32_t
     for (int64_t i = 0; i < a->points; ++i) a->start[i + 1] = a->start[i] + peri__coupled(b, i, mark, list);
     a->pairs = a->start[a->points];
     if (a->pairs > INT32_MAX) return peri__fail(b, PERI_ERROR_TOO_LARGE, "matrix", -1, (double)a->pairs);
-    a->column = (int32_t *)peri__new(&b->memory, a->pairs, sizeof *a->column);
-    a->block = (double *)peri__new(&b->memory, a->pairs * a->dim * a->dim, sizeof *a->block);
+    a->column = (int32_t *)peri__new(&a->memory, a->pairs, sizeof *a->column);
+    a->block = (double *)peri__new(&a->memory, a->pairs * a->dim * a->dim, sizeof *a->block);
     if (!a->column || !a->block) return peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
     memset(mark, 0, (size_t)a->points * sizeof *mark);
     for (int64_t i = 0; i < a->points; ++i) {
@@ -186,14 +186,11 @@ static int32_t peri__couple(peri_body *b, peri_matrix *a, int32_t *mark, int32_t
     return PERI_OK;
 }
 
-PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
-    if (matrix) *matrix = NULL;
-    PERI_NEED_BUILT(b);
-    PERI_NEED(b, matrix, "matrix");
+/* *matrix of `memory`: b->memory, or b->scratch where a call assembles it for itself. */
+static int32_t peri__assemble(peri_body *b, const peri__memory *memory, peri_matrix **matrix) {
     const peri__model *m = b->model;
-    if (m->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     peri__element e;
-    peri_matrix *a = (peri_matrix *)peri__new(&b->memory, 1, sizeof *a);
+    peri_matrix *a = (peri_matrix *)peri__new(memory, 1, sizeof *a);
     int32_t *mark = (int32_t *)peri__new(&b->memory, m->points, sizeof *mark), status = PERI_ERROR_MEMORY;
     int32_t *list = (int32_t *)peri__new(&b->memory, m->points, sizeof *list);
     const int64_t room = m->width + 1;
@@ -201,11 +198,11 @@ PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
     e.pull = (double *)peri__new(&b->memory, room * m->dim, sizeof *e.pull);
     e.spring = (double *)peri__new(&b->memory, room * m->dim * m->dim, sizeof *e.spring);
     if (a) {
-        a->memory = b->memory;
+        a->memory = *memory;
         a->dim = m->dim;
         a->points = m->points;
         a->unit = m->energy / peri__square(m->length);
-        a->start = (int64_t *)peri__new(&b->memory, a->points + 1, sizeof *a->start);
+        a->start = (int64_t *)peri__new(memory, a->points + 1, sizeof *a->start);
     }
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (a && a->start && mark && list && e.id && e.pull && e.spring) status = peri__couple(b, a, mark, list);
@@ -224,6 +221,14 @@ PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
     if (status == PERI_OK) *matrix = a;
     else peri_matrix_destroy(a);
     return status;
+}
+
+PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
+    if (matrix) *matrix = NULL;
+    PERI_NEED_BUILT(b);
+    PERI_NEED(b, matrix, "matrix");
+    if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
+    return peri__assemble(b, &b->memory, matrix);
 }
 
 PERI_API int64_t peri_matrix_rows(const peri_matrix *a) { return a ? a->points * a->dim : PERI_ERROR_ARGUMENT; }
@@ -362,10 +367,10 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
     const peri__model *m = b->model;
     const int64_t n = m->points * m->dim;
     peri_matrix *a = NULL;
-    int32_t status = peri_matrix_create(b, &a);
+    int32_t status = peri__assemble(b, &b->scratch, &a);
     if (status < 0) return status;
     peri__add_contact(a, b);
-    double *work = (double *)peri__new(&b->memory, 9 * n, sizeof *work);
+    double *work = (double *)peri__new(&b->scratch, 9 * n, sizeof *work);
     int64_t bytes = s->bytes + 9 * n * (int64_t)sizeof *work + a->pairs * (m->dim * m->dim * 8 + 4);
     if (bytes > s->report.bytes) s->report.bytes = bytes;
     if (work) {
@@ -381,7 +386,7 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
     } else
         status = peri__fail(b, PERI_ERROR_MEMORY, "matrix", -1, 0.0);
     peri__balance(s, s->k.d, 0);
-    peri__delete(&b->memory, work, 9 * n, sizeof *work);
+    peri__delete(&b->scratch, work, 9 * n, sizeof *work);
     peri_matrix_destroy(a);
     return status;
 }

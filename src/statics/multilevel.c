@@ -239,9 +239,9 @@ static void peri__prolong_cells(void *context, int64_t begin, int64_t end, peri_
 /* Builds the grids for the body as it is; s->blocks are the diagonal blocks, not yet inverted. NULL where memory is short. */
 static peri__multilevel *peri__build_levels(const peri__solver *s) {
     const peri_body *b = s->body;
-    peri__multilevel *l = (peri__multilevel *)peri__new(&b->memory, 1, sizeof *l);
+    peri__multilevel *l = (peri__multilevel *)peri__new(&b->scratch, 1, sizeof *l);
     if (!l) return NULL;
-    l->memory = b->memory;
+    l->memory = b->scratch;
     l->dim = b->dim;
     l->around = b->dim == 3 ? 27 : 9;
     l->bytes = (int64_t)sizeof *l;

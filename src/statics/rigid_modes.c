@@ -258,7 +258,7 @@ static int32_t peri__find_floating_parts(peri__solver *s) {
             peri__pin(s, count, &part);
             continue;
         }
-        if (!peri__grow(&b->memory, &s->parts, &s->part_capacity, s->part_count + 1, sizeof *s->parts))
+        if (!peri__grow(&b->scratch, &s->parts, &s->part_capacity, s->part_count + 1, sizeof *s->parts))
             return peri__fail(b, PERI_ERROR_MEMORY, "peri_solve", -1, 0.0);
         for (int64_t n = 0; n < count; ++n) s->part_of[s->queue[n]] = (int32_t)s->part_count;
         s->parts[s->part_count++] = part;

@@ -237,18 +237,20 @@ static int32_t peri__show_step(peri__solver *s) {
     b->now.steps++;
     s->report.steps++;
     s->report.load_factor = b->now.load_factor;
+    if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b)); /* the way here has been accounted for */
     for (int64_t l = 0; l < b->load_count; ++l) b->loads[l].stepped = 0;
     int32_t status = peri__meet_supports(b);
     if (status == PERI_OK) b->now.stale &= ~(uint32_t)(PERI__STALE_FORCE | PERI__STALE_BALANCE); /* f is that of the equilibrium */
     if (status == PERI_OK) status = peri__record(s);
+    if (status == PERI_OK && b->break_said < 0) status = peri__heed_callbacks(b);
     if (status != PERI_OK || !s->settings->on_step) return status;
     const int32_t former = peri__enter(b, PERI__IN_FRAME);
-    int32_t stop = s->settings->on_step(s->settings->user, b);
+    const int32_t said = peri__heed(b, s->settings->on_step(s->settings->user, b), "peri_frame_fn");
     peri__leave(b, former);
     (void)peri__ensure(b, PERI__STALE_LEDGER);
     s->disturbed = b->desc.ledger && b->now.stale & PERI__STALE_BALANCE;
-    if (s->disturbed) status = peri__note_forces(s);
-    return status < 0 ? status : stop ? PERI_STOPPED : PERI_OK;
+    if (s->disturbed && said >= 0) status = peri__note_forces(s);
+    return status < 0 ? status : said;
 }
 
 /* From one planned load factor to the next, in as many steps as it takes. */
@@ -263,6 +265,7 @@ static int32_t peri__load_step(peri__solver *s, double from, double to) {
         status = peri__static_step(s, next < 1.0 ? from + next * (to - from) : to);
         if (status == PERI_OK) {
             status = peri__show_step(s);
+            if (status == PERI_OK) status = peri__heed_callbacks(b);
             at = next;
             part *= 2.0;
             continue;
@@ -308,6 +311,7 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_
     PERI_NEED_IDLE(b);
     peri__solver s;
     int32_t status = peri__check_statics(b, st);
+    if (status == PERI_OK) status = peri__check_whole(b);
     if (report) memset(report, 0, sizeof *report);
     if (status < 0) return status;
     memset(&s, 0, sizeof s);
@@ -316,10 +320,11 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_
     const double factor = b->now.load_factor;
     const int32_t still = b->now.still;
     s.load_from = !peri__is_nan(st->load_from) ? st->load_from : b->now.loaded ? factor : 0.0;
-    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    const int32_t former = peri__begin_run(b);
     status = peri__load_steps(&s);
-    peri__leave(b, former);
+    peri__end_run(b, former);
     if (status < 0 && status == s.failure.code) b->error = s.failure;
+    if (status < 0 && b->break_said < 0) status = peri__heed_callbacks(b);
     if (status >= 0 || s.begun) b->now.loaded = 1;
     if (status < 0) {
         b->now.load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? s.load_from : factor;

@@ -119,17 +119,17 @@ static int32_t peri__apply_surface(peri_body *b, peri__surface *f, const double 
     }
     if (m->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
-    void *p = peri__new_vector(b);
+    void *p = peri__new_vector(b, &b->memory);
     f->t.body = b;
     f->t.p = p;
-    f->t.q = peri__new_vector(b);
+    f->t.q = peri__new_vector(b, &b->memory);
     f->t.change = !m->pairwise ? peri__new(&b->memory, peri__response_reals(m), peri__bond_real(b)) : NULL;
     f->spread = (double *)peri__new(&b->memory, count, sizeof *f->spread);
     if (!p || !f->t.q || (!m->pairwise && !f->t.change) || !f->spread) status = peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     else if (f->normal) status = peri__fill_traction(b, f, &m->laws[material]);
     else peri__fill_pressure(b, f, &m->laws[material]);
-    peri__delete_vector(b, p);
-    peri__delete_vector(b, f->t.q);
+    peri__delete_vector(b, &b->memory, p);
+    peri__delete_vector(b, &b->memory, f->t.q);
     peri__delete(&b->memory, f->t.change, peri__response_reals(m), peri__bond_real(b));
     if (status == PERI_OK) return peri__load_id(b, peri__add_spread(b, f->set, f->spread, value, fn, user));
     peri__delete(&b->memory, f->spread, count, sizeof *f->spread);
