@@ -156,12 +156,12 @@ typedef int32_t (*peri_pair_fn)(void *user, int32_t i, int32_t j, const double *
     const double *xj);
 
 /* Values of a load or support at `time` on points[count]: value[count*dim] holds the constant
-   value; overwrite what varies. Once per step, for its end; in peri_solve time is the load
-   factor. */
+   value; overwrite what varies. Once per step, for its end; in peri_solve time is the load factor.
+   > 0 stops the run after the step; peri_solve as peri_iteration_fn does. */
 typedef int32_t (*peri_load_fn)(void *user, double time, int64_t count, const int32_t *points,
     double *value);
 
-/* Writes the place[dim] of a moving obstacle (of a ball its centre) at `time`. */
+/* Writes the place[dim] of a moving obstacle (of a ball its centre) at `time`. > 0: likewise. */
 typedef int32_t (*peri_motion_fn)(void *user, double time, double *place);
 
 /* A bond i < j broke by its criterion at `time` [T] and this stretch [-]. Called after the step, in
@@ -304,7 +304,8 @@ PERI_API void peri_body_destroy(peri_body *body);
 
 /* After a callback was left by longjmp or an exception: ends the call that it came from, and frees
    its memory. The body may then be read, reset or destroyed; it runs again after peri_reset. Never
-   from within a callback. PERI_ERROR_ORDER where none was left. */
+   from within a callback. PERI_ERROR_ORDER where none was left. Memory hooks, job systems and what
+   a measuring peri_plan calls may not be left so. */
 PERI_API int32_t peri_unlock(peri_body *body);
 
 /* Copies the record of the body's last failed call; its code is PERI_OK where none failed yet. */
@@ -571,8 +572,9 @@ typedef struct peri_advance_desc {
 PERI_API void peri_advance_desc_init(peri_advance_desc *desc);
 
 /* Advances the body in time. PERI_ERROR_STEP: it ends at a whole step; the value is what may
-   follow. PERI_ERROR_UNSTABLE and PERI_ERROR_CALLBACK (index: the point): it ended within a step;
-   read it, then reset or destroy it. */
+   follow. So does PERI_ERROR_CALLBACK of a peri_frame_fn or peri_break_fn. PERI_ERROR_UNSTABLE, and
+   PERI_ERROR_CALLBACK of a load or obstacle (index: the point): it ended within a step; read it,
+   then reset or destroy it. */
 PERI_API int32_t peri_advance(peri_body *body, const peri_advance_desc *desc);
 
 /* ---- equilibrium (docs/statics.md) ------------------------------------------ */
@@ -597,7 +599,8 @@ typedef enum peri_loose { /* parts that no support holds against some rigid-body
     PERI_LOOSE_BALANCED = 1503 /* the part of the loads that drives the mode is left out */
 } peri_loose;
 
-/* After each iteration of the linear solver, with the residual over its scale. > 0 stops. */
+/* After each iteration of the linear solver, with the residual over its scale. > 0 stops there,
+   short of the equilibrium. */
 typedef int32_t (*peri_iteration_fn)(void *user, int64_t iteration, double residual);
 
 typedef struct peri_solve_desc {

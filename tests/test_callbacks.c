@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_callbacks.c - every callback x {fails, asks to stop, is left by a jump} x the calls that make it.
 
    SOURCE OF TRUTH: peri.h (< 0: PERI_ERROR_CALLBACK, its value what was returned, its field the type of the callback; > 0: PERI_STOPPED at
@@ -36,6 +37,7 @@ static struct {
     int64_t at, calls[KINDS];
     jmp_buf out;
 } trip;
+static double trip_time;  /* of the break that tripped */
 static double rate;       /* of the right grip, per time */
 static int    nests, cuts; /* on_frame and on_step select and cut by predicates */
 
@@ -66,9 +68,11 @@ static int32_t motion(void *user, double time, double *place) {
     return say(MOTION);
 }
 static int32_t on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
-    (void)user, (void)time;
+    const int32_t said = say(BREAK);
+    (void)user;
     CHECK(i < j && stretch > 0);
-    return say(BREAK);
+    if (said) trip_time = time;
+    return said;
 }
 static int32_t take_left(void *user, int64_t index, const double *x) {
     const int32_t said = say(POINT);
@@ -185,6 +189,15 @@ static uint64_t digest(peri_body *b) {
     }
     return hash;
 }
+/* Forces follow from where the body is: moving it by nothing has them made anew. */
+static int force_is_of_the_state(peri_body *b) {
+    const double nothing[2] = {0, 0};
+    double f[2 * 112], g[2 * 112];
+    MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 2 * 112));
+    MUST(b, peri_add_displacement(b, PERI_ALL, nothing));
+    MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, g, 2 * 112));
+    return memcmp(f, g, sizeof f) == 0;
+}
 static int64_t total(const peri_body *b) {
     peri_memory m;
     CHECK(peri_get_memory(b, &m) == PERI_OK);
@@ -193,8 +206,8 @@ static int64_t total(const peri_body *b) {
 
 /* ---- the calls ------------------------------------------------------------------------------------------------------ */
 
-enum call { BUILD, CONSTANTS, SHAPE, SELECT, CUT_IF, CUT_NONE, VTU, HISTORY, FORCE, REACTION, PUSH, PRODUCT, VERLET, CENTRAL, NESTED, NEWTON,
-            BICGSTAB, RELAX, NESTED_SOLVE, CALLS };
+enum call { BUILD, CONSTANTS, SHAPE, SELECT, CUT_IF, CUT_NONE, VTU, HISTORY, FORCE, REACTION, PUSH, PRODUCT, /* runs: */ VERLET, CENTRAL,
+            NESTED, NEWTON, BICGSTAB, RELAX, NESTED_SOLVE, CALLS };
 static const char *const call_name[CALLS] = {"build", "constants", "shape", "select", "cut_if", "cut_none", "vtu", "history", "force",
                                              "reaction", "push", "product", "verlet", "central", "nested", "newton", "bicgstab", "relax",
                                              "nested_solve"};
@@ -348,6 +361,8 @@ static void stops(int form, int which, int kind, int64_t at) {
     result = call(b, which);
     CHECK(result == PERI_STOPPED);
     steps = peri_step_count(b);
+    if (kind <= MOTION && !IS_SOLVE(which)) CHECK(trip.calls[kind] == at); /* not a step more */
+    if (kind == BREAK && !IS_SOLVE(which)) CHECK(peri_time(b) == trip_time);
     CHECK(steps <= (IS_SOLVE(which) ? 4 : 43));
     if (!nests && (kind == BREAK || kind == STEP || !IS_SOLVE(which))) { /* at a whole step, every break of it reported */
         const int64_t calls = trip.calls[BREAK];
@@ -396,6 +411,7 @@ static void jumps(int form, int which, int kind, int64_t at) {
     if (before) { /* it may be read */
         MUST(b, peri_get_energy(b, &e));
         (void)digest(b);
+        CHECK(force_is_of_the_state(b));
     }
     if (IS_RUN(which)) CHECK(peri_advance(b, &r) == PERI_ERROR_ORDER && solve(b, PERI_METHOD_NEWTON, 1, 1) == PERI_ERROR_ORDER);
     CHECK(peri_unlock(b) == PERI_ERROR_ORDER);
@@ -454,10 +470,92 @@ static void on_columns(void) { table(COLUMNS); }
 static void on_a_list(void) { table(CLOUD); }
 static void with_corrected_weights(void) { table(CORRECTED); }
 
+/* ---- what callbacks see, and where they may go ------------------------------------------------------------------------------- */
+
+static double    seen[2 * 112];
+static peri_body *clone;
+
+static int32_t see_break(void *user, int32_t i, int32_t j, double time, double stretch) {
+    (void)i, (void)j, (void)time, (void)stretch;
+    MUST((peri_body *)user, peri_get_field((peri_body *)user, PERI_FIELD_VELOCITY, seen, 2 * 112));
+    return 1;
+}
+/* peri.h: breaks are told after the step. So what on_break reads is what the run that it stops leaves. */
+static void breaks_are_told_after_the_step(void) {
+    double v[2 * 112];
+    peri_body *b;
+    no_trip();
+    b = whole(COLUMNS);
+    rate = 0.02;
+    MUST(b, peri_on_break(b, see_break, b));
+    CHECK(advance(b, PERI_INTEGRATOR_VELOCITY_VERLET, 43) == PERI_STOPPED);
+    MUST(b, peri_get_field(b, PERI_FIELD_VELOCITY, v, 2 * 112));
+    CHECK(v[100] != 0 && memcmp(v, seen, sizeof v) == 0);
+    end(b);
+}
+
+static int32_t clone_and_leave(void *user, peri_body *b) {
+    (void)user;
+    CHECK(peri_body_clone(b, &clone, NULL) == PERI_OK);
+    longjmp(trip.out, 1);
+    return 0;
+}
+static void advance_to_frame(peri_body *b) {
+    peri_advance_desc r;
+    peri_advance_desc_init(&r);
+    r.steps = 9;
+    r.on_frame = clone_and_leave;
+    if (setjmp(trip.out) == 0) MUST(b, peri_advance(b, &r));
+}
+/* peri.h: a clone is an independent copy. One made in a frame, at a whole step, runs on, whatever becomes of the run there. */
+static void a_clone_of_a_frame_runs_on(void) {
+    peri_body *b;
+    no_trip();
+    b = whole(COLUMNS);
+    rate = 0.02;
+    advance_to_frame(b);
+    CHECK(advance(b, PERI_INTEGRATOR_VELOCITY_VERLET, 1) == PERI_ERROR_ORDER);
+    MUST(clone, advance(clone, PERI_INTEGRATOR_VELOCITY_VERLET, 1));
+    CHECK(peri_step_count(clone) == 10 && peri_unlock(b) == PERI_OK && peri_step_count(b) == 9);
+    peri_body_destroy(clone);
+    end(b);
+}
+
+/* A matrix has no body to unlock: writing it takes no memory, so it may be left. */
+static int32_t leave_writing(void *user, const void *from, int64_t count) {
+    (void)user, (void)from, (void)count;
+    longjmp(trip.out, 1);
+    return 0;
+}
+static void write_matrix(const peri_matrix *m) {
+    if (setjmp(trip.out) == 0) CHECK(peri_export_matrix_to(m, leave_writing, NULL) == PERI_OK);
+}
+static void a_matrix_is_left_as_it_was(void) {
+    peri_matrix *m = NULL;
+    peri_body *b;
+    int64_t held;
+    no_trip();
+    b = whole(COLUMNS);
+    MUST(b, peri_matrix_create(b, &m));
+    held = bytes;
+    write_matrix(m);
+    CHECK(bytes == held && peri_export_matrix_to(m, write_bytes, NULL) == PERI_OK);
+    peri_matrix_destroy(m);
+    end(b);
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
+    RUN(breaks_are_told_after_the_step);
+    RUN(a_clone_of_a_frame_runs_on);
+    RUN(a_matrix_is_left_as_it_was);
     RUN(on_columns);
-    RUN(on_a_list);
-    RUN(with_corrected_weights);
+#ifdef __SANITIZE_ADDRESS__ /* the others take their memory in the same places, and three times as long */
+    if (test_long)
+#endif
+    {
+        RUN(on_a_list);
+        RUN(with_corrected_weights);
+    }
     return test_end("test_callbacks");
 }

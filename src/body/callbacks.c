@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* callbacks.c - how a run begins and ends, what callbacks have said meanwhile, and what becomes of a body that one was left in by a jump.
 
    A jump (longjmp, an exception) skips all that the interrupted call would still have done. What that was is known without it: blocks of
