@@ -29,6 +29,7 @@ grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the libra
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
 awk -v laws=refuse -f tools/wings.awk peri_impl.c src/*/* || status=1
 sh tools/check_docs.sh || status=1
+awk -f tools/fields.awk peri.h src/*/*.c || status=1
 # peri.h and peri_status_text say the same of each status
 awk -f - peri.h src/base/status.c << 'END' || fail "peri.h and src/base/status.c differ in the text of a status"
 FILENAME == "peri.h" && !ended {

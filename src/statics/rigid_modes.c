@@ -322,7 +322,7 @@ static int32_t peri__invert_blocks(peri__solver *s) {
             memcpy(last, block, sizeof last);
             spanned = peri__invert(m->dim, block, cut, inverse);
             if (peri__is_negative(m->dim, block, cut))
-                return peri__set_error(&s->failure, PERI_ERROR_INDEFINITE, "point", i, 0.0);
+                return peri__set_error(&s->failure, PERI_ERROR_INDEFINITE, "peri_solve", i, 0.0);
         }
         if (spanned < frees && peri__directions(b, i, s->constrained[i]) == frees) { /* soft beside stiff */
             peri__diagonal_block(b, i, block);
