@@ -15,8 +15,8 @@ check docs sh tests/check_docs.sh
 check migrate sh tests/check_migrate.sh
 sanitized=""
 if can_sanitize; then
-    sanitized="test_breaking test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
-        test_loadsteps test_loose test_memory test_output test_plan test_programs test_quadrature test_random test_search \
+    sanitized="test_breaking test_callbacks test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
+        test_loadsteps test_loose test_memory test_misuse test_output test_plan test_programs test_quadrature test_random test_search \
         test_solvers"
     queue sanitized_library "make --no-print-directory CC='$CC' SANITIZE='$SANITIZE' build/san/peri.o"
 else
@@ -57,6 +57,9 @@ switches mixed $quick F64 F32
 if command -v g++ > /dev/null; then
     queue cxx11 "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/libperi.a \
         -o build/checks/cxx $OPENMP -lm && build/checks/cxx"
+    queue cxx_throws "$CC $STRICT -O0 -fexceptions -DPERI_NO_3D -DPERI_NO_MIXED -DPERI_NO_F32 -c peri_impl.c -o build/checks/throws.o && \
+        g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_throws.cpp build/checks/throws.o \
+        -o build/checks/throws -lm && build/checks/throws"
 else
     skip cxx11 "no g++ on this machine"
 fi
@@ -92,6 +95,7 @@ fi
 if command -v python3 > /dev/null; then
     check ctypes_build $CC $STRICT -O2 -I. tests/ctypes_scene.c build/libperi.a -o build/checks/ctypes_scene $OPENMP -lm
     program test_ctypes python3 tests/test_ctypes.py build/libperi.so build/checks/ctypes_scene
+    program test_misuse_py python3 tests/test_misuse.py build/libperi.so build/tests/test_misuse
 else
     skip test_ctypes "no python3 on this machine"
 fi

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 // cxx_throws.cpp - callbacks in C++11 that throw, out of a library compiled as C. It must be compiled with -fexceptions, so that the
-// exception finds its way through its frames. SOURCE OF TRUTH: peri.h (a body left by an exception is unlocked, then read, reset, destroyed),
-// conservation of blocks, and an untouched body: after peri_reset the other moves bit by bit as that.
+// exception finds its way through its frames. SOURCE OF TRUTH: peri.h (a body left by an exception is unlocked, then read, reset or
+// destroyed), conservation of blocks, and an untouched body: after peri_reset the other moves bit by bit as that.
 #include "../peri.h"
 #include <cstdio>
 #include <cstdlib>
