@@ -40,10 +40,11 @@ static void check_text(program *p, const peri_error *e) {
     HOLDS(p, peri_format_error(e, NULL, 0) == length && strncmp(text, e->text, strlen(e->text) < 100 ? strlen(e->text) : 100) == 0);
 }
 
-/* A wrong id is told by its own status, where nothing else is wrong that is looked at before: it is too early, or another choice, flag or
-   count is wrong, too. And no other call is refused for its ids. */
-static int ends_by_its_ids(int64_t status, int32_t want) {
+/* A wrong id is told by its own status, where nothing else is wrong that is looked at before: it is too early, or another choice, flag,
+   count or number is wrong, too. And no other call is refused for its ids. */
+static int ends_by_its_ids(const program *p, int64_t status, int32_t want) {
     if (status <= PERI_ERROR_ID_NONE && status >= PERI_ERROR_ID_GONE) return status == want;
+    if (p->mood == MOOD_NUMBERS && status == PERI_ERROR_RANGE) return 1;
     return want == PERI_OK || status == PERI_ERROR_ORDER || status == PERI_ERROR_CHOICE || status == PERI_ERROR_ARGUMENT
         || status == PERI_ERROR_DESCRIPTOR;
 }
@@ -59,7 +60,7 @@ static int64_t told(program *p, int s, int64_t status, int line) {
         return status;
     }
     HOLDS(p, peri_get_error(o->body, &e) == PERI_OK);
-    if (!ends_by_its_ids(status, p->wants[p->level])) blame(p, "a wrong id is told by the status that says why", line);
+    if (!ends_by_its_ids(p, status, p->wants[p->level])) blame(p, "a wrong id is told by the status that says why", line);
     if (status < 0) {
         const int32_t code = (int32_t)status;
         if (status <= PERI_ERROR_LEFT_OUT) blame(p, "the status is listed", line);

@@ -220,8 +220,9 @@ static int64_t add_points(program *p, int s) {
     for (d = 0; d < o->dim; ++d)
         if (!p->wild && o->hi[d] < o->length * across) o->hi[d] = o->length * across;
     if (p->mood == MOOD_CHOICES && draw(p) % 2) count = -(int64_t)draw(p);
+    if (count <= 0) p->want = PERI_OK; /* no id is looked at */
     const int32_t *materials = p->mood == 0 && materials_of(o) == 1 ? NULL : GIVEN(2, p->ids);
-    if (!materials && materials_of(o) != 1) p->want = materials_of(o) ? PERI_ERROR_ID_NONE : PERI_OK; /* which? */
+    if (count > 0 && !materials && materials_of(o) != 1) p->want = materials_of(o) ? PERI_ERROR_ID_NONE : PERI_OK; /* which? */
     return CALL(p, s, peri_add_points(o->body, count, GIVEN(0, p->in), GIVEN(1, p->other), materials));
 }
 
