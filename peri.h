@@ -400,7 +400,8 @@ PERI_API int32_t peri_build(peri_body *body);
 PERI_API int32_t peri_dimension(const peri_body *body); /* 2 or 3 */
 PERI_API int64_t peri_point_count(const peri_body *body);
 PERI_API int32_t peri_family_width(const peri_body *body); /* size of the largest family */
-PERI_API int64_t peri_bond_count(const peri_body *body); /* entries (i,j): twice the bonds */
+PERI_API int64_t peri_bond_count(const peri_body *body);   /* broken and cut ones included */
+PERI_API int64_t peri_entry_count(const peri_body *body);  /* of all families: twice the bonds */
 PERI_API int64_t peri_cut_count(const peri_body *body); /* bonds of the initial cracks */
 PERI_API int64_t peri_broken_count(const peri_body *body); /* bonds broken, or cut later */
 PERI_API int64_t peri_step_count(const peri_body *body); /* steps, load steps too, since reset */
@@ -800,7 +801,7 @@ typedef struct peri_plan_desc { /* a body that is only described: one material i
 
 typedef struct peri_plan_report {
     int64_t points;     /* peri_point_count */
-    int64_t bonds;      /* peri_bond_count: exact of a box, else to 5 % */
+    int64_t entries;    /* peri_entry_count: exact of a box, else to 5 % */
     int64_t width;      /* peri_family_width: exact of a box, else an estimate */
     int64_t columns;    /* families by columns: how many; 0: a list */
     int64_t bytes;      /* peri_memory.total after peri_build: exact of a box, else to 5 % */

@@ -45,7 +45,7 @@ static void read_textbook(peri_body *body, const bench_case *c, textbook_input *
     memset(t, 0, sizeof *t);
     t->n = peri_point_count(body);
     t->width = peri_family_width(body);
-    t->bonds = peri_bond_count(body);
+    t->bonds = peri_entry_count(body);
     t->dim = peri_dimension(body);
     t->lps = c->law == PERI_LAW_LPS;
     t->id = (int32_t *)malloc((size_t)(t->n * t->width) * sizeof *t->id);

@@ -273,7 +273,7 @@ void bench_branching(bench_run *run) {
         put_number(&t, (double)peri_point_count(body));
         put_number(&t, (double)steps);
         put_number(&t, best);
-        put_number(&t, best * 1e9 / ((double)steps * (double)peri_bond_count(body)));
+        put_number(&t, best * 1e9 / ((double)steps * (double)peri_entry_count(body)));
         put_number(&t, (double)peri_broken_count(body));
         peri_body_destroy(body);
     }

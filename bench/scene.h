@@ -63,7 +63,7 @@ static inline peri_body *scene_build(const bench_case *c, bench_facts *facts) {
     need(body, built);
     facts->build = (c->threads == 1 ? processor_seconds() : seconds()) - start;
     facts->points = peri_point_count(body);
-    facts->bonds = peri_bond_count(body);
+    facts->bonds = peri_entry_count(body);
     facts->width = peri_family_width(body);
     facts->peak = (double)(bytes_most - before) / (double)facts->points;
     facts->bytes = (double)(bytes_now - before) / (double)facts->points;

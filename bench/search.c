@@ -76,7 +76,7 @@ static double best_build(int32_t space, int32_t precision, int32_t threads, int6
         const double start = now(threads);
         need(body, peri_build(body));
         const double elapsed = now(threads) - start;
-        *bonds = peri_bond_count(body);
+        *bonds = peri_entry_count(body);
         if (elapsed < best) best = elapsed;
         peri_body_destroy(body);
     }

@@ -137,7 +137,7 @@ outcome trial_end(trial *t, double error) {
     }
     if (t->body) {
         t->out.points = peri_point_count(t->body);
-        t->out.bonds = peri_bond_count(t->body);
+        t->out.bonds = peri_entry_count(t->body);
     }
     t->out.bytes = bytes_most;
     peri_body_destroy(t->body);

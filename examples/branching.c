@@ -56,7 +56,7 @@ int main(void) {
     must(pane, peri_advance(pane, &run));
 
     printf("%ld points, %ld bonds, %ld cut, %ld broken in %ld steps; %.2f s of processor time\n",
-           (long)peri_point_count(pane), (long)(peri_bond_count(pane) / 2), (long)peri_cut_count(pane),
+           (long)peri_point_count(pane), (long)peri_bond_count(pane), (long)peri_cut_count(pane),
            (long)peri_broken_count(pane), (long)peri_step_count(pane), (double)(clock() - start) / CLOCKS_PER_SEC);
     print_energy(pane);
     must(pane, picture_field("out/branching.png", pane, PERI_FIELD_DAMAGE, 0, 0.6, 1300, 20));

@@ -44,7 +44,7 @@ int main(void) {
         const double steps = ceil(duration / (0.9 * cost.stable_step)); /* 0.9: the default safety of peri_advance_desc */
         const int fits = (double)cost.peak <= most_bytes && cost.seconds <= most_step;
         printf("%-9s  %8d  %6ld  %5.2f M  %8.1f  %11.1f  %7.1f  %5.0f  %5.1f%s\n", names[which], spacings, (long)cost.points,
-               1e-6 * (double)cost.bonds, 1e-6 * (double)cost.bytes, 1e-6 * (double)cost.peak, 1e3 * cost.seconds, steps,
+               1e-6 * (double)cost.entries, 1e-6 * (double)cost.bytes, 1e-6 * (double)cost.peak, 1e3 * cost.seconds, steps,
                steps * cost.seconds, fits ? "" : "   over the budget");
         if (!fits) continue;
         spacing = plan.spacing;

@@ -69,7 +69,7 @@ int main(void) {
 
     printf("contact force: at most %.0f N, at %.1f us\n", w.peak, 1e6 * w.time);
     printf("%ld of %ld bonds broken in %ld steps\n", (long)peri_broken_count(plate),
-           (long)(peri_bond_count(plate) / 2), (long)peri_step_count(plate));
+           (long)peri_bond_count(plate), (long)peri_step_count(plate));
     print_energy(plate);
     must(plate, picture_field("out/impact.png", plate, PERI_FIELD_DAMAGE, 0, 1, 800, 1));
     must(plate, peri_export_vtu(plate, "out/impact.vtu"));

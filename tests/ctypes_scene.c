@@ -88,7 +88,7 @@ static int32_t weigh(const peri_body *body, const peri_body_desc *d, const peri_
     plan.hi[1] = 0.6;
     if (peri_plan(&plan, &planned, NULL) < 0) return -1;
     show((double)planned.points);
-    show((double)planned.bonds);
+    show((double)planned.entries);
     show((double)planned.width);
     show((double)planned.bytes);
     show((double)planned.peak);
@@ -136,7 +136,7 @@ int main(void) {
     status |= stuff;
     show((double)peri_add_box(body, stuff, lo, hi, 0.1));
     status |= peri_build(body);
-    show((double)peri_bond_count(body));
+    show((double)peri_entry_count(body));
     show((double)peri_cut_segment(body, PERI_CUT_INITIAL, a, b));
     const int32_t at_left = peri_select_box(body, "left", lo, left), at_right = peri_select_box(body, "right", right, hi);
     status |= at_left | at_right;

@@ -94,7 +94,7 @@ static inline int32_t some(void *user, int32_t i, int32_t j, const double *xi, c
 }
 static inline peri_body *held_body(const scene *s, int32_t law, double nu, int lattice, int broken) {
     peri_body *b = lattice ? lattice_body(s, law, nu, 0) : small_body(s, law, nu, -1, 0);
-    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, some, NULL)) > peri_bond_count(b) / 32);
+    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, some, NULL)) > peri_entry_count(b) / 32);
     return b;
 }
 

@@ -287,7 +287,7 @@ static void meddle(program *p) {
     peri_view view;
     p->partial = 1;
     if (!b || p->level + 2 > LEVELS) return;
-    if (peri_bond_count(b) > 0) {
+    if (peri_entry_count(b) > 0) {
         HOLDS(p, CALL(p, s, peri_get_energy(b, &energy)) == PERI_OK);
         HOLDS(p, CALL(p, s, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, p->other, ROOM)) == PERI_OK);
         (void)CALL(p, s, peri_view_field(b, PERI_FIELD_DAMAGE, &view));

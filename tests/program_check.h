@@ -121,7 +121,7 @@ static print print_of(program *p, int s, int deep) {
     if (!o->body) return r;
     r.count[0] = peri_point_count(o->body);
     r.count[1] = peri_family_width(o->body);
-    r.count[2] = peri_bond_count(o->body);
+    r.count[2] = peri_entry_count(o->body);
     r.count[3] = peri_cut_count(o->body);
     r.count[4] = peri_broken_count(o->body);
     r.count[5] = peri_step_count(o->body);
@@ -211,7 +211,7 @@ static void check_body(program *p, int s) {
     int64_t bonds, cut, broken;
     double step;
     if (!b) return;
-    bonds = peri_bond_count(b);
+    bonds = peri_entry_count(b);
     cut = peri_cut_count(b);
     broken = peri_broken_count(b);
     step = peri_stable_step(b);
@@ -259,7 +259,7 @@ static void check_families(program *p, int s) {
         }
         for (; k < width; ++k) HOLDS(p, p->ids[k] == i);
     }
-    HOLDS(p, bonds == peri_bond_count(b));
+    HOLDS(p, bonds == peri_entry_count(b));
     HOLDS(p, live == bonds - 2 * (peri_cut_count(b) + peri_broken_count(b)));
 }
 

@@ -313,7 +313,7 @@ static int64_t plan(program *p, int s) {
     }
     if (status == PERI_OK && deed >= 0) {
         peri_memory held;
-        HOLDS(p, report.points == peri_point_count(b) && report.bonds == peri_bond_count(b) && report.width == peri_family_width(b));
+        HOLDS(p, report.points == peri_point_count(b) && report.entries == peri_entry_count(b) && report.width == peri_family_width(b));
         HOLDS(p, peri_get_memory(b, &held) == PERI_OK);
         if (d.correction == PERI_CORRECTION_NONE) HOLDS(p, held.total == report.bytes);
         HOLDS(p, report.stable_step > 0.0 && report.peak >= 0);

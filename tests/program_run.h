@@ -17,7 +17,7 @@ static int64_t ask_for_nothing(program *p, int s) {
     peri_matrix_destroy(NULL);
     HOLDS(p, peri_status_text((int32_t)(draw(p) - 64)) != NULL);
     HOLDS(p, peri_format_error(NULL, NULL, 0) == PERI_ERROR_ARGUMENT && peri_get_memory(NULL, &m) == PERI_ERROR_ARGUMENT);
-    HOLDS(p, peri_dimension(NULL) == 0 && peri_point_count(NULL) == 0 && peri_family_width(NULL) == 0 && peri_bond_count(NULL) == 0);
+    HOLDS(p, peri_dimension(NULL) == 0 && peri_point_count(NULL) == 0 && peri_family_width(NULL) == 0 && peri_entry_count(NULL) == 0);
     HOLDS(p, peri_cut_count(NULL) == 0 && peri_broken_count(NULL) == 0 && peri_step_count(NULL) == 0 && peri_load_factor(NULL) == 0.0);
     HOLDS(p, peri_time(NULL) == 0.0 && peri_stable_step(NULL) == 0.0 && peri_id(NULL, PERI_KIND_SET, 1) == PERI_ERROR_ARGUMENT);
     HOLDS(p, peri_kernel_text(NULL)[0] == 0 && peri_find_set(NULL, "a") == PERI_ERROR_ARGUMENT);

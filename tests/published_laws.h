@@ -269,7 +269,7 @@ static inline peri_body *small_body(const scene *s, int32_t law, double nu, doub
         }
     }
     (void)MUST(b, peri_build(b));
-    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, heads, NULL)) > peri_bond_count(b) / 8);
+    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, heads, NULL)) > peri_entry_count(b) / 8);
     return b;
 }
 
@@ -279,7 +279,7 @@ static inline peri_body *lattice_body(const scene *s, int32_t law, double nu, in
     peri_body *b = scene_body(s);
     (void)MUST(b, peri_add_box(b, add_law(b, law, nu, -1), lo, hi, H));
     (void)MUST(b, peri_build(b));
-    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, heads, NULL)) > peri_bond_count(b) / 8);
+    if (broken) CHECK(MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, heads, NULL)) > peri_entry_count(b) / 8);
     return b;
 }
 

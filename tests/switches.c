@@ -147,12 +147,12 @@ static void try_advice(const peri_body_desc *d, const peri_material_desc *m, con
     if (!no_advice) {
         uint64_t hash = 0;
         CHECK(planned == PERI_OK);
-        (void)mix(&hash, &report.bonds, (int64_t)sizeof report.bonds);
+        (void)mix(&hash, &report.entries, (int64_t)sizeof report.entries);
         (void)mix(&hash, &report.stable_step, (int64_t)sizeof report.stable_step);
         show("advice", p, dim, hash);
         return;
     }
-    CHECK(says_left_out(planned, &error, no_advice) && report.bonds == 0);
+    CHECK(says_left_out(planned, &error, no_advice) && report.entries == 0);
 }
 
 /* A box that is pulled apart, then at rest under its grips. */
@@ -220,7 +220,7 @@ static void try_choose(int dim) {
     if (without) CHECK(says_left_out(chosen, &error, without));
     else if (no_f64 && no_f32) CHECK(chosen == PERI_ERROR_RANGE); /* nothing was measured in mixed precision */
     else {
-        CHECK(chosen == PERI_OK && choice.cost.bonds > 0);
+        CHECK(chosen == PERI_OK && choice.cost.entries > 0);
         CHECK(!(d.precision == PERI_PRECISION_DOUBLE && no_f64) && !(d.precision == PERI_PRECISION_SINGLE && no_f32));
         CHECK(d.precision != PERI_PRECISION_MIXED);
     }

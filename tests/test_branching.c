@@ -92,7 +92,7 @@ static void as_in_the_textbook(const scene *s, peri_body *b, const trace *run) {
     const trace tr = *run;
     int64_t k, differ = 0, first = -1;
     int same = 1, a;
-    CHECK(peri_bond_count(b) == t.directed);
+    CHECK(peri_entry_count(b) == t.directed);
     CHECK(peri_cut_count(b) == t.cut);
     textbook_run(&t, s);
     for (k = 1; k <= s->steps; ++k)
@@ -118,7 +118,7 @@ static void textbook_breaks_the_same_bonds(void) {
     t.history = (int64_t *)calloc((size_t)s.steps + 1, sizeof(int64_t));
     (void)march(b, &s, s.steps, &t);
     as_in_the_textbook(&s, b, &t);
-    CHECK(peri_bond_count(full_run()) == 992916);
+    CHECK(peri_entry_count(full_run()) == 992916);
     free(t.e);
     free(t.history);
     peri_body_destroy(b);
@@ -198,7 +198,7 @@ static void mirrored(int nx) {
     CHECK(march(a, &s, s.steps, &t) == PERI_STOPPED);
     CHECK(peri_broken_count(a) > 100);
     (void)march(b, &s, (int)peri_step_count(a), NULL);
-    CHECK(peri_bond_count(a) == peri_bond_count(b) && peri_cut_count(a) == peri_cut_count(b));
+    CHECK(peri_entry_count(a) == peri_entry_count(b) && peri_cut_count(a) == peri_cut_count(b));
     CHECK(peri_broken_count(a) == peri_broken_count(b));
     u = get(a, PERI_FIELD_DISPLACEMENT);
     w = get(b, PERI_FIELD_DISPLACEMENT);
@@ -247,7 +247,7 @@ static void shuffled(int nx) {
     b = plate(&s, &o);
     memset(&t, 0, sizeof t);
     memset(&w, 0, sizeof w);
-    CHECK(peri_bond_count(a) == peri_bond_count(b) && peri_cut_count(a) == peri_cut_count(b));
+    CHECK(peri_entry_count(a) == peri_entry_count(b) && peri_cut_count(a) == peri_cut_count(b));
     (void)march(a, &s, s.steps, &t);
     (void)march(b, &s, s.steps, &w);
     for (k = 0; k < w.count; ++k) {
@@ -410,7 +410,7 @@ static void notch_through_points(void) {
                     cut += meets_notch(&s, i, j);
                     wrong += peri_bond_is_intact(b, i, j) != !meets_notch(&s, i, j);
                 }
-            CHECK(wrong == 0 && peri_bond_count(b) == 2 * bonds && peri_cut_count(b) == cut);
+            CHECK(wrong == 0 && peri_entry_count(b) == 2 * bonds && peri_cut_count(b) == cut);
             s.dt = 0.5 * peri_stable_step(b);
             (void)march(b, &s, 150, NULL);
             damage = get(b, PERI_FIELD_DAMAGE);

@@ -521,7 +521,7 @@ static void goals_are_kept(void) {
             MUST(b, peri_add_material(b, &q.material));
             CHECK(MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, q.choice.spacing)) == q.choice.cost.points);
             MUST(b, peri_build(b));
-            CHECK(peri_bond_count(b) == q.choice.cost.bonds);
+            CHECK(peri_entry_count(b) == q.choice.cost.entries);
             peri_body_destroy(b);
 
             roomy = pose(space, quantity);

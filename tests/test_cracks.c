@@ -445,7 +445,7 @@ static void pairs_if(void) {
     int32_t i, j, k, wrong = 0;
     s.x = field(l->body, PERI_FIELD_POSITION);
     CHECK(peri_cut_if(l->body, PERI_CUT_INITIAL, some_pairs, &s) == s.taken);
-    CHECK(s.calls == peri_bond_count(l->body) / 2 && s.wrong == 0 && s.taken > 100 && peri_cut_count(l->body) == s.taken);
+    CHECK(s.calls == peri_entry_count(l->body) / 2 && s.wrong == 0 && s.taken > 100 && peri_cut_count(l->body) == s.taken);
     for (i = 0; i < l->count; ++i)
         for (k = 0; k < l->width && (j = l->rows[i * l->width + k]) != i; ++k)
             wrong += peri_bond_is_intact(l->body, i, j) != ((i + j) % 5 != 0);

@@ -81,7 +81,7 @@ class PlanDesc(C.Structure):
 
 
 class PlanReport(C.Structure):
-    _fields_ = ([(n, C.c_int64) for n in ("points", "bonds", "width", "columns", "bytes", "peak")]
+    _fields_ = ([(n, C.c_int64) for n in ("points", "entries", "width", "columns", "bytes", "peak")]
                 + [("stable_step", C.c_double), ("seconds", C.c_double)])
 
 
@@ -95,7 +95,7 @@ def declare(lib):
         "peri_status_text": (C.c_char_p, [i32]), "peri_body_desc_init": (None, [p]), "peri_body_destroy": (None, [p]),
         "peri_body_create": (i32, [p, p, p]), "peri_get_error": (i32, [p, p]), "peri_material_desc_init": (None, [p, i32]),
         "peri_add_material": (i32, [p, p]), "peri_add_box": (i64, [p, i32, p, p, f64]), "peri_build": (i32, [p]),
-        "peri_bond_count": (i64, [p]), "peri_cut_segment": (i64, [p, i32, p, p]), "peri_id": (i32, [p, i32, i64]),
+        "peri_entry_count": (i64, [p]), "peri_cut_segment": (i64, [p, i32, p, p]), "peri_id": (i32, [p, i32, i64]),
         "peri_select_box": (i32, [p, C.c_char_p, p, p]), "peri_find_set": (i32, [p, C.c_char_p]),
         "peri_prescribe_displacement": (i32, [p, i32, i32, p, p, p]),
         "peri_apply_layer_traction": (i32, [p, i32, f64, p, LOAD, p]), "peri_set_no_fail": (i32, [p, i32, i32]),
@@ -152,7 +152,7 @@ def scene(lib):
     stuff = must(lib.peri_add_material(body, C.byref(m)))
     out.append(must(lib.peri_add_box(body, stuff, doubles(0, 0), doubles(1.6, 0.6), 0.1)))
     must(lib.peri_build(body))
-    out.append(lib.peri_bond_count(body))
+    out.append(lib.peri_entry_count(body))
     out.append(must(lib.peri_cut_segment(body, CUT_INITIAL, doubles(0.8, 0), doubles(0.8, 0.2))))
     left = must(lib.peri_select_box(body, b"left", doubles(0, 0), doubles(0.2, 0.6)))
     right = must(lib.peri_select_box(body, b"right", doubles(1.4, 0), doubles(1.6, 0.6)))
@@ -208,7 +208,7 @@ def scene(lib):
     plan.body, plan.material, plan.spacing = C.pointer(d), C.pointer(m), 0.1
     plan.hi[0], plan.hi[1] = 1.6, 0.6
     must(lib.peri_plan(C.byref(plan), C.byref(planned), C.byref(error)))
-    out += [planned.points, planned.bonds, planned.width, planned.bytes, planned.peak, planned.stable_step]
+    out += [planned.points, planned.entries, planned.width, planned.bytes, planned.peak, planned.stable_step]
     lib.peri_body_destroy(body)
     return out, counts, failures
 

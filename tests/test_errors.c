@@ -210,7 +210,7 @@ static void clouds_that_cannot_be_built(void) {
         CHECK(peri_set_families(b, 0, good) < 0 && peri_set_families(b, -1, good) < 0);
         (void)MUST(b, peri_set_families(b, 2, good));
         (void)MUST(b, peri_build(b));
-        CHECK(peri_bond_count(b) == 4);
+        CHECK(peri_entry_count(b) == 4);
         peri_body_destroy(b);
     }
 }

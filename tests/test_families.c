@@ -80,7 +80,7 @@ static void check_lattice_rows(peri_body *body, int dim, const int *n, int two_m
                 if ((int64_t)sizes[i] != k) wrong++;
                 for (; k < width; ++k) wrong += row[k] != (int32_t)i;
             }
-    CHECK(wrong == 0 && width == largest && peri_bond_count(body) == total);
+    CHECK(wrong == 0 && width == largest && peri_entry_count(body) == total);
 }
 
 /* One lattice: by the library's box or by the caller's own coordinates origin + (i + 1/2) dx. */
@@ -194,7 +194,7 @@ static void one_cloud(int dim, int64_t n, uint64_t seed, double horizon, double 
         if ((int64_t)sizes[i] != k) wrong++;
         for (; k < width; ++k) wrong += rows[i * width + k] != (int32_t)i;
     }
-    CHECK(wrong == 0 && width == largest && peri_bond_count(body) == total);
+    CHECK(wrong == 0 && width == largest && peri_entry_count(body) == total);
     some = (int32_t *)keep(sizeof(int32_t) * (size_t)(5 * width)); /* a part of the rows, from the middle */
     MUST(body, peri_get_families(body, 17, 5, some, 5 * width));
     CHECK(memcmp(some, rows + 17 * width, sizeof(int32_t) * (size_t)(5 * width)) == 0);
@@ -252,7 +252,7 @@ static void families_given(void) {
         rows = read_rows(found);
         MUST(given, peri_set_families(given, peri_family_width(found), rows));
         if (MUST(given, peri_build(given)) >= 0) {
-            CHECK(peri_bond_count(given) == peri_bond_count(found) && peri_family_width(given) == peri_family_width(found));
+            CHECK(peri_entry_count(given) == peri_entry_count(found) && peri_family_width(given) == peri_family_width(found));
             shake(found, dim, 0.01 * horizon);
             shake(given, dim, 0.01 * horizon);
             compare_field(found, given, PERI_FIELD_ENERGY_DENSITY);
@@ -339,7 +339,7 @@ static void families_refused(void) {
         CHECK(error.index == entry[kind] || (kind == 2 && error.index == 6 * WIDTH + 3));
         MUST(body, peri_set_families(body, WIDTH, good));
         MUST(body, peri_build(body));
-        CHECK(peri_bond_count(body) == N * (N - 1));
+        CHECK(peri_entry_count(body) == N * (N - 1));
         CHECK(peri_family_width(body) == N - 1);
         release();
     }
@@ -400,7 +400,7 @@ static void one_perturbed(int dim, double spacing, double amount) {
     for (k = 0; k < dim; ++k) CHECK_NEAR(moment[k], size * 0.5 * (box_lo[k] + box_hi[k]), 1e-12, 0.0);
     CHECK(memcmp(x, x2, sizeof(double) * (size_t)(n * dim)) == 0);
     CHECK(memcmp(v, v2, sizeof(double) * (size_t)n) == 0);
-    CHECK(differ == (amount > 0.0 ? n * dim : 0) && (amount > 0.0 || peri_bond_count(body) == peri_bond_count(plain)));
+    CHECK(differ == (amount > 0.0 ? n * dim : 0) && (amount > 0.0 || peri_entry_count(body) == peri_entry_count(plain)));
     if (dim == 2) CHECK_NEAR(sqrt(square / (double)inner), amount / 4 / sqrt(3.0) * sqrt(10.0 / 36.0), 0.12, 1e-13);
     release();
 }

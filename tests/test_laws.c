@@ -73,7 +73,7 @@ static void check_bulk(peri_body *b, const scene *s, int points, const int *poin
     int which, k, a, c;
     for (which = 0; which < parts + 2; ++which) {
         double grad[3][3], eps[3][3], sigma[3][3], exact[3][3], *f[5] = {NULL}, trace = 0, cond = o->size / o->m;
-        const int all = which >= parts || peri_bond_count(b) < 500000;
+        const int all = which >= parts || peri_entry_count(b) < 500000;
         strain_of(dim, which, amount, grad, eps);
         stretch_body(b, grad);
         f[0] = get(b, PERI_FIELD_ENERGY_DENSITY);

@@ -371,7 +371,7 @@ static void null_body_everywhere(void) {
     NO(peri_set_families(NULL, 1, i));
     NO(peri_build(NULL));
     CHECK(peri_dimension(NULL) == 0 && peri_point_count(NULL) == 0 && peri_family_width(NULL) == 0);
-    CHECK(peri_bond_count(NULL) == 0 && peri_cut_count(NULL) == 0 && peri_broken_count(NULL) == 0);
+    CHECK(peri_entry_count(NULL) == 0 && peri_cut_count(NULL) == 0 && peri_broken_count(NULL) == 0);
     CHECK(peri_step_count(NULL) == 0 && peri_time(NULL) == 0 && peri_load_factor(NULL) == 0 && peri_stable_step(NULL) == 0);
     NO(peri_get_families(NULL, 0, 1, i, 4));
     NO(peri_bond_is_intact(NULL, 0, 1));

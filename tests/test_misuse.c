@@ -138,7 +138,7 @@ static uint64_t mix(uint64_t hash, const void *from, size_t count) {
 }
 /* Of all that a body holds and shows. */
 static uint64_t digest_of(peri_body *body, uint64_t hash) {
-    const int64_t counts[5] = {peri_point_count(body), peri_bond_count(body), peri_cut_count(body), peri_broken_count(body),
+    const int64_t counts[5] = {peri_point_count(body), peri_entry_count(body), peri_cut_count(body), peri_broken_count(body),
                                peri_step_count(body)};
     static double x[500];
     peri_memory m;

@@ -98,7 +98,7 @@ static void compare(scene *s, const char *what, int exact) {
     CHECK(r.seconds == 0);
     build(s);
     CHECK(r.points == peri_point_count(s->body));
-    CHECK_NEAR(r.bonds, peri_bond_count(s->body), exact ? 0 : 0.05, 0);
+    CHECK_NEAR(r.entries, peri_entry_count(s->body), exact ? 0 : 0.05, 0);
     if (exact) CHECK(r.width == peri_family_width(s->body));
     CHECK_NEAR(r.bytes, s->memory.live, exact ? 0 : 0.05, 0);
     CHECK_NEAR(r.peak, s->memory.most, exact ? 0.03 : 0.05, exact ? 0 : 5e5);
@@ -180,12 +180,12 @@ static void corrections_and_large_families_are_planned(void) {
     s.material.critical_stretch = 1;
     CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK);
     build(&s);
-    CHECK(peri_family_width(s.body) > 1024 && r.width == peri_family_width(s.body) && r.bonds == peri_bond_count(s.body));
+    CHECK(peri_family_width(s.body) > 1024 && r.width == peri_family_width(s.body) && r.entries == peri_entry_count(s.body));
     CHECK_NEAR(r.bytes, s.memory.live, 0, 0);
     CHECK_NEAR(r.stable_step, peri_stable_step(s.body), 0.05, 0);
     peri_body_destroy(s.body);
     set_scene(&s, PERI_SPACE_PLANE_STRESS, 1000, PERI_LAW_BOND_BASED, 40, 40, 1, 1); /* all with all */
-    CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK && r.bonds == 1600 * 1599 && r.width == 1599 && r.stable_step > 0);
+    CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK && r.entries == 1600 * 1599 && r.width == 1599 && r.stable_step > 0);
 }
 
 static void clouds_are_planned_to_5_percent(void) {
@@ -351,7 +351,7 @@ static void huge_bodies_are_counted_or_refused(void) {
         for (d = 0; d < 3; ++d) s.plan.hi[d] = (double)sizes[k][d];
         CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK && s.memory.calls == 0);
         CHECK(r.points == sizes[k][0] * sizes[k][1] * sizes[k][2]);
-        CHECK((long double)r.bonds == count(sizes[k], 3));
+        CHECK((long double)r.entries == count(sizes[k], 3));
         CHECK(r.bytes > 40 * r.points && r.bytes < 3000 * r.points && r.peak >= r.bytes);
     }
     {
@@ -363,7 +363,7 @@ static void huge_bodies_are_counted_or_refused(void) {
         peri_plan_report r;
         peri_error e;
         set_scene(&s, PERI_SPACE_SOLID, 300, PERI_LAW_BOND_BASED, 128, 128, 128, 1);
-        CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK && r.bonds == r.points * (r.points - 1) && r.width == r.points - 1);
+        CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK && r.entries == r.points * (r.points - 1) && r.width == r.points - 1);
         set_scene(&s, PERI_SPACE_SOLID, 3000, PERI_LAW_BOND_BASED, 1290, 1290, 1290, 1);
         CHECK(peri_plan(&s.plan, &r, &e) == PERI_ERROR_TOO_LARGE && strcmp(e.field, "horizon") == 0 && e.value > 4e18 && r.points == 0);
         set_scene(&s, PERI_SPACE_SOLID, 3, PERI_LAW_BOND_BASED, 1291, 1291, 1291, 1); /* 2^31 points and more */

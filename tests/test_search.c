@@ -267,7 +267,7 @@ static void act(const cloud *c, const scene *s, double *force, double *damage, i
     MUST(body, peri_advance(body, &run));
     MUST(body, peri_get_field(body, PERI_FIELD_DAMAGE, out, c->count));
     for (i = 0; i < c->count; ++i) damage[i] = out[to ? to[i] : i];
-    *bonds = peri_bond_count(body);
+    *bonds = peri_entry_count(body);
     CHECK(seen->disorder == 0 && seen->count == peri_broken_count(body) && (seen->count > 0) == s->breaks);
     peri_body_destroy(body);
 }
@@ -380,7 +380,7 @@ static void pairs_found(void) {
             if (bond && i == 200) pair[1] = (int32_t)j;
         }
     pair[0] = 200;
-    CHECK(wrong == 0 && peri_bond_count(body) == bonds);
+    CHECK(wrong == 0 && peri_entry_count(body) == bonds);
     CHECK(peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 1 && peri_cut_pairs(body, PERI_CUT_INITIAL, 1, pair) == 0);
     CHECK(peri_cut_count(body) == 1);
     CHECK(peri_bond_is_intact(body, pair[1], pair[0]) == 0);

@@ -424,7 +424,7 @@ static double bytes_of(kind k, int32_t precision, double ratio, int side, double
     b = make(&d, k, side, side, side);
     bytes = (double)p.bytes;
     *entries = (double)peri_point_count(b) * peri_family_width(b);
-    *bonds = (double)peri_bond_count(b);
+    *bonds = (double)peri_entry_count(b);
     peri_body_destroy(b);
     CHECK(p.blocks == 0 && p.bytes == 0 && p.wrong == 0);
     return bytes;

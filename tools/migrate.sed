@@ -25,6 +25,7 @@ s/\bperi_write_(vtu|history|matrix)\b/peri_export_\1_to/g
 s/\bperi_save_(vtu|history)\b/peri_export_\1/g
 s/\bperi_read\b/peri_get_field/g
 s/\bperi_write\b/peri_set_field/g
+s/\bperi_bond_count\b/peri_entry_count/g
 s/\bperi_clone\b/peri_body_clone/g
 s/\bperi_assemble\b/peri_matrix_create/g
 

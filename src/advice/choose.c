@@ -179,13 +179,13 @@ static double peri__allowed_resolution(peri__candidate *c, const peri_choose_des
     if (low <= 0.0) return 0.0;
     if (goal->seconds > 0.0) {
         if (peri__plan_candidate(c, goal, low, 1, error) < 0) return 0.0;
-        rate = c->report.seconds / (double)c->report.bonds;
+        rate = c->report.seconds / (double)c->report.entries;
     }
     int64_t fits = (int64_t)low - 1, fails = (int64_t)high + 1;
     while (fails - fits > 1) {
         const int64_t middle = fits + (fails - fits) / 2;
         const int32_t status = peri__plan_candidate(c, goal, (double)middle, 0, error);
-        const int fit = status == PERI_OK && (goal->seconds <= 0.0 || rate * (double)c->report.bonds <= goal->seconds) &&
+        const int fit = status == PERI_OK && (goal->seconds <= 0.0 || rate * (double)c->report.entries <= goal->seconds) &&
                         (goal->bytes <= 0 || c->report.peak <= goal->bytes);
         if (fit) fits = middle;
         else fails = middle;
@@ -243,7 +243,7 @@ static int32_t peri__try_recipes(const peri_choose_desc *goal, double target, co
         }
         const int32_t status = peri__plan_candidate(&c, goal, across, 0, error);
         if (status < 0) return status;
-        c.cost = (double)c.report.bonds * c.recipe->nanoseconds / c.report.stable_step;
+        c.cost = (double)c.report.entries * c.recipe->nanoseconds / c.report.stable_step;
         if (!best->recipe || (target > 0.0 ? c.cost < best->cost : c.error < best->error)) *best = c;
     }
     return PERI_OK;

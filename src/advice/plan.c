@@ -454,7 +454,7 @@ static int32_t peri__measure_plan(const peri__estimate *s, const peri_plan_desc 
         const int64_t columns = b->model->stencil.columns;
         if (seconds < 0.0) status = (int64_t)seconds;
         else if (columns > 0 && report->columns > 0) report->seconds = seconds * ((double)report->columns / (double)columns);
-        else report->seconds = seconds * ((double)report->bonds / (double)b->model->bonds);
+        else report->seconds = seconds * ((double)report->entries / (double)b->model->bonds);
         if (step < report->stable_step) report->stable_step = step;
     }
     if (status < 0 && error) (void)peri_get_error(b, error);
@@ -478,11 +478,11 @@ PERI_API int32_t peri_plan(const peri_plan_desc *plan, peri_plan_report *report,
         peri_plan_report made;
         memset(&made, 0, sizeof made);
         made.points = s.model.points;
-        made.bonds = s.bonds;
+        made.entries = s.bonds;
         made.width = s.width;
         peri__plan_bytes(&s, plan, &made);
         if ((uint64_t)made.peak > (uint64_t)SIZE_MAX / 2)
-            status = peri__fail(&s.body, PERI_ERROR_TOO_LARGE, "spacing", -1, (double)made.bonds);
+            status = peri__fail(&s.body, PERI_ERROR_TOO_LARGE, "spacing", -1, (double)made.entries);
         else
             status = peri__plan_step(&s, &made.stable_step);
         if (status == PERI_OK) *report = made;

@@ -114,7 +114,9 @@ PERI_API int64_t peri_point_count(const peri_body *b) {
 
 PERI_API int32_t peri_family_width(const peri_body *b) { return b && b->model ? b->model->width : 0; }
 
-PERI_API int64_t peri_bond_count(const peri_body *b) { return b && b->model ? b->model->bonds : 0; }
+PERI_API int64_t peri_entry_count(const peri_body *b) { return b && b->model ? b->model->bonds : 0; }
+
+PERI_API int64_t peri_bond_count(const peri_body *b) { return peri_entry_count(b) / 2; }
 
 #ifdef PERI_GENERIC
 #define PERI_OTHER_VECTORS "16 bytes"

@@ -97,7 +97,7 @@ static double largest(scene *s, int32_t field) {
 
 static double dense_of(scene *s) { return dense_error(s->o, s->body, &s->desc, &s->material); }
 
-static double bonds_of(const scene *s) { return 0.5 * (double)peri_bond_count(s->body); }
+static double bonds_of(const scene *s) { return 0.5 * (double)peri_entry_count(s->body); }
 
 /* ---- nothing left ------------------------------------------------------------------------------------------------- */
 

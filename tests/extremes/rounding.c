@@ -229,7 +229,7 @@ static outcome told(const extreme *row, int32_t precision) {
             plan.hi[0] = 8;
             plan.hi[1] = 5;
             (void)extreme_fails(&o, NULL, peri_plan(&plan, &report, NULL));
-            HOLDS(report.points == 40 && report.bonds == peri_bond_count(b) && report.width == peri_family_width(b));
+            HOLDS(report.points == 40 && report.entries == peri_entry_count(b) && report.width == peri_family_width(b));
             bytes[k / 4] += report.bytes;
         }
         set_mode(NEAREST);

@@ -47,7 +47,7 @@ static outcome planned(const extreme *row, int32_t precision) {
         o.status = peri_plan(&plan, &report, &error);
         o.field = error.field;
         HOLDS(extreme_memory.calls == 0);
-        if (o.status != PERI_OK) HOLDS(report.points == 0 && report.bonds == 0 && report.bytes == 0 && report.stable_step == 0);
+        if (o.status != PERI_OK) HOLDS(report.points == 0 && report.entries == 0 && report.bytes == 0 && report.stable_step == 0);
         if (SIZE_MAX < UINT64_MAX && o.status == PERI_ERROR_TOO_LARGE && row->status == PERI_OK) { /* 32-bit addresses: right */
             o.status = PERI_OK;
             continue;
@@ -55,7 +55,7 @@ static outcome planned(const extreme *row, int32_t precision) {
         if (o.status != PERI_OK) return o;
         bonds = lattice_bonds(n, dim, row->other, &vectors);
         o.error += fabs((double)(report.points - n[0] * n[1] * (dim == 3 ? n[2] : 1)));
-        o.error += fabs((double)(report.bonds - bonds)) + fabs((double)(report.width - vectors));
+        o.error += fabs((double)(report.entries - bonds)) + fabs((double)(report.width - vectors));
         HOLDS(report.bytes > report.points && report.peak >= report.bytes && report.stable_step > 0 && report.stable_step < row->other);
     }
     return o;
@@ -140,7 +140,7 @@ static outcome too_many_bonds(const extreme *row, int32_t precision) {
     HOLDS(extreme_memory.blocks == blocks && peri_family_width(b) == 0);
     extreme_memory.limit = 0;
     if (extreme_fails(&o, b, peri_build(b))) return extreme_end(o, b);
-    HOLDS(peri_bond_count(b) == n * (n - 1) && peri_family_width(b) == n - 1);
+    HOLDS(peri_entry_count(b) == n * (n - 1) && peri_family_width(b) == n - 1);
     extreme_affine(&o, b, pull, NULL);
     f = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
     for (i = 0; f && i < n; ++i) {
@@ -189,7 +189,7 @@ static outcome pairs_far_apart(const extreme *row, int32_t precision) {
             continue;
         }
         if (extreme_fails(&o, b, built)) return extreme_end(o, b);
-        HOLDS(peri_bond_count(b) == 2 * PAIRS && peri_family_width(b) == 1);
+        HOLDS(peri_entry_count(b) == 2 * PAIRS && peri_family_width(b) == 1);
         (void)extreme_fails(&o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 2 * PAIRS * dim));
         f = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         for (k = 0; f && k < 2 * PAIRS; ++k)

@@ -416,7 +416,7 @@ static outcome burst(const extreme *row, int32_t precision) {
                     code = peri_solve(b, &st, NULL);
                     if (code != (stuck ? PERI_ERROR_LOOSE : PERI_OK))
                         extreme_take(&o, HUGE_VAL, "status, space, law, loose", space * 10 + law, loose, -code);
-                    if (peri_broken_count(b) * 2 != peri_bond_count(b) && !(row->choice && law == PERI_LAW_CORRESPONDENCE))
+                    if (peri_broken_count(b) * 2 != peri_entry_count(b) && !(row->choice && law == PERI_LAW_CORRESPONDENCE))
                         extreme_take(&o, 1, "broken, space, law, loose", space, law, loose);
                     r = extreme_read(&o, b, PERI_FIELD_REACTION);
                     for (k = 0; r && k < n && !(row->choice && law == PERI_LAW_CORRESPONDENCE); ++k)

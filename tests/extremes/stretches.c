@@ -247,7 +247,7 @@ static outcome passing(const extreme *row, int32_t precision) { return each(row,
 
 /* Stretched to ten times, with a critical stretch a little above or below 9: none or all bonds break in one step, and then all fly on. */
 static double breaking_probe(scene *s) {
-    const double all = 0.5 * (double)peri_bond_count(s->body), *const value = &s->row->value;
+    const double all = 0.5 * (double)peri_entry_count(s->body), *const value = &s->row->value;
     double before, worst, step;
     peri_energy e, later;
     stretch_by(s, 10, 10, 10);
