@@ -65,7 +65,7 @@ lib: build/libperi.a build/libperi.so
 # -ffast-math is tried with gcc where there is one, on the vectors of 16 bytes that other machines have. OWN_ of a directory: the kernels
 # that are compiled so; the others are those of the library. make validate compiles all (tests/run.sh).
 OWN_san = d2 d3
-OWN_clang = d3 m2 f2
+OWN_clang = d3 f2
 OWN_fast = d2 f3
 SANITIZE ?= -g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/san/%.o: OTHER = $(CC) $(STRICT) $(SANITIZE) $(OPENMP)

@@ -117,6 +117,7 @@ else
     check fast_math make --no-print-directory -j2 CC="$CC" "OWN_fast=$kernels" build/fast/peri.o
     check fast_math_bits bits build/fast/peri.o
     if command -v clang > /dev/null; then
+        check strict_single_file clang $STRICT -O0 -DPERI_KERNELS=3 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o
         check strict_clang make --no-print-directory -j2 "OWN_clang=$kernels" build/clang/peri.o
         check same_bits_clang bits build/clang/peri.o
     fi
