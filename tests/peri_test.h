@@ -2,7 +2,7 @@
 
    A case is a function `static void name(void)`; it passes when no CHECK in it failed. Programs close with
    "<program>: N passed, N failed" and return the number of failed cases. `program word` runs only the cases whose name
-   contains word; `program --long` also runs what LONG_RUN guards (make validate). */
+   contains word; `program --long` also runs what LONG_RUN guards (make validate); `program -name` leaves out the case name. */
 #ifndef PERI_TEST_H
 #define PERI_TEST_H
 
@@ -15,7 +15,7 @@
 #include <time.h>
 
 static int test_passed, test_failed, test_bad, test_long;
-static const char *test_filter;
+static const char *test_filter, *test_left_out[8];
 
 #define CHECK(condition)                                                                                               \
     do {                                                                                                               \
@@ -60,7 +60,10 @@ static inline int64_t test_must(const peri_body *body, int64_t result, const cha
 
 static inline void test_run(void (*function)(void), const char *name) {
     const clock_t start = clock();
+    int k;
     if (test_filter && !strstr(name, test_filter)) return;
+    for (k = 0; k < 8; ++k)
+        if (test_left_out[k] && strcmp(name, test_left_out[k]) == 0) return;
     test_bad = 0;
     function();
     if (test_bad) test_failed++;
@@ -70,9 +73,10 @@ static inline void test_run(void (*function)(void), const char *name) {
 }
 
 static inline void test_begin(int argc, char **argv) {
-    int k;
+    int k, out = 0;
     for (k = 1; k < argc; ++k) {
         if (strcmp(argv[k], "--long") == 0) test_long = 1;
+        else if (argv[k][0] == '-' && out < 8) test_left_out[out++] = argv[k] + 1;
         else test_filter = argv[k];
     }
 }

@@ -61,14 +61,13 @@ queue() { # queue NAME COMMAND: a check for run_queue, COMMAND one line of shell
     queued="$queued $1"
 }
 
-queue_programs() { # queue_programs DIRECTORY PREFIX NAME...: DIRECTORY/NAME under the name PREFIXNAME
-    directory=$1
-    prefix=$2
-    shift 2
-    for program; do
-        : > "build/queue/$prefix$program.program"
-        queue "$prefix$program" "$directory/$program $long"
-    done
+queue_program() { # queue_program NAME COMMAND: a test program with arguments
+    : > "build/queue/$1.program"
+    queue "$1" "$2"
+}
+
+queue_programs() { # queue_programs NAME...: of build/tests
+    for program; do queue_program "$program" "build/tests/$program $long"; done
 }
 
 run_queue() { # as many at a time as there are processors, in the order of the queue
@@ -76,11 +75,6 @@ run_queue() { # as many at a time as there are processors, in the order of the q
     printf '%s\n' $queued | xargs -P "$jobs" -I % sh tests/run.sh --job % "$long"
     all="$all $queued"
     queued=""
-}
-
-programs() { # the same, and at once
-    queue_programs "$@"
-    run_queue
 }
 
 check() { # check NAME COMMAND...: passes when the command does
@@ -105,6 +99,9 @@ can_sanitize() { echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o buil
 
 rm -rf build/queue
 mkdir -p build/queue build/checks build/san out
+# under sanitizers, the tests of what handles memory: "NAME -CASE..." leaves out the cases that take longest there
+sanitized="test_breaking test_callbacks test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
+    test_loadsteps test_loose test_memory test_misuse test_output test_plan test_programs test_quadrature test_random test_search test_solvers"
 longest="extremes test_kernels test_programs test_choose test_direction test_failure test_branching test_random"
 shorter=$(basename -s .c tests/test_*.c)
 for name in $longest; do shorter=$(printf '%s\n' $shorter | grep -v -x "$name"); done
@@ -112,12 +109,27 @@ for name in $longest; do shorter=$(printf '%s\n' $shorter | grep -v -x "$name");
 if [ -z "$long" ]; then
     . tests/checks.sh
 else
-    programs build/tests "" $longest $shorter
+    queue_programs $longest $shorter
+    run_queue
+    . tests/bits.sh
+    check dist sh tests/check_dist.sh
+    rm -f build/clang/peri.o build/fast/peri.o
+    check fast_math make --no-print-directory -j2 CC="$CC" "OWN_fast=$kernels" build/fast/peri.o
+    check fast_math_bits bits build/fast/peri.o
+    if command -v clang > /dev/null; then
+        check strict_single_file clang $STRICT -O0 -DPERI_KERNELS=3 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o
+        check strict_clang make --no-print-directory -j2 "OWN_clang=$kernels" build/clang/peri.o
+        check same_bits_clang bits build/clang/peri.o
+    fi
     if can_sanitize; then
         check sanitized_library $CC $STRICT $SANITIZE -c peri_impl.c -o build/san/serial.o
         check sanitized_extremes_build $CC $STRICT $SANITIZE -DLONGEST=200.0 -I. tests/extremes/*.c build/san/serial.o \
             -o build/san/extremes -lm
         program sanitized_extremes build/san/extremes
+        for name in $sanitized; do
+            check "build_sanitized_$name" $CC $STRICT $SANITIZE $OPENMP -I. "tests/$name.c" build/san/serial.o -o "build/san/$name" -lm
+            program "sanitized_$name" "build/san/$name"
+        done
     fi
 fi
 
