@@ -77,6 +77,7 @@ run_queue
 # ---- they are sanitized are compiled so. make validate does so with all, and leaves out nothing
 left_out() { # left_out NAME: the cases that take longest, and whose calls others make
     case $1 in
+    test_callbacks) echo -last_calls -on_a_list -with_corrected_weights ;; # they take their memory in the same places
     test_criteria) echo -planes_take_g0 ;;
     test_families) echo -lattice_counts_2d -lattice_counts_3d ;;
     test_fields) echo -static_pull -force_stress_is_the_stress ;;
