@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # make demo      builds and runs the flagship: dynamic crack branching in glass -> out/branching.png, out/branching.vtu
 # make test      builds and runs every test, closing with "N passed, N failed"
 # make validate  the long tables of the source texts

@@ -8,6 +8,7 @@
      cc -O2 -c peri_impl.c          once, up to a minute of gcc; every other file includes peri.h
      #define PERI_IMPLEMENTATION    in one C file, then #include "peri.h"
      #define PERI_STATIC            with PERI_IMPLEMENTATION, in as many files as you like
+   Switches leave out what a scene does not need: docs/manual.md, Build.
 
    STEP BY STEP
      1 peri_body_desc d;  peri_body_desc_init(&d);  d.space = PERI_SPACE_PLANE_STRESS;
@@ -16,16 +17,16 @@
        m.density = 2440;  glass = peri_add_material(body, &m);
      3 peri_add_box(body, glass, lo, hi, spacing);  as many shapes as you like
      4 peri_build(body);  families, weights, constants: the points are now fixed
-     5 peri_cut_segment, peri_select_box, peri_apply_force, peri_prescribe_velocity, ...
+     5 peri_cut_segment, peri_select_box, peri_apply_traction, peri_prescribe_velocity, ...
      6 peri_advance_desc a;  peri_advance_desc_init(&a);  a.duration = 43e-6;
        peri_advance(body, &a);  motion; or peri_solve: the equilibrium
      7 peri_get_field(body, PERI_FIELD_DAMAGE, out, n);  peri_export_vtu(body, "out.vtu");
      8 peri_body_destroy(body);
 
-   CONVENTIONS (docs/manual.md argues them)
+   CONVENTIONS: docs/manual.md
      Units    any consistent set; [L] length, [M] mass, [T] time: [M L^-1 T^-2] is a stress.
-     Arrays   hold double, vectors interleaved: x0 y0 x1 y1 ... "[points*dim]". `const double *lo`
-              for one place or vector has dim entries. They are copied; you own what you pass in.
+     Arrays   of double, vectors interleaved: x0 y0 x1 y1 ... "[points*dim]"; one place or vector
+              has dim entries. They are copied; you own what you pass in.
      Planes   a point's "volume" is its area [L^2]; forces and energies include the thickness.
      Results  >= 0 is success: PERI_OK, an id or a count. < 0 is a peri_status; peri_get_error then
               tells field, place and value. A call that fails has changed nothing, unless said.
@@ -121,11 +122,11 @@ typedef struct peri_error {
     const char *text;  /* constant text: peri_status_text(code) */
 } peri_error;
 
-/* Constant text of a status, never NULL. */
+/* Never NULL. */
 PERI_API const char *peri_status_text(int32_t status);
 
-/* "text: field index i, value v", zero-terminated, cut off at capacity bytes. Returns the length
-   that the whole text has without its zero. buffer may be NULL where capacity is 0. */
+/* "text: field index i, value v", cut off at capacity bytes, zero included. Returns the length of
+   the whole text. buffer may be NULL where capacity is 0. */
 PERI_API int64_t peri_format_error(const peri_error *error, char *buffer, int64_t capacity);
 
 /* ---- hooks and callbacks (user is what was given beside the function) ------- */
@@ -136,8 +137,7 @@ typedef void *(*peri_allocate_fn)(void *user, uint64_t bytes);
 typedef void (*peri_release_fn)(void *user, void *pointer, uint64_t bytes);
 
 /* A job system: call task(context, k) once for each k in [0, count), in any order on any threads,
-   and return when all are done. Default: OpenMP where compiled in, else serial. It may not read the
-   body. */
+   and return when all are done. Default: OpenMP where compiled in, else serial. */
 typedef void (*peri_task_fn)(void *context, int64_t k);
 typedef void (*peri_parallel_for_fn)(void *user, int64_t count, peri_task_fn task, void *context);
 
@@ -148,7 +148,7 @@ typedef void (*peri_log_fn)(void *user, int32_t level, const char *text);
    beyond 1; 0, or 1e-100 < |w| < 1e100. */
 typedef int32_t (*peri_influence_fn)(void *user, double q, double *w);
 
-/* > 0 takes the point, or lattice site, at x[dim]; index numbers the candidates. */
+/* > 0 takes the point or site at x[dim]; index numbers the candidates. */
 typedef int32_t (*peri_point_fn)(void *user, int64_t index, const double *x);
 
 /* > 0 cuts the bond between points i < j at xi[dim] and xj[dim]. */
@@ -185,7 +185,7 @@ typedef enum peri_kind {
 
 /* ---- body ------------------------------------------------------------------- */
 
-typedef struct peri_body peri_body; /* opaque: points, families, materials, state, loads */
+typedef struct peri_body peri_body; /* opaque */
 
 typedef enum peri_space {
     PERI_SPACE_PLANE_STRESS = 101, /* 2D, thin plate; bond-based: Poisson's ratio 1/3 */
@@ -195,15 +195,13 @@ typedef enum peri_space {
 
 typedef enum peri_precision {
     PERI_PRECISION_DOUBLE = 201,
-    PERI_PRECISION_MIXED = 202,  /* state in double, bonds and weights in single: strain to 7
-                                    digits */
+    PERI_PRECISION_MIXED = 202,  /* state in double, bonds in single: strain to 7 digits */
     PERI_PRECISION_SINGLE = 203  /* faster, 0.65 of the memory; strains below 1e-6 lose digits */
 } peri_precision;
 
 typedef enum peri_geometry {
     PERI_GEOMETRY_NONLINEAR = 301, /* e = |xi+eta| - |xi|, force along xi+eta ([T] 1.23) */
-    PERI_GEOMETRY_LINEAR = 302     /* e = xi.eta/|xi|, force along xi: small displacements ([T]
-                                      1.37) */
+    PERI_GEOMETRY_LINEAR = 302     /* e = xi.eta/|xi|, force along xi: small motion ([T] 1.37) */
 } peri_geometry;
 
 /* w(q), q = |xi|/horizon; "beyond": of partial cells whose centre lies outside. Factors cancel. */
@@ -223,7 +221,7 @@ typedef enum peri_influence {
     PERI_INFLUENCE_POLE_EDGE = 413,    /* 1/(1 + spacing/(2 horizon) - q) [T] */
     PERI_INFLUENCE_POLE_HALF = 414,    /* 1/(2q - 1), also beyond; no finite moments [T] */
     PERI_INFLUENCE_POLE_QUARTER = 415, /* exp(1/(q - 1/4)), also beyond; no finite moments [T] */
-    PERI_INFLUENCE_USER = 416          /* influence_fn of the descriptor */
+    PERI_INFLUENCE_USER = 416          /* influence_fn */
 } peri_influence;
 
 typedef enum peri_quadrature { /* how much of a neighbour's cell counts, and from where */
@@ -255,14 +253,14 @@ typedef enum peri_kernel { /* results agree to the rounding of sums */
 
 /* The most that kernels may use on x86-64; the same bits from each. */
 typedef enum peri_instructions {
-    PERI_INSTRUCTIONS_BEST = 901,     /* what the machine has */
+    PERI_INSTRUCTIONS_BEST = 901,     /* of the machine */
     PERI_INSTRUCTIONS_BASELINE = 902, /* SSE2 */
     PERI_INSTRUCTIONS_AVX2 = 903,
     PERI_INSTRUCTIONS_AVX512 = 904    /* F, VL, DQ and BW */
 } peri_instructions;
 
 typedef struct peri_body_desc {
-    uint64_t cookie;                   /* set by peri_body_desc_init */
+    uint64_t cookie;                   /* set by init */
     int32_t space;                     /* peri_space. Required */
     int32_t precision;                 /* Default PERI_PRECISION_DOUBLE */
     int32_t geometry;                  /* Default PERI_GEOMETRY_NONLINEAR */
@@ -274,9 +272,8 @@ typedef struct peri_body_desc {
     int32_t instructions;              /* Default PERI_INSTRUCTIONS_BEST */
     int32_t threads;                   /* 0 (default): as OpenMP says; 1: serial; n: n threads */
     int32_t ledger;                    /* 1 (default): account for work while running; 0: not */
-    int32_t number;                    /* 1..127, in the ids of the body; 0 (default): made from
-                                          its address */
-    double horizon;                    /* [L] > 0. Required. Usually 3 to 4 spacings */
+    int32_t number;                    /* 1..127, in its ids; 0 (default): from its address */
+    double horizon;                    /* [L] > 0. Required. 3 to 4 spacings */
     double thickness;                  /* [L] > 0, of planes. Default 1 */
     peri_influence_fn influence_fn;    /* for PERI_INFLUENCE_USER */
     void *influence_user;
@@ -289,10 +286,10 @@ typedef struct peri_body_desc {
     void *log_user;
 } peri_body_desc;
 
-/* Fills every field with its default. NULL is ignored; alike all _desc_init. */
+/* Fills in the defaults. NULL is ignored; alike all _desc_init. */
 PERI_API void peri_body_desc_init(peri_body_desc *desc);
 
-/* Makes an empty body. *body is NULL on failure. error may be NULL. */
+/* *body is NULL on failure. error may be NULL. */
 PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, peri_error *error);
 
 /* An independent copy of a built body, state, loads and number included: ids hold in both. Points,
@@ -308,7 +305,7 @@ PERI_API void peri_body_destroy(peri_body *body);
    a measuring peri_plan calls may not be left so. */
 PERI_API int32_t peri_unlock(peri_body *body);
 
-/* Copies the record of the body's last failed call; its code is PERI_OK where none failed yet. */
+/* The record of the body's last failed call; code PERI_OK where none failed. */
 PERI_API int32_t peri_get_error(const peri_body *body, peri_error *error);
 
 /* The id of the index-th (1, 2, ...) thing of a peri_kind, removed ones counted; or an error. */
@@ -333,7 +330,7 @@ typedef enum peri_criterion {
 } peri_criterion;
 
 typedef struct peri_material_desc {
-    uint64_t cookie;         /* set by peri_material_desc_init */
+    uint64_t cookie;         /* set by init */
     int32_t law;             /* peri_law */
     int32_t criterion;       /* Default PERI_CRITERION_STRETCH */
     double young;            /* E [M L^-1 T^-2] > 0. Give E or K, not both; 0 = not given */
@@ -511,8 +508,8 @@ PERI_API int32_t peri_apply_body_force(peri_body *body, int32_t set, const doubl
 PERI_API int32_t peri_apply_traction(peri_body *body, int32_t set, double area,
     const double *normal, const double *value, peri_load_fn fn, void *user);
 
-/* The same total force value*area (in 2D times the thickness), spread over the set by volume: on
-   the outermost layer, say. Simple and exact in sum, but strain near the face is wrong by O(1) ([C]
+/* A total of value*area (in 2D times the thickness), spread over the set by volume: on
+   the outermost layer, say. Exact in sum, but strain near the face is wrong by O(1) ([C]
    2.5). */
 PERI_API int32_t peri_apply_layer_traction(peri_body *body, int32_t set, double area,
     const double *value, peri_load_fn fn, void *user);
@@ -541,7 +538,7 @@ PERI_API int32_t peri_add_ball_obstacle(peri_body *body, const double *centre, d
     double stiffness, peri_motion_fn motion, void *user);
 PERI_API int32_t peri_remove_obstacle(peri_body *body, int32_t obstacle);
 
-/* Force [M L T^-2] of the obstacle on the body at the present time, to force[dim]. */
+/* Force [M L T^-2] of the obstacle on the body now, to force[dim]. */
 PERI_API int32_t peri_get_obstacle_force(peri_body *body, int32_t obstacle, double *force);
 
 /* ---- motion ----------------------------------------------------------------- */
@@ -556,7 +553,7 @@ typedef enum peri_integrator {
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
 
 typedef struct peri_advance_desc {
-    uint64_t cookie;        /* set by peri_advance_desc_init */
+    uint64_t cookie;        /* set by init */
     int32_t integrator;     /* Default PERI_INTEGRATOR_VELOCITY_VERLET */
     int32_t force_step;     /* 1: time_step may exceed peri_stable_step. Default 0 */
     int64_t steps;          /* run this many steps; or */
@@ -581,11 +578,9 @@ PERI_API int32_t peri_advance(peri_body *body, const peri_advance_desc *desc);
 /* ---- equilibrium (docs/statics.md) ------------------------------------------ */
 
 typedef enum peri_method {
-    PERI_METHOD_NEWTON = 1301,    /* with conjugate gradients on the tangent, applied without
-                                     storing it */
+    PERI_METHOD_NEWTON = 1301,    /* conjugate gradients on the tangent, never stored */
     PERI_METHOD_BICGSTAB = 1302,  /* on the assembled tangent ([T] 3.2): for comparison */
-    PERI_METHOD_RELAXATION = 1303 /* adaptive dynamic relaxation: slow, but needs no positive
-                                     tangent */
+    PERI_METHOD_RELAXATION = 1303 /* adaptive dynamic relaxation: slow, any tangent */
 } peri_method;
 
 typedef enum peri_preconditioner {
@@ -605,13 +600,13 @@ typedef enum peri_loose { /* parts that no support holds against some rigid-body
 typedef int32_t (*peri_iteration_fn)(void *user, int64_t iteration, double residual);
 
 typedef struct peri_solve_desc {
-    uint64_t cookie;                /* set by peri_solve_desc_init */
+    uint64_t cookie;                /* set by init */
     int32_t method;                 /* Default PERI_METHOD_NEWTON */
     int32_t preconditioner;         /* of Newton. Default PERI_PRECONDITIONER_MULTILEVEL */
     int32_t loose;                  /* Default PERI_LOOSE_REFUSED */
     int32_t fracture;               /* 1 (default): bonds break by their criterion; 0: none */
-    double criticality;             /* [0, 1]: bonds break over this fraction of the largest
-                                       excess. Default 0: all */
+    double criticality;             /* [0, 1]: break those over this part of the largest excess.
+                                       Default 0: all */
     double tolerance;               /* [0, 1): |residual| over |loads| or |reactions|. 0
                                        (default): 1e-8, mixed 1e-5, single 1e-4 */
     double energy_tolerance;        /* > 0, of Newton: this fall of the residual's energy is
@@ -714,7 +709,7 @@ PERI_API int32_t peri_get_field(peri_body *body, int32_t field, double *out, int
 /* Sets displacement or velocity of all points; count = points*dim. */
 PERI_API int32_t peri_set_field(peri_body *body, int32_t field, const double *in, int64_t count);
 
-/* A field where it lies: component k of point i, in your units, is offset[k] + scale *
+/* A field in place: component k of point i, in your units, is offset[k] + scale *
    data[i*point_stride + k*component_stride]. */
 typedef struct peri_view {
     const void *data;         /* of the body */
@@ -744,14 +739,14 @@ typedef struct peri_energy {
     double error;    /* what time steps, or load steps, left open */
 } peri_energy;
 
-/* Costs about one evaluation of the forces. */
+/* Costs one evaluation of the forces. */
 PERI_API int32_t peri_get_energy(peri_body *body, peri_energy *energy);
 
-/* Linear momentum [M L T^-1] to linear[dim], angular about the origin [M L^2 T^-1] to angular[1]
-   (2D) or [3]. Either may be NULL. */
+/* Momentum [M L T^-1] to linear[dim], about the origin [M L^2 T^-1] to angular[1] (2D) or [3].
+   Either may be NULL. */
 PERI_API int32_t peri_get_momentum(peri_body *body, double *linear, double *angular);
 
-/* VTK XML unstructured grid for ParaView, binary; "Warp By Vector" shows the deformed body. */
+/* VTK XML for ParaView; "Warp By Vector" shows the deformed body. */
 PERI_API int32_t peri_export_vtu_to(peri_body *body, peri_write_fn write, void *user);
 
 /* One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first. */
@@ -766,7 +761,7 @@ PERI_API int32_t peri_export_history(peri_body *body, const char *path, int32_t 
 
 /* ---- what a scene costs (docs/accuracy.md) ---------------------------------- */
 
-/* Bytes that the body holds, as asked of its allocator. Solves and builds take more meanwhile. */
+/* Bytes that the body holds, as asked of its allocator. Solves and builds take more. */
 typedef struct peri_memory {
     int64_t points;   /* positions, volumes, materials, sizes of families */
     int64_t families; /* who is bonded to whom, and what each bond weighs */
@@ -788,13 +783,13 @@ typedef enum peri_source {
 } peri_source;
 
 typedef struct peri_plan_desc { /* a body that is only described: one material in a box */
-    uint64_t cookie;                    /* set by peri_plan_desc_init */
+    uint64_t cookie;                    /* set by init */
     const peri_body_desc *body;         /* Required */
     const peri_material_desc *material; /* Required */
     int32_t source;                     /* Default PERI_SOURCE_BOX */
     int32_t measure;                    /* 1: time a small body, some 100 ms. Default 0: no clock */
     double amount;                      /* [0, 1], of PERI_SOURCE_PERTURBED. Default 1 */
-    double lo[3];                       /* [L] corners; 2D: the third is ignored. Required */
+    double lo[3];                       /* [L] corners. Required */
     double hi[3];
     double spacing;                     /* [L] > 0. Required */
 } peri_plan_desc;
@@ -832,14 +827,14 @@ typedef enum peri_preset { /* named errors */
 } peri_preset;
 
 typedef struct peri_choose_desc { /* a preset, or an error, at least cost; or a budget; or both */
-    uint64_t cookie;  /* set by peri_choose_desc_init */
+    uint64_t cookie;  /* set by init */
     int32_t preset;   /* Default PERI_PRESET_NONE */
     int32_t quantity; /* peri_quantity. Required */
     double error;     /* (0, 1) relative error to reach. Default 0: not given */
     double seconds;   /* [s] of one thread per step. Default 0: any. Takes about a second */
     int64_t bytes;    /* most until peri_build has returned. Default 0: any */
     double feature;   /* [L] > 0. Required */
-    double lo[3];     /* [L] corners of the scene; 2D: the third is ignored. Required */
+    double lo[3];     /* [L] corners of the scene. Required */
     double hi[3];
 } peri_choose_desc;
 

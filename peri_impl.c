@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* peri_impl.c - the library, in the order data flows through it. A part calls only parts above it.
    Compiled by `cc -c peri_impl.c`, or included by peri.h where PERI_IMPLEMENTATION is defined. */
 #ifndef PERI_IMPLEMENTATION_DONE

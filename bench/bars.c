@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bars.c - the library against plain loops, and against itself on two threads. */
 #include "suite.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bench.c - the proof of speed: `bench [--large] [--repeats n] [section ...]`, all sections but `large` where none is named. One row a
    case, as CSV too. Each figure is the least of n >= 7 timings of about 6 ms or of one step, where that is longer; what is compared takes
    turns in one run. One thread, unless a row says otherwise, and then in time of the processor, so that other work on the machine only

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bench.h - a clock, an allocator that counts, and a way out, for the bench programs. */
 #ifndef BENCH_H
 #define BENCH_H

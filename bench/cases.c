@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cases.c - the library compiled into a table of functions. Compiled twice into one program: as users do, -O2, and with all that the
    compiler has, -O3 -march=native; CASES names the two. It also looks inside bodies for what no API tells: the
    number of columns, which the limits of a kernel depend on. */

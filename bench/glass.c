@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* glass.c - the crack branching benchmark, from the source that the tests of branching share. */
 #include "../tests/glass.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* limits.c - what one core of the machine can do, by loops that do nothing else: operations per second of vectors as wide as the
    compiler's target has, and the flow of data at sizes from cache to memory. Compiled -O3 -march=native. Without vector
    intrinsics (other machines than x86-64) the loops are plain and as wide as the compiler makes them.

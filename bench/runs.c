@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* runs.c - the tangent, the price of what a scene uses, and whole runs: a game, fracture, a large body. By the public API alone, linked
    as `make lib` compiles it. */
 #include "scene.h"

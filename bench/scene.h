@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* scene.h - a body of a case row, harm done to it, and steps taken with it, by the public API: included where the library is linked
    (runs.c) and where it is compiled in (cases.c). */
 #ifndef SCENE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* search.c - what peri_build costs on clouds: `search [repeats]`. ns per directed bond of random points, whole cells, bond-based, about 109
    bonds a point in 3D and 28 in 2D: the whole build by number of points and of threads, minimum of the repeats. One thread by processor
    time, which other work on the machine disturbs little; more by the clock on the wall.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* statics.c - what a static solve costs: `statics [--large]`. Tables, and CSV (out/statics.csv).
 
    1  plates of LPS, plane stress, nu = 0.3, horizon 3 spacings, linear, clamped at three columns on the left and pulled at the last on

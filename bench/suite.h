@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* suite.h - what the parts of the bench program share: rows of cases, tables of figures, the limits of the machine, the work of a bond.
 
    bench.c     the driver; the table of all cases     scene.h    one function that makes a body of a case row

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* table.c - rows of figures, as aligned text and as CSV. */
 #include "suite.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* textbook.c - the loops of a textbook, compiled -O2 -march=native: every bond by itself, each point gathering its own, one thread.
 
      bond-based   f_i = sum c V_j s (xi+eta)/|xi+eta|,  s = (|xi+eta| - |xi|)/|xi|

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* textbook.inl - the loops of textbook.c for one type of real: REAL, ROOT, NAME(x). `dim` is a constant where these are inlined. */
 
 typedef struct NAME(arrays) {

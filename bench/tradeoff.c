@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff.c - how accurate, how fast, how large: `tradeoff [PROBLEM ...]`, `tradeoff --recipes [PROBLEM ...]`, `tradeoff --header`.
 
    Problems with known answers (tradeoff_statics.c, tradeoff_motion.c say of each which, and how the error is measured), run over the knobs

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff.h - what the parts of the tradeoff program share: the knobs, a run, the problems, the rows of the table. */
 #ifndef TRADEOFF_H
 #define TRADEOFF_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff_motion.c - problems in time: a P wave, and a crack that branches. */
 #include "tradeoff.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff_recipes.c - `tradeoff --recipes`: a few sets of knobs, and what each gives in every problem at every resolution: the table of
    src/advice/choose.c. Takes half an hour.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff_statics.c - problems at rest: uniform strain, a cantilever, a plate with a hole, a crack. Young's modulus 1 throughout. */
 #include "tradeoff.h"
 

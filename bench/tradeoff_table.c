@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff_table.c - the rows of one problem: which are run, what their neighbours say of them, which are on the fronts. */
 #include "tradeoff.h"
 

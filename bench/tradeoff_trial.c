@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff_trial.c - one run of a problem: the body that the knobs ask for, its processor time and the bytes that it takes. */
 #include "tradeoff.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* work.c - what a bond asks of the machine, counted from the kernels, and the least time that the machine needs for it.
 
    Operations are those of the vector kernels (columns.inl, list.inl) for one live bond: what the law asks for in

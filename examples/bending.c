@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bending.c - a notched concrete beam in three-point bending: a crack without inertia, driven by a prescribed displacement.
 
    Each step ends in equilibrium: a bond that is stretched over its limit breaks, and equilibrium is sought again, until none is. Griffith:
@@ -8,7 +9,6 @@
 
 #define STEPS 62
 static double curve[STEPS][6]; /* load factor, mean displacement x y [m], force x y [N], broken bonds                      */
-
 int main(void) {
     const double depth = 0.15, span = 0.595, thickness = 0.15, h = 0.005, deflection = 62e-6; /* [m]                       */
     const double young = 35.77e9, fracture_energy = 9.8, notch = 0.5;                         /* [Pa], [J/m^2], of the depth */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* branching.c - a crack in a pane of glass speeds up under tension and splits in two.
 
    A pane of soda-lime glass, 100 mm x 40 mm, is notched from the left edge to the middle. From t = 0 its long edges

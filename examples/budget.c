@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* budget.c - what would it cost? Before a single point is made: the memory and the time of one concrete scene, in single and in double
    precision, at a horizon of 3 and of 4 spacings; then the most accurate choice that fits a budget of both.
    cc -O2 examples/budget.c peri_impl.c -lm

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cantilever.c - a steel bar, built in at one end, bends under a force at the other: how far, and how much stress?
 
    200 mm x 10 mm, 5 mm thick, F = 100 N. Timoshenko: w(x) = F x^2 (3 L - x)/(6 E I) + F x/(k G A), k = 5/6; stress -M y/I.

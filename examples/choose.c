@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* choose.c - which settings? For a glass pane with a crack: what the library takes for four accuracies and within two budgets, what it
    expects of them, and one of them built and run.
    cc -O2 examples/choose.c peri_impl.c -lm

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* criteria.c - when does a bond break? The same slanted notch under three failure criteria, side by side.
 
    Left: at a critical stretch. Middle: when the work done on the bond passes w0. Right: when the mean energy of its two

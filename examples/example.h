@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* example.h - what the examples share: stop at the first error, show the progress, print the energy ledger. */
 #ifndef PERI_EXAMPLE_H
 #define PERI_EXAMPLE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* hello.c - pull a steel bar at both ends and compare its elongation with Hooke's law, dl = (stress/E) l.
    cc -O2 examples/hello.c peri_impl.c -lm
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* hole.c - a steel strip with a round hole is pulled: the stress at the side of the hole is three times that far away.
 
    Kirsch (1898), infinite plate, across the pull at distance r from the middle of a hole of radius a:

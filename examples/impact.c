@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* impact.c - a hard ball pushes through a glass plate.
 
    The ball is a rigid obstacle: a point of the plate at depth d inside it is pushed out with the force density k d.

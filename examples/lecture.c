@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* lecture.c - the method in two short functions: the prototype microelastic brittle (PMB) law, step by step.
 
      rho a_i = sum of  mu c s V_j y/|y|  over the family of i      y = x_j + u_j - x_i - u_i
@@ -7,7 +8,6 @@
    A glass bar is pulled apart. The library gives points, families and constants, c = 18 K/(pi horizon^4); then it
    does the same run by itself. Both break the same bonds and agree in every displacement, up to rounding. */
 #include "example.h"
-
 enum { N = 32 * 8 * 8, M = 122, STEPS = 200 };        /* points, whole family, time steps */
 static const double h = 1e-3, dt = 1e-7, speed = 8;   /* spacing [m], time step [s], speed of the two ends [m/s] */
 static double x[3 * N], u[3 * N], before[3 * N];      /* places, displacements u(t) and u(t-dt) [m] */

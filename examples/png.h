@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* png.h - pictures of fields, for the examples.
      picture_write   writes an 8-bit palette PNG (one block of fixed Huffman codes, matches one byte or one row back)
      picture_field   draws the points of a body as squares coloured by a field, with a colour bar

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* poisson.c - Poisson's ratio seen: four strips that differ in nothing else are stretched by 1 %.
 
    A bond-based solid has one constant and so one Poisson ratio. A state-based bond (LPS) also feels how the volume of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pressurised.c - fluid at 10 MPa opens a crack 10 m long in rock, far from any boundary: what hydraulic fracturing starts from.
 
    The crack is a row of cut bonds; peri_apply_pressure loads whatever surface they leave. The exact answer is Westergaard's, with
@@ -10,7 +11,6 @@
 enum { N = 160 }; /* points along a side of the block, 40 of them along the crack */
 static const double A = 5, SIDE = 40, P = 10e6, YOUNG = 30e9, NU = 0.2; /* half the crack, side [m]; pressure, modulus [Pa] */
 static double positions[N * N][2], u[N * N][2];
-
 static void westergaard(const double *at, double *value) {
     const double x = fabs(at[0]), y = fabs(at[1]), mu = YOUNG / (2 * (1 + NU)), size = hypot(x - A, y) * hypot(x + A, y);
     const double turn = 0.5 * (atan2(y, x - A) + atan2(y, x + A)), re = sqrt(size) * cos(turn), im = sqrt(size) * sin(turn); /* r */

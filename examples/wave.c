@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* wave.c - a ring-shaped pulse in an elastic plate, and the speed at which it spreads.
 
    The plate starts at rest with the radial displacement  u_r = A exp(-(r-R)^2/(2 sigma)^2)  about its middle. Half of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bits.c - prints one number per scene, made of every bit of the displacements after a run through fracture: the library must give the same
    ones whatever vectors it was built for (checks.sh compares builds). */
 #include "peri_test.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The same bits, whatever the vectors and the compiler: read by run.sh and checks.sh. bits.text: those of the library.
 kernels="d2 d3 m2 m3 f2 f3"
 $CC $STRICT -I. -c tests/bits.c -o build/checks/bits.o && $CC build/checks/bits.o build/libperi.a -o build/checks/bits $OPENMP -lm &&

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # The single-file header: generated twice alike, self-contained, the same tokens as the tree, only peri_ names exported, no state, only PERI
 # macros left defined.
 #   check_dist.sh --quick   the tokens of clang (else of gcc) and tcc alone: gcc takes ten times as long as clang for those of the single file

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Checks of the build and of the examples, read by run.sh, and between them its test programs: what takes long runs beside them.
 
 # ---- every way to compile it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ctypes_scene.c - the scene of test_ctypes.py in C: a notched bar, pulled by a load that a callback sets, watched by a frame
    callback, until it tears. Prints every number with 17 digits, one a line; test_ctypes.py must get the same from the library
    through ctypes, in the same order. First the layout of the structures. */

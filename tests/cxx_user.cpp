@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 // cxx_user.cpp - a C++11 program that includes peri.h and links with the library compiled as C: declarations, enums, callbacks
 // from lambdas. SOURCE OF TRUTH: free fall is a parabola, u = b t^2/(2 rho), which the integrator follows exactly.
 #include "../peri.h"

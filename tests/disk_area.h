@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* disk_area.h - areas of rectangles in disks, by Gauss's rule over chords: for the tests of quadrature, and on purpose by
    another method than the library's closed forms. */
 #ifndef DISK_AREA_H

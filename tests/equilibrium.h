@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* equilibrium.h - what the tests of statics share: a solve in one line, the assembled stiffness as a dense matrix, its factorisation, and
    equilibria found with that alone. */
 #ifndef EQUILIBRIUM_H

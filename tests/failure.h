@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* failure.h - bodies of the state-based laws for the tests of their failure, their states and their memory. */
 #ifndef FAILURE_H
 #define FAILURE_H

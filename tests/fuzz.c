@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* fuzz.c - libFuzzer drives the library by random programs (make fuzz). SOURCE OF TRUTH: program.h.
    Compiled with -DFUZZ_REPLAY a program of its own, that tells the calls of the files it is given. */
 #include "program_run.h"

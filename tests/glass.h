@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* glass.h - crack branching in a glass plate, the benchmark of [P] (PDMATLAB2D): its numbers, an independent textbook
    program for it, and the same scene built through the library.
 

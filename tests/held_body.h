@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* held_body.h - small bodies of every law, held, moved and blown at, with the equilibrium that a dense factorisation finds: for
    test_solvers.c and test_methods.c. */
 #ifndef HELD_BODY_H

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # The library on other machines, built and run here: 32-bit x86 with the registers of the x87 and with SSE2, and, emulated, ARM and s390x,
 # whose bytes are in the other order. Every row of the extremes, and the tests below. Skips what is not installed; takes over an hour.
 #   machines.sh NAME    only i686, i686_sse2, aarch64 or s390x

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* peri_test.h - the test harness: one program per subject, each a list of RUN(case).
 
    A case is a function `static void name(void)`; it passes when no CHECK in it failed. Programs close with

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* program.h - random programs: bytes that call the library, in any order, and what must hold after every call.
 
    SOURCE OF TRUTH: peri.h. A call returns a status that is listed; one that is refused has changed nothing and left its record; one that

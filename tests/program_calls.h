@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* program_calls.h - programs: calls of a body that is built. Most return the status of the one call that may change the body. */
 #ifndef PROGRAM_CALLS_H
 #define PROGRAM_CALLS_H

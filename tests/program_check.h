@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* program_check.h - what must hold after every call of a program. */
 #ifndef PROGRAM_CHECK_H
 #define PROGRAM_CHECK_H

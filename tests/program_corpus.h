@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* program_corpus.h - programs worth keeping, in hex: those that have found what was wrong, with what that was. Tests run them, and
    the fuzzer starts from them and from random ones. */
 #ifndef PROGRAM_CORPUS_H

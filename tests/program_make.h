@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* program_make.h - programs: calls that make a body: descriptors, materials, points, build, clone, plan. */
 #ifndef PROGRAM_MAKE_H
 #define PROGRAM_MAKE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* program_run.h - programs: the table of calls, and a whole life from its bytes. */
 #ifndef PROGRAM_RUN_H
 #define PROGRAM_RUN_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* published_laws.h - bodies of every law for test_laws.c and test_operator.c, and the lattice sums of the published laws that they are held
    against, written from the texts: peri.h (laws, influence functions), DESIGN section 2 (A, B), [C] eqs. 8-17 (Oterkus). */
 #ifndef PUBLISHED_LAWS_H

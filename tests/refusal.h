@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* refusal.h - calls that must fail: the code, the whole record, and which codes were seen. */
 #ifndef REFUSAL_H
 #define REFUSAL_H

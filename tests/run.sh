@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Runs every test, shows the five that took longest and closes with "N passed, N failed". What a machine lacks is skipped with a message.
 #   run.sh          the tests of `make test`
 #   run.sh --long   the test programs with their long tables (make validate)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* scene.h - small bodies for the tests of motion, and the few lines around the calls that they all need. */
 #ifndef SCENE_H
 #define SCENE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* solid.h - a body of any law in a few lines, and the solid that it stands for: its moduli, energy and stress. */
 #ifndef SOLID_H
 #define SOLID_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* specimen.h - a body of one material in a box, described by the library's own structs with the defaults of the tests: fill in what the
    test is about, make it. What is refused fails the test. */
 #ifndef SPECIMEN_H

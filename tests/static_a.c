@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* static_a.c - one of two units that both hold a private copy of the library (PERI_STATIC), linked together. main is here.
    SOURCE OF TRUTH: the same program text twice gives the same bits; and a free body keeps the momentum that it got. */
 #define PERI_STATIC

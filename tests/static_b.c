@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* static_b.c - the other unit: see static_a.c. */
 #define PERI_STATIC
 #define PERI_IMPLEMENTATION

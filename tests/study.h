@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* study.h - what the two parts of the convergence study [C] share: square lattices of any law, one linear solve, the order of a
    series of errors. */
 #ifndef STUDY_H

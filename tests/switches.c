@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* switches.c - the library with parts left out. Compiled with the same switches as the library it is linked to: prints a line per scene
    that is there, made of all bits of its results, and fails where what is left out answers otherwise than by PERI_ERROR_LEFT_OUT and the
    switch.

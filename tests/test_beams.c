@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_beams.c - three slender beams in equilibrium: [T] 4.1.
 
    THE BEAMS  30 mm x 1.5 mm, plane stress, 70 GPa, 400 x 20 points, horizon of 3 spacings: a cantilever under a tip force (1) and a tip

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_bending.c - a notched beam in three-point bending, broken step by step: [T] 5.1, after Carpinteri.
 
    THE BEAM  [T] gives 150 mm x 600 mm, E, G0, plane stress, a horizon of 15 mm = 3 spacings and 3720 points: 124 x 30 cells of 5 mm, so

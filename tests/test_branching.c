@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_branching.c - crack branching in a glass plate, the benchmark of [P] (PDMATLAB2D): against an independent textbook
    program, mirrored, shuffled, on other threads, in other units, again after a reset and in a clone. The scene and
    the textbook program are in glass.h. */

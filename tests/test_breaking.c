@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_breaking.c - bonds that break by stretch: when, which, what is told, and what energy they take along.
 
    Sources of truth: stretches that are set by hand; all pairs of a lattice; the energy 1/2 c w s^2 |xi| V_i V_j of a bond at the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_choose.c - peri_choose keeps what it promises, on problems that its table was not made from; and refuses what it cannot.
 
    Each choice is carried out: the body is made with the spacing and the knobs that were chosen, the problem is solved, and the error must

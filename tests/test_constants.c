@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_constants.c - micromodulus, critical stretch, and what they stand for: energy, force and fracture energy.
 
    Sources of truth: the closed forms printed in the literature ([P] appendix C, [T] 1.24 and 1.40); moments of the influence

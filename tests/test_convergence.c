@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_convergence.c - the first part of the convergence study [C], its section 5: a square of 10 mm under constant strain, three problems
    times three laws times five influence functions times five horizons, by static solves.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_corrections.c - what the corrections at surfaces give, and what they must not break.
 
    SOURCE OF TRUTH: the energy density of the solid, W = 1/2 lambda (tr eps)^2 + mu eps:eps, under uniform strains; conservation laws;

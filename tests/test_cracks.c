@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cracks.c - bonds that are cut, and damage. Bonds that break by stretch are in test_breaking.c.
 
    Sources of truth: geometry in whole numbers. Points lie at 4i + 2 quarters of a spacing and cracks have whole vertices, so

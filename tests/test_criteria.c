@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_criteria.c - when a bond of a state-based body breaks: critical stretch and energy from G0, pairs of points pulled apart,
    bodies under uniform strain, all bonds across a plane.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """The library through a foreign function interface: python3 tests/test_ctypes.py path/to/libperi.so path/to/ctypes_scene
 
 Runs the scene of ctypes_scene.c through ctypes, callbacks in Python included, and compares every number with what the C

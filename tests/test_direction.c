@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_direction.c - the direction in which a crack sets out depends on Poisson's ratio ([T] 5.2, Figs 5.6-5.9).
 
    A square plate of side a, notched along half of its middle line, is pulled and sheared alike: both edges move by v t/2 across and along.

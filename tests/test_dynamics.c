@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_dynamics.c - motion: conservation laws, rigid motions, both integrators, the stable step, durations, damping. Loads,
    supports and obstacles are in test_loads.c, the energy ledger is in test_ledger.c.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_edges.c - what callbacks may and may not do, and inputs at the edge of what a body can hold. Truths: the promises of peri.h,
    conservation laws, and the textbook kernel. */
 #include "peri_test.h"

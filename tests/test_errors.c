@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_errors.c - every status, every bad input: refused with the right code and record, and the body none the worse for it.
 
    SOURCE OF TRUTH: peri.h: the texts of peri_status and of each function ("a call that fails has changed nothing").

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_failure.c - failure of state-based bodies: the energy that it takes, what both ends of a bond know of it, and that it
    can be done again to the last bit.
 

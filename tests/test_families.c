@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_families.c - points, cells, families and sets, against counts and searches that are done here.
 
    Sources of truth: the number of integer vectors no longer than m (12, 28, 48, 80 in the plane; 32, 122, 256 in space),

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_fields.c - dilatation, strain, stress and reaction of points.
 
    SOURCE OF TRUTH: affine deformations. F is that of every bond, so the strain is 1/2(F + F^T) - 1 or 1/2(F^T F - 1), the stress of the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_fragments.c - state-based points that have lost most of their bonds: what they do, and the step that they need.
 
    Nothing here was recorded from the library. The truth is that forces are the derivative of the energy, that rigid motions cost

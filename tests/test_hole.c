@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_hole.c - a round hole in a plate under tension S.
 
    WHAT CAN BE COMPARED  The stress at the rim, 3 S, is that of a point. A family there lies on one side, averages over a horizon, in which

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_kernels.c - the three ways to work on bonds (desc.kernel) against each other: the reference, the list of families, and the columns
    of lattices; the first two on clouds, too. All laws, precisions and instruction sets. Source of truth: the reference kernels, which are
    the equations of [P] 1, [T] 1.23, 1.80 and [C] 4-21 written out. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_laws.c - what each law makes of uniform strain and of a checkerboard, and where two laws are one.
 
    Nothing here was recorded from the library. The truth is classical elasticity (W and stress of a uniform strain), the published

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_ledger.c - the energy ledger: initial + external + obstacle = kinetic + elastic + damping + fracture + error.
 
    Nothing here was recorded from the library. The truth is the first law: the error is what the time step left open, and for

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_limits.c - state-based bodies at the limits of their numbers: no bond left, families that barely hold, weights near the ends of
    single precision, steps that become too large. Each case states its source of truth. */
 #include "peri_test.h"

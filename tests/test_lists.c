@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_lists.c - whatever an enum of peri.h names is served, and any other number is refused by the name of its field.
 
    SOURCE OF TRUTH: peri.h, whose text is read here: its enums name what there is, and have disjoint values, so that one in the wrong field

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_loads.c - loads, supports and obstacles: totals, values in time, callbacks, balance, bounces and pushes.
 
    Nothing here was recorded from the library. Expected values are totals written in the contract, closed-form motions that

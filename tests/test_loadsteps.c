@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_loadsteps.c - what a solve asks callbacks for, tells, records, refuses and leaves behind.
 
    SOURCE OF TRUTH: peri.h, field by field; the linear problem, whose answer is proportional to the load factor; a second body on which

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_loose.c - parts that nothing holds, points that hang on too few bonds, and stiffness that is not positive.
 
    SOURCE OF TRUTH: peri.h (peri_loose); rigid motions strain nothing, so balanced loads strain a free body as they do a held one;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_memory.c - the allocator that fails, at every one of the allocations of a whole small life of a body; the allocator that
    returns unaligned dirty memory; NULL in every argument.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_methods.c - what every method of the static solver must give alike, on small bodies of every law and space.
 
    SOURCE OF TRUTH: the dense equilibrium of held_body.h; the definition of the residual in peri.h, worked out from the fields; Clapeyron's

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_mixed.c - bodies of two laws: energy in uniform strain, conservation in motion, and which bonds break across the interface.
 
    SOURCE OF TRUTH: the contract "each end of a bond gives its own half by its own material", so that a point's energy is that of its own

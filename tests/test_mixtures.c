@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_mixtures.c - laws that differ in one body, and energy criteria, by columns.
 
    SOURCE OF TRUTH: the reference kernel, which goes from bond to bond of a row and takes each end's half from the law of its material: the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_moduli.c - Young's modulus and Poisson's ratio as measured on a plate in tension: [T] 4.2.
 
    THE PLATE  8 mm x 2 mm, plane stress, E = 71 GPa, points at the multiples of the spacing (as in [T] Fig. 3.4: the cells make it larger by

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_operator.c - forces as derivatives of the energy, objectivity, finite strain, and the linear operator: symmetry and modes.
 
    Nothing here was recorded from the library. The truth is the principle that a force is -dE/du, conservation of momentum, objectivity,

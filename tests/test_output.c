@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_output.c - what comes out: reads, views, VTU, CSV.
 
    SOURCE OF TRUTH: peri.h for what a view means and what is written; the VTK XML format (appended raw data: each array a UInt64

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_patch.c - patch tests: bodies under tractions that uniform stress would put on them must be strained uniformly.
 
    SOURCE OF TRUTH: Hooke's law. The strain of a uniform stress is eps = (sigma - lambda/(D lambda + 2 mu) tr(sigma))/(2 mu), with the

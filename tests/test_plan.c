@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_plan.c - what a body holds, by purpose, and what a scene will cost before it is made.
 
    SOURCE OF TRUTH: for bytes, an allocator that counts what is asked of it: peri_get_memory must agree to the byte at every stage of a

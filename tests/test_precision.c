@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_precision.c - mixed precision: the state in double, bonds in single. SOURCE OF TRUTH: the same scene in double, conservation of
    momentum and energy, and Hooke's law. What the kernels do is checked in test_kernels.c. */
 #include "equilibrium.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_programs.c - random programs: any call, in any order, with any numbers, on bodies in any state. SOURCE OF TRUTH: see program.h.
 
    `test_programs --seeds DIRECTORY` writes the kept programs as files for the fuzzer; `test_programs --show FIRST COUNT` tells the calls of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_quadrature.c - how much of a neighbour's cell counts.
 
    The library does not hand out weights, but its forces show them. In linear geometry, with w = 1 everywhere, a displacement

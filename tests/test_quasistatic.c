@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_quasistatic.c - quasi-static fracture, and statics without memory.
 
    SOURCE OF TRUTH: the criteria of peri.h with lattice sums of LPS under a uniform stretch; the energy of a bond-based bond, 1/2 c s^2

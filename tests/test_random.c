@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_random.c - random scenes, fast kernels against textbook ones (desc.kernel). Each scene draws its space, precision, geometry,
    influence function, quadrature, shape, materials, crack, supports, loads, obstacle, damping, integrator, frames with further cuts, and
    a clone on the way. Truths: the textbook kernel (the equation written out), and energy conservation at a tenth of the stable step. */

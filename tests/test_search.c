@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_search.c - the search for families, and lists that are stored by place, not by id.
 
    Sources of truth: all pairs of points, tried here one by one; peri_build names the first point without a family and the first of two at

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_solvers.c - the linear solver and the stiffness, on small bodies of every law and space.
 
    SOURCE OF TRUTH: Cholesky's factorisation, written in equilibrium.h, of the assembled stiffness with the supports taken out; finite

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_stale.c - what is derived from the state follows every change of it, and reading it changes nothing.
 
    Two sources of truth. (1) A body that nobody has read: what a body says after a change has the same bits whether or not it was read

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_states.c - what state-based bodies refuse, their fields, failing memory, and what each feature costs in bytes.
 
    SOURCE OF TRUTH: peri.h: the ranges of the fields, the names of the errors, "a call that fails has changed nothing", "keeps dim + 1

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_statics.c - Newton's method, load steps, contact, what callbacks may do and what a solve refuses.
 
    SOURCE OF TRUTH: rotations strain nothing; the closed form of the uniform deformation of a Saint Venant-Kirchhoff solid; the elastica

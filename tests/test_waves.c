@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_waves.c - speeds of elastic waves: read from the operator, and of pulses that travel.
 
    SOURCE OF TRUTH: elastodynamics. Plane waves have the speeds sqrt((lambda + 2 mu)/rho) and sqrt(mu/rho); a strip guides the lowest

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_westergaard.c - the second part of the convergence study [C], its section 6: a crack under inner pressure in an infinite medium,
    plane strain, static.
 

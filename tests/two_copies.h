@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* two_copies.h - the scene that static_a.c and static_b.c each run with their own copy of the library: a square, half of it
    thrown to the right, so that it stretches and rings. Returns the momentum in x: half the points at 0.5, mass 0.64*0.5*2. */
 #ifndef TWO_COPIES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* wrong_calls.h - calls on a built body that must be refused, for the story of test_errors.c: what it goes through beside is the same. */
 #ifndef WRONG_CALLS_H
 #define WRONG_CALLS_H

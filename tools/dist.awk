@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # dist.awk - writes the single-file header: `awk -f tools/dist.awk peri.h`. Quoted includes are put in place, .c and .h once. A long text
 # that is included in several places (.inl; adjacent includes are one text) stands at the end of the file, once, in a section of its own
 # number, and each include of it becomes an include of the file itself with PERI_TEXT set to that number; so within sections, to any depth.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # House rules and static analysis. Tools that a machine lacks are skipped with a message.
 cd "$(dirname "$0")/.." || exit 1
 status=0
@@ -22,13 +23,27 @@ for file in src/*/* peri_impl.c examples/* tests/*.c tests/*.h tests/extremes/* 
     [ "$lines" -le 600 ] || fail "$file: $lines lines, more than 600"
 done
 awk 'length > 140 { printf "lint: %s:%d: longer than 140\n", FILENAME, FNR; bad = 1 } END { exit bad }' \
-    peri.h peri_impl.c src/*/* examples/* tests/*.c tests/*.h tests/extremes/* bench/* || status=1
+    peri_impl.c src/*/* examples/* tests/*.c tests/*.h tests/extremes/* bench/* || status=1
+# peri.h is read in ten minutes
+awk 'length > 100 { printf "lint: peri.h:%d: longer than 100\n", FNR; bad = 1 }
+    { size += length + 1; rest = $0
+      while (rest != "") {
+          at = index(rest, inside ? "*/" : "/*")
+          if (inside) said += at ? at + 1 : length(rest) + 1
+          if (!at) break
+          rest = substr(rest, at + 2); if (!inside) said += 2; inside = !inside
+      }
+      if (inside && rest == "") said++ }
+    END { if (size > 50000) { printf "lint: peri.h: %d bytes, more than 50,000\n", size; bad = 1 }
+          if (said > 0.55 * size) { printf "lint: peri.h: comments are %.1f %% of it, more than 55\n", 100 * said / size; bad = 1 }
+          exit bad }' peri.h || status=1
 grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* examples/* tests/*.* tests/extremes/* bench/* tools/* Makefile README.md && fail "trailing blanks"
 grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the library prints or exits"
 # no state: every variable of the library is const or local
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
 awk -v laws=refuse -f tools/wings.awk peri_impl.c src/*/* || status=1
 sh tools/check_docs.sh || status=1
+sh tools/spdx.sh --check || fail "files without a licence line"
 awk -f tools/fields.awk peri.h src/*/*.c || status=1
 # peri.h and peri_status_text say the same of each status
 awk -f - peri.h src/base/status.c << 'END' || fail "peri.h and src/base/status.c differ in the text of a status"

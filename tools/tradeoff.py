@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Pictures of out/tradeoff.csv: error against time and against memory, one per problem -> out/tradeoff_PROBLEM.png.
 
 Dots: all runs, by law. Line: those that no other run beats in both. Its knees are labelled with their knobs."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # wings.awk - no arrow upwards between the folders of src/: `awk -f tools/wings.awk peri_impl.c src/*/*`. The order of the folders is that
 # of their first parts in peri_impl.c, headers aside, which may be read earlier. A function, variable, macro, type or constant that a
 # folder defines may be used in that folder and in those after it. A name that several folders define belongs to the first of them,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* choose.c - the knobs for an accuracy or a budget, from a table that `make tradeoff` measured. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

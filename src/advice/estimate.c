@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* estimate.c - a body that is only described: a box of cells, one material. Its counts are those of the body to be, found without making
    its points; its pointers say which arrays there would be and point nowhere. So what it would hold is counted by the function that counts
    a real body, and whether two points share a bond, and what that weighs, is asked of the functions that build one.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* plan.c - what a scene would cost: bonds, bytes, the stable step and the time of a step, before it is made. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* base.c - the instruction set, constants, small arithmetic. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* compiler.h - what compilers and machines differ in. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

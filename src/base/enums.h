@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* enums.h - the groups of enums of peri.h: where the values of each begin and end. They are disjoint, so that a value in the wrong field is
    refused; arrays that have an entry for each go by value less the first. */
 #ifndef PERI_ENUMS_H

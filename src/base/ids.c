@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ids.c - ids of what a body holds: kind << 27 | number of the body << 20 | 1, 2, ... in the order in which they were given.
    So an id is positive, no id of one kind is one of another, and ids of two bodies differ where their numbers do. */
 #ifndef PERI_IMPL

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* inline.h - what is small and used everywhere. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

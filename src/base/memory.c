@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* memory.c - the allocator hook. Every allocation of the library goes through peri__new and can fail.
    Blocks are aligned to 64 bytes on top of whatever the hook returns; the hook's own pointer is kept just before them. */
 #ifndef PERI_IMPL

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* parallel.c - the one door to threads: a loop over blocks of PERI_BLOCK points.
    A task writes only what belongs to its own points and its own peri__sums; totals are then summed over blocks in order.
    So the bits do not depend on the number of threads, nor on who schedules them. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* real.c - access to the reals of a body, whatever their precision. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

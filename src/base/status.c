@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* status.c - status texts, the error record, the log. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

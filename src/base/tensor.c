@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tensor.c - symmetric matrices of dimension 2 and 3, packed xx yy xy, or xx yy zz xy yz xz as VTK does; small linear systems. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* text.c - numbers to text: no printf, so no locale and no stdio. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

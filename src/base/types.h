@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* types.h - every internal struct, and the glossary of symbols.
 
    Symbols, as in the source texts:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* arrays.c - what a body keeps per point and per bond: which arrays there are, how large, what for, and which of them a scene needs. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

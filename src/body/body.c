@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* body.c - create, build, destroy. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* boundary.c - supports, loads and obstacles, as the caller adds and removes them. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* clone.c - copies of a body, and what there is to ask of one. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cracks.c - cuts, no-fail zones, break events.
 
    A crack is a convex region: a flat polygon, thickened by the touching tolerance, is an intersection of half-spaces; a disc is a slab

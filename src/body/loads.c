@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* loads.c - what loads and supports do to the force, and their work.
 
    All work is taken by the trapezoidal rule over a step, 1/2 (F_n + F_n+1).du, with du = dt*v at the half step: the rule under which the

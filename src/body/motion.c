@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* motion.c - displacement and velocity from outside, and back to the start. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

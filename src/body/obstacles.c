@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* obstacles.c - what obstacles do to the force, and their work: by the rule of loads.c. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

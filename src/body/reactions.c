@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* reactions.c - the forces of obstacles, supports and loads, read. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

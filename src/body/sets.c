@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* sets.c - named selections of points. Inside they are numbered from 1; 0 is PERI_ALL, which is stored nowhere. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

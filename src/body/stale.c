@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stale.c - what a change makes stale, and how that is brought up to date: the one place that knows.
 
    Who changes a body calls peri__changed, who reads what is derived calls peri__ensure. A change costs no more than bits, so that a hundred

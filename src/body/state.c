@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* state.c - units and places inside, the force of bonds, the energies. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* strain.c - dilatation, strain and stress of points, from the displacements of their live families ([T] 4.10-4.14). */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

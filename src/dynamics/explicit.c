@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* explicit.c - explicit dynamics: the stable step and the step loop.
 
    A step from n to n+1 ([T] 2.2, with damping a, h = a dt/2; velocity-Verlet | central difference):

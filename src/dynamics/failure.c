@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* failure.c - state-based bonds that meet their criterion are taken out.
 
    A bond of a state-based body is in the sums of both its ends, so when it breaks the constants of both change, and with them the force of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* correction.c - what makes good for the missing part of a family: factors on the weights of bonds, chosen once per body.
 
    The uniform strain eps has the energy of the solid where the fourth moment of the family is isotropic,

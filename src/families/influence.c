@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* influence.c - influence functions w(q), q = |xi|/horizon, and their moments I_k = integral of w(q) q^k over [0, 1].
    A function more is its number in peri.h and its entry in the list below. */
 #ifndef PERI_IMPL

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* neighbors.c - points to families: the array Ibond of [T] 3.11, its rows without padding. Searched by search.c, or checked where the
    caller gave them.
 

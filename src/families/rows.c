@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* rows.c - the family of a point, one row of Ibond, wherever it is stored. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* search.c - which points lie within reach of a point: O(N) for any cloud.
 
    Points are sorted into the cells of a grid, and the cells follow each other brick by brick, line by line in a brick. The place of a point

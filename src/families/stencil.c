@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stencil.c - families by columns, for points that come from a lattice.
 
    Rows of Ibond are taken in groups of PERI_GROUP. On a lattice the bonds of a group along one lattice vector lead from each point to

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* weights.c - the lengths and weights of bonds, and the bound of the highest frequency. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

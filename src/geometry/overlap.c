@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* overlap.c - exact overlaps: disk and polygon, ball and box. All about the origin. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* partial_volumes.c - quadrature: which part beta of a neighbour's cell lies within the horizon. The rules of peri_quadrature. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* points.c - boxes, balls, shapes and arrays to points, volumes and cells. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

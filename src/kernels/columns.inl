@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* columns.inl - the passes over families by columns (stencil.c): the equations of rows.inl for PERI_GROUP points at once, in pieces of
    PERI_WIDTH by the operations of vector.inl, operation by operation in the same order as by rows, so with the same result. Included per
    precision, dimension and instruction set; PERI_ISA_FN names it. `linear`, ... are constants where these are inlined.

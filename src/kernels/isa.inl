@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* isa.inl - what works on the vectors of one instruction set. */
 #include "vector.inl"
 #include "columns.inl"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* kernels.inl - the driver of the kernel templates. Included once per precision and dimension with PERI_T_REAL (64, 32), PERI_T_BOND (64,
    32) and PERI_T_DIM (2, 3) set; defines the kernels and one table of them, and undefines all it defined.
 

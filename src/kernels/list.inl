@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* list.inl - the passes over the list: the equations of rows.inl for PERI_CHUNK bonds of a row at once, in pieces of PERI_WIDTH lanes by
    the operations of vector.inl. Bond k of a row is added in lane k % PERI_CHUNK, and lanes are added up in halves: the same bits from every
    instruction set and any number of threads. Bonds that come near their critical stretch are left to the rows. Included per precision,

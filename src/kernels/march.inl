@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* march.inl - the pointwise passes of time integration: kicks, drift, kinetic energy. */
 
 /* v = keep*v + kick*f/rho; then, where drift > 0: u += drift*v and f = 0, ready for the loads of the new time.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* passes.inl - passes over blocks of points: by columns or by the list, and by rows where a bond is about to break, or where families are
    stored in no other way. What works on vectors they call by the instruction set of the body. */
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pointwise.inl - what is done alike to one component of `count` points, PERI_BLOCK at most: plain loops, that the compiler turns into
    the vectors of each instruction set. */
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* rows.inl - the passes over a row of Ibond, one bond at a time, for any mixture of laws, criteria and quadratures ([T] 1.20-1.23, 1.80;
    [P] 1, 9, 10; [C] 1-21). It is the reference, and what decides about bonds that are near breaking.
 

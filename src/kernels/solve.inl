@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* solve.inl - the static solver's work on whole vectors. */
 
 /* d += alpha p, r -= alpha q. sums: |r|^2 of free dofs to a, of constrained ones to b. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tangent.inl - the tangent of the force where the geometry is not linear, by rows.
 
    With the halves T = w [(p g + q e) M + Q xi + k eta] of both ends a change d of the displacements changes the force on i by

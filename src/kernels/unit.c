@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* unit.c - the kernels of one precision and dimension as an object of their own, for developers:
    cc -DPERI_SPLIT -DPERI_T_REAL=64 -DPERI_T_BOND=64 -DPERI_T_DIM=2 -I. -c src/kernels/unit.c; then peri_impl.c with -DPERI_SPLIT. */
 #include "peri.h"

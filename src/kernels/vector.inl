@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* vector.inl - the operations of columns.inl and list.inl per instruction set: PERI_V_ISA 0 SSE2, which every x86-64 has; elsewhere the
    vectors of gcc and clang, or plain text, one lane at a time; 1 AVX2; 2 AVX-512.
 

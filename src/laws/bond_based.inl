@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bond_based.inl - the bond-based law ([T] 1.20-1.23, [P] 1): f = c w s M, s = e/|xi|, so each end gives c/(2 |xi|) e. */
 #ifdef PERI_LAW_ROLE_TRAITS
 enum { PERI__GATHER_bond_based = PERI__NO_GATHER, PERI__GAUGE_bond_based = 0, PERI__PAIRWISE_bond_based = 1,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bond_energy.inl - a bond breaks when the work done on it passes w0 V V ([T] 1.100). */
 #ifdef PERI_CRITERION_ROLE_TRAITS
 enum { PERI__SEEN_bond_energy = PERI__BY_WORK };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* calibration.c - what the live family of a point makes of its state-based law: the constants of peri__constant.
 
    Every law is calibrated on the bonds that are left, so a cut crack and a gap between points act alike. The price is that few

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* correspondence.inl - Saint Venant-Kirchhoff material by the correspondence of F = 1 + H ([T] 1.80, [C] 18-21):
 
        H = (sum w eta xi V) K^-1,    E = (H + H^T + H^T H)/2,    S = lambda tr(E) + 2 mu E,    P = F S

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* criteria.h - when bonds break, and the list of criteria. A bond breaks where its value passes the limit of its pair of materials,
    peri__pair.limit, PERI_NEVER where neither material has the criterion.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* criteria.inl - the criteria there are, in the role that is asked for, and the list of them. */
 #include "stretch.inl"
 #include "bond_energy.inl"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* gradient.inl - strain, and the stress of the laws with a gradient, in reals of type peri_s and matrices of PERI_S_DIM of which `dim` are
    in use; PERI_S_FN names it. Included per precision and dimension by the kernels, and once in double for fields and the assembled
    matrix. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* law.h - what laws differ in, and the list of them.
 
    The half of a bond that its end i gives is a force density, per weight w,

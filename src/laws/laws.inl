@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* laws.inl - the laws there are, in the role that is asked for, and the list of them. */
 #include "bond_based.inl"
 #include "lps.inl"

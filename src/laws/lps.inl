@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* lps.inl - linear peridynamic solid ([T] 1.54, 1.67, 1.72):
 
        theta = D/m sum w |xi| e V,    half = (A theta/m |xi| + B/m e) M

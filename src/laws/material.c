@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* material.c - engineering constants to those of the laws: micromodulus, moduli of the plane, critical stretch and energy. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

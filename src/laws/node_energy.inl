@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* node_energy.inl - a bond breaks when the mean energy of its ends, 2 W over the volume of the family, passes w0 ([T] 1.102). */
 #ifdef PERI_CRITERION_ROLE_TRAITS
 enum { PERI__SEEN_node_energy = PERI__BY_NODE_ENERGY };

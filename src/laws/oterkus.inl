@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* oterkus.inl - Oterkus's law ([C] 16, 17), calibrated on the sums of the family itself:
 
        theta = D/(sum w |xi| V) sum w e V,    half = (p + q e) M,    q = mu/S,    p = (bulk - q m/D^2) d theta

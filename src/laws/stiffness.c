@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stiffness.c - bounds of the highest frequency by row sums of the stiffness, point by point, so that they follow the bonds that break;
    and what keeps constants and row sums up to date. */
 #ifndef PERI_IMPL

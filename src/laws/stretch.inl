@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stretch.inl - a bond breaks beyond its critical stretch ([T] 1.39, [P] C.20). */
 #ifdef PERI_CRITERION_ROLE_TRAITS
 enum { PERI__SEEN_stretch = PERI__BY_STRETCH };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* fields.c - fields by copy and by view, the ledger, the momenta.
    A field more is its number in peri.h, its entry in the list below, and the function that the entry names. */
 #ifndef PERI_IMPL

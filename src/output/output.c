@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* output.c - VTU for ParaView and CSV histories, through a write callback. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

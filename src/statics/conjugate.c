@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* conjugate.c - the preconditioned conjugate gradients of the static solver, and the memory that it takes.
 
    K is symmetric because forces are taken per point, V_i times the density. Supports are a projection: directions are 0 on constrained

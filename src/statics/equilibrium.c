@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* equilibrium.c - the equilibrium at one load factor, by Newton's method.
 
    Find u with r(u) = bonds(u) + loads = 0 on free dofs, u given on constrained ones. Each iteration solves K(u) d = r, with d on

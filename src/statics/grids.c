@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* grids.c - regular grids with stencils of blocks, each of twice the spacing of the one before: products, smoothing, a V-cycle. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

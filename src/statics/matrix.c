@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* matrix.c - the tangent stiffness assembled by rows (compressed), Matrix Market, and BiCGSTAB on it ([T] 3.2, 3.3).
 
    The energy of point o is a function of the displacements of o and its family, so the stiffness is a sum over points o of a small dense

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* multilevel.c - linear elasticity on coarse background grids, as a preconditioner.
 
    The diagonal blocks alone deal with all motions that vary within a horizon: for them the bonds of a point act like a spring to a still

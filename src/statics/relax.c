@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* relax.c - adaptive dynamic relaxation (Underwood 1983; Kilic, Madenci 2010): the body moves with a made-up mass that makes a step of 1
    stable, under a damping that follows the lowest frequency in the present motion, c = 2 sqrt(u.K u/u.u) with the diagonal K = change of
    force over change of place. */

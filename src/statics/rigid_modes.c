@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* rigid_modes.c - what moves without resistance: connected parts whose supports leave rigid motions free, and points whose bonds span too
    little.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* statics.c - load steps and quasi-static fracture: equilibrium at a load factor, bonds over their limit broken, equilibrium again, until
    none is; then the next load factor. */
 #ifndef PERI_IMPL

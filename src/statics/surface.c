@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* surface.c - tractions and pressures spread over a horizon, so that they pass the patch test.
 
    Under a uniform strain the bonds give each point a force that vanishes inside and not near a surface: -sigma a_i for correspondence, with

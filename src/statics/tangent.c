@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tangent.c - the tangent stiffness: its product with a vector, and the blocks on its diagonal. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

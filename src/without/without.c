@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* without.c - what a build leaves out by a switch: declared as ever, answering PERI_ERROR_LEFT_OUT with the switch as the field. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"

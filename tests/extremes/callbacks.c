@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* callbacks.c - callbacks that read and change all there is, that stop at once, that write NaN, infinity, nothing, or numbers at the ends
    of the range, and files that fail at each of their pieces. */
 #include "scenes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cracks.c - cracks through points, along rows, outside, of no extent, and ten thousand of them; directions of any length. */
 #include "dense.h"
 #include <time.h>

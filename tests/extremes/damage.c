@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* damage.c - nothing left, hardly anything left, limits at both ends of the numbers, and what a reset leaves. */
 #include "dense.h"
 

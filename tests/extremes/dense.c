@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* dense.c - see dense.h. Formulas are those at peri_law in peri.h; e = (2 xi + eta).eta/(|xi+eta| + |xi|), without cancellation.
 
    Rounding. The sum (2 xi + eta).eta is uncertain by roundings of its terms, so e by roundings of reach = (2 |xi| + |eta|) |eta|/(|xi+eta|

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* dense.h - the four laws of peri.h written out bond by bond in double, for any positions and displacements: an independent answer for
    the force and energy densities of a body, with a measure of what rounding may do to them. */
 #ifndef DENSE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* elasticity.c - ratios and moduli at the limits of what a solid can have.
 
    SOURCE OF TRUTH: linear elasticity, W = 1/2 K tr^2 + mu |dev|^2 with K and mu of the space from E and nu, each by the form that cancels

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* extremes.c - plays every row of every table in double, mixed and single precision: see extremes.h.
      extremes WORD     only rows whose subject or name contains WORD
      extremes --long   longer runs where a scene has them

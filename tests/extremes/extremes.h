@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* extremes.h - scenes at the edge of what numbers, bodies and calls can be, as rows of tables.
 
    A row says how its scene must end, in each of the three precisions: right to a stated bound, or refused by a named status. Whatever

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* families.c - families of every size and shape: one bond to all bonds, lines and planes, clouds, families of the caller, and what the
    search, the quadratures and the corrections make of them. */
 #include "dense.h"

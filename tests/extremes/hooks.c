@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* hooks.c - callbacks that stop at once and go on, files that fail at each of their pieces, and job systems of odd habits. */
 #include "scenes.h"
 

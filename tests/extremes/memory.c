@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* memory.c - memory that runs out at each allocation, and memory of any alignment: statics, matrices, clones and plans, of every law. */
 #include "scenes.h"
 

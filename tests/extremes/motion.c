@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* motion.c - bodies far away, turned and spun for long.
 
    SOURCE OF TRUTH: invariance of the laws under rigid motion; conservation of momentum and angular momentum; elasticity. What a precision

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* moving.h - what motion.c and tiny.c share: small bodies of every law, their fields, and the difference of two of them. */
 #ifndef MOVING_H
 #define MOVING_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pairs.c - two points on a bond: closed forms of steps, damping and densities at their limits; the numbers of a run. */
 #include "extremes.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* rounding.c - whole lives of bodies while the machine rounds up, down or toward zero, or takes denormal numbers for zero. Each operation
    is then off by one unit in its last place where it was by half of one, so answers are those of rounding to nearest within a multiple of
    the unit roundoff; what is counted stays as it is. */

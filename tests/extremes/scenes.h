@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* scenes.h - what the rows about calls and machines share: sizes.c, memory.c, callbacks.c, rounding.c. */
 #ifndef SCENES_H
 #define SCENES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* sizes.c - counts near what 32 bits can number, requests of nothing, buffers one entry short or long, and more materials, sets, loads,
    supports and obstacles than anybody has. */
 #include "scenes.h"

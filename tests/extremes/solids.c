@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* solids.c - equilibria of bodies: against factorised matrices, uniform stress; floating, breaking. */
 #include "extremes.h"
 

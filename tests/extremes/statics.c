@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* statics.c - equilibria against closed forms: chains of springs, weak links, loads and load factors at their limits, refused numbers. */
 #include "extremes.h"
 

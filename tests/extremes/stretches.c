@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stretches.c - bodies stretched, squeezed, turned inside out, thrown about and collapsed, for each law in each space. */
 #include "dense.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* time.c - bodies of every kind at the limit of the time step and beyond; ends of runs. */
 #include "extremes.h"
 

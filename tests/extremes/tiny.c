@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tiny.c - strains, velocities and loads next to nothing, and processors that take denormals for 0.
 
    SOURCE OF TRUTH: linearity of small strains, exact to the last bit under powers of two; conservation of energy. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* trusses.c - equilibria of bars against closed forms: hinged, hanging, buckling, slender. */
 #include "extremes.h"
 

@@ -1,10 +1,10 @@
+/* SPDX-License-Identifier: MIT */
 /* units.c - scenes in every system of units.
 
    SOURCE OF TRUTH: dimensional analysis. A scene whose lengths, moduli and densities are multiplied by L, E and rho has displacements of
    L, times of L sqrt(rho/E), stresses of E, energies of E L^3 (planes: E L^2 times the thickness) times those of the same scene in units
    of one, and breaks the same bonds. Both runs round on their own, so numbers agree to the rounding of what they went through. */
 #include "extremes.h"
-
 #define STEPS 30
 #define GROUPS 64
 
