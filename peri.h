@@ -173,8 +173,8 @@ typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 
 /* ---- ids -------------------------------------------------------------------- */
 
-#define PERI_ALL          0x10000000         /* the set of all points, of any body */
-#define PERI_ID_INDEX(id) ((id) & 0xFFFFF)   /* 1, 2, ... in the order in which they were given */
+enum { PERI_ALL = 0x10000000 };            /* the set of all points, of any body */
+#define PERI_ID_INDEX(id) ((id) & 0xFFFFF) /* 1, 2, ... in the order in which they were given */
 
 typedef enum peri_kind {
     PERI_KIND_MATERIAL = 2201,
