@@ -74,7 +74,7 @@ PERI_API int32_t peri_version(void);
 typedef enum peri_status { /* peri_status_text says the same */
     PERI_STOPPED = 1,             /* a callback asked to stop; the body is at a whole step */
     PERI_OK = 0,                  /* success */
-    PERI_ERROR_ARGUMENT = -1,     /* a required pointer is NULL, or a count is wrong */
+    PERI_ERROR_ARGUMENT = -1,     /* missing, NULL or given twice, or a count that is wrong */
     PERI_ERROR_CHOICE = -2,       /* not a value of this enum, or a flag that is not 0 or 1 */
     PERI_ERROR_DESCRIPTOR = -3,   /* not filled by its init function, or of another version */
     PERI_ERROR_RANGE = -4,        /* a number is not finite or outside the range of its field */
@@ -102,10 +102,10 @@ typedef enum peri_status { /* peri_status_text says the same */
     PERI_ERROR_CRACK = -26,       /* the crack has no extent, or is not for this space */
     PERI_ERROR_PAIR = -27,        /* the two points share no bond */
     PERI_ERROR_FIELD = -28,       /* this field cannot be used in this way: it is not stored */
-    PERI_ERROR_AREA = -29,        /* the points feel another area of the face: the value */
+    PERI_ERROR_AREA = -29,        /* the points feel another area than that of the face */
     PERI_ERROR_STEP = -30,        /* the time step exceeds the stable step, which is the value */
     PERI_ERROR_UNSTABLE = -31,    /* a point passed 1e9 speeds of sound: step, load or start */
-    PERI_ERROR_CALLBACK = -32,    /* a callback failed, or wrote what is not finite: the value */
+    PERI_ERROR_CALLBACK = -32,    /* a callback failed, or wrote what is not finite */
     PERI_ERROR_LOOSE = -33,       /* no support holds this part against some motion */
     PERI_ERROR_INDEFINITE = -34,  /* the tangent is not positive: buckling or softening */
     PERI_ERROR_CONVERGENCE = -35, /* no equilibrium within the iterations; value: residual */

@@ -489,6 +489,16 @@ static void errors_format(void) {
         CHECK((int64_t)strlen(part) == (k <= need ? k - 1 : need) && memcmp(part, full, strlen(part)) == 0);
         CHECK(part[k] == '#'); /* not a byte beyond the capacity */
     }
+    /* an id is told by what it is of; whether peri_build is still to come, too */
+    CHECK(peri_get_set(b, peri_id(b, PERI_KIND_MATERIAL, 1), NULL, 0) == PERI_ERROR_ID_KIND && peri_get_error(b, &e) == PERI_OK);
+    (void)peri_format_error(&e, full, sizeof full);
+    CHECK(strstr(full, ": set is material 1 of body ") != NULL);
+    CHECK(peri_get_set(b, -8, NULL, 0) == PERI_ERROR_ID_NONE && peri_get_error(b, &e) == PERI_OK);
+    (void)peri_format_error(&e, full, sizeof full);
+    CHECK(strstr(full, ": set is -8") != NULL);
+    CHECK(peri_build(b) == PERI_ERROR_ORDER && peri_get_error(b, &e) == PERI_OK);
+    (void)peri_format_error(&e, full, sizeof full);
+    CHECK(strstr(full, ": peri_build was called") != NULL);
     CHECK(peri_format_error(NULL, full, 10) == PERI_ERROR_ARGUMENT);
     CHECK(peri_format_error(&e, NULL, 10) == PERI_ERROR_ARGUMENT);
     CHECK(peri_format_error(&e, full, -1) == PERI_ERROR_ARGUMENT);

@@ -8,7 +8,7 @@
 #define PERI_STATUS_LIST(X)                                                                                            \
     X(STOPPED, 1, "a callback asked to stop; the body is at a whole step")                                             \
     X(OK, 0, "success")                                                                                                \
-    X(ERROR_ARGUMENT, -1, "a required pointer is NULL, or a count is wrong")                                           \
+    X(ERROR_ARGUMENT, -1, "missing, NULL or given twice, or a count that is wrong")                                    \
     X(ERROR_CHOICE, -2, "not a value of this enum, or a flag that is not 0 or 1")                                      \
     X(ERROR_DESCRIPTOR, -3, "not filled by its init function, or of another version")                                  \
     X(ERROR_RANGE, -4, "a number is not finite or outside the range of its field")                                     \
@@ -16,7 +16,7 @@
     X(ERROR_MEMORY, -6, "the allocator returned NULL")                                                                 \
     X(ERROR_TOO_LARGE, -7, "more than the library or memory takes; see the value")                                     \
     X(ERROR_CAPACITY, -8, "the buffer has the wrong size; it needs the value")                                         \
-    X(ERROR_ID_NONE, -9, "no id: zero, a plain number, or what a failed call returned")                                           \
+    X(ERROR_ID_NONE, -9, "no id: zero, a plain number, or what a failed call returned")                                \
     X(ERROR_ID_KIND, -10, "an id of another kind: of a load, say, not of a set")                                       \
     X(ERROR_ID_BODY, -11, "an id of another body")                                                                     \
     X(ERROR_ID_GONE, -12, "nothing has this id: it was removed, or never given")                                       \
@@ -36,10 +36,10 @@
     X(ERROR_CRACK, -26, "the crack has no extent, or is not for this space")                                           \
     X(ERROR_PAIR, -27, "the two points share no bond")                                                                 \
     X(ERROR_FIELD, -28, "this field cannot be used in this way: it is not stored")                                     \
-    X(ERROR_AREA, -29, "the points feel another area of the face: the value")                                          \
+    X(ERROR_AREA, -29, "the points feel another area than that of the face")                                           \
     X(ERROR_STEP, -30, "the time step exceeds the stable step, which is the value")                                    \
     X(ERROR_UNSTABLE, -31, "a point passed 1e9 speeds of sound: step, load or start")                                  \
-    X(ERROR_CALLBACK, -32, "a callback failed, or wrote what is not finite: the value")                                \
+    X(ERROR_CALLBACK, -32, "a callback failed, or wrote what is not finite")                                           \
     X(ERROR_LOOSE, -33, "no support holds this part against some motion")                                              \
     X(ERROR_INDEFINITE, -34, "the tangent is not positive: buckling or softening")                                     \
     X(ERROR_CONVERGENCE, -35, "no equilibrium within the iterations; value: residual")                                 \
@@ -92,13 +92,36 @@ PERI_API int32_t peri_get_error(const peri_body *b, peri_error *error) {
     return PERI_OK;
 }
 
-PERI_API int64_t peri_format_error(const peri_error *error, char *buffer, int64_t capacity) {
-    char numbers[96] = "", *end = numbers;
-    if (!error || !error->field || !error->text || capacity < 0 || (!buffer && capacity > 0)) return PERI_ERROR_ARGUMENT;
-    if (error->index >= 0) end = peri__put_integer(peri__put_text(end, " index "), error->index);
-    if (error->value != 0.0 || error->code == PERI_ERROR_RANGE)
-        end = peri__put_double(peri__put_text(end, end > numbers ? ", value " : " value "), error->value);
+/* " is load 3 of body 7", of what was given as an id; written out where it is none. */
+static char *peri__put_id(char *end, int64_t id) {
+    static const char *const kinds[] = { "", "material ", "set ", "load ", "obstacle " };
+    const int64_t kind = id >> 27, number = id >> 20 & 0x7F;
+    end = peri__put_text(end, " is ");
+    if (id == PERI_ALL) return peri__put_text(end, "PERI_ALL");
+    if (kind < 1 || kind > peri__count_kind || number == 0) return peri__put_integer(end, id);
+    end = peri__put_integer(peri__put_text(end, kinds[kind]), PERI_ID_INDEX(id));
+    return peri__put_integer(peri__put_text(end, " of body "), number);
+}
+
+/* What is known beside the field. */
+static void peri__put_details(char *end, const peri_error *error) {
+    const char *start = end;
+    const int is_id = error->code <= PERI_ERROR_ID_NONE && error->code >= PERI_ERROR_ID_GONE, listed = is_id && error->value != 0.0;
+    if (error->code == PERI_ERROR_ORDER && strcmp(error->field, "peri_build") == 0) {
+        end = peri__put_text(end, error->value != 0.0 ? " was called" : " was not called");
+    } else {
+        if (error->index >= 0 && (!is_id || listed)) end = peri__put_integer(peri__put_text(end, " index "), error->index);
+        if (is_id) end = peri__put_id(end, listed ? (int64_t)error->value : error->index);
+        else if (error->value != 0.0 || error->code == PERI_ERROR_RANGE || error->code == PERI_ERROR_CHOICE)
+            end = peri__put_double(peri__put_text(end, end > start ? ", value " : " value "), error->value);
+    }
     *end = '\0';
+}
+
+PERI_API int64_t peri_format_error(const peri_error *error, char *buffer, int64_t capacity) {
+    char numbers[128];
+    if (!error || !error->field || !error->text || capacity < 0 || (!buffer && capacity > 0)) return PERI_ERROR_ARGUMENT;
+    peri__put_details(numbers, error);
 
     /* "text: field index i, value v", as much of it as there is */
     const char *part[4] = { error->text, error->field[0] || numbers[0] ? ": " : "", error->field,
@@ -144,7 +167,8 @@ static const char *peri__field_name(const char *expression) {
     if (!(b)->model) return peri__fail((b), PERI_ERROR_ORDER, "peri_build", -1, 0.0)
 #define PERI_NEED_UNBUILT(b)                                                                                           \
     PERI_NEED_BODY(b);                                                                                                 \
-    if ((b)->model || (b)->running) return peri__fail((b), PERI_ERROR_ORDER, (b)->running ? "peri_unlock" : "peri_build", -1, 0.0)
+    if ((b)->model || (b)->running)                                                                                    \
+        return peri__fail((b), PERI_ERROR_ORDER, (b)->running ? "peri_unlock" : "peri_build", -1, (b)->running ? 0.0 : 1.0)
 #define PERI_NEED_VECTOR(b, vector)                                                                                    \
     PERI_NEED(b, vector, #vector);                                                                                     \
     if (!peri__finite_vector(vector, (b)->dim)) return peri__fail((b), PERI_ERROR_RANGE, #vector, -1, 0.0)
