@@ -171,7 +171,8 @@ static const char *peri__field_name(const char *expression) {
         return peri__fail((b), PERI_ERROR_ORDER, (b)->running ? "peri_unlock" : "peri_build", -1, (b)->running ? 0.0 : 1.0)
 #define PERI_NEED_VECTOR(b, vector)                                                                                    \
     PERI_NEED(b, vector, #vector);                                                                                     \
-    if (!peri__finite_vector(vector, (b)->dim)) return peri__fail((b), PERI_ERROR_RANGE, #vector, -1, 0.0)
+    if (!peri__finite_vector(vector, (b)->dim))                                                                        \
+        return peri__fail((b), PERI_ERROR_RANGE, #vector, -1, peri__not_finite(vector, (b)->dim))
 #define PERI_NEED_CHOICE(b, group, choice)                                                                             \
     if (!PERI_IS_ONE_OF(group, choice)) return peri__fail((b), PERI_ERROR_CHOICE, peri__field_name(#choice), -1, (double)(choice))
 #define PERI_NEED_FLAG(b, flag)                                                                                        \

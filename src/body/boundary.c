@@ -31,7 +31,7 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
     PERI_NEED(b, value || fn || support, "value");
     int32_t status = peri__check_room(b, PERI_KIND_LOAD, PERI_ID_LIMIT, "load");
     if (status < 0) return status;
-    if (value && !peri__finite_vector(value, b->dim)) return peri__fail(b, PERI_ERROR_RANGE, "value", -1, 0.0);
+    if (value && !peri__finite_vector(value, b->dim)) return peri__fail(b, PERI_ERROR_RANGE, "value", -1, peri__not_finite(value, b->dim));
     memset(&load, 0, sizeof load);
     load.kind = kind;
     load.set = set;

@@ -213,7 +213,8 @@ PERI_API int64_t peri_cut_polyline(peri_body *b, int32_t standing, int64_t count
     PERI_NEED(b, count >= 2, "count");
     PERI_NEED(b, vertices, "vertices");
     for (int64_t k = 0; k < count; ++k) { /* all is checked before anything is cut */
-        if (!peri__finite_vector(&vertices[2 * k], 2)) return peri__fail(b, PERI_ERROR_RANGE, "vertices", k, 0.0);
+        if (!peri__finite_vector(&vertices[2 * k], 2))
+            return peri__fail(b, PERI_ERROR_RANGE, "vertices", k, peri__not_finite(&vertices[2 * k], 2));
         double here[2], last[2], edge[2];
         peri__inner(b, &vertices[2 * k], here);
         peri__inner(b, &vertices[k > 0 ? 2 * k - 2 : 0], last);

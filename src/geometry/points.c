@@ -285,7 +285,8 @@ PERI_API int64_t peri_add_points(peri_body *b, int64_t count, const double *posi
         return peri__fail(b, b->material_count ? PERI_ERROR_ID_NONE : PERI_ERROR_MATERIAL, "materials", -1, b->material_count);
     s = &b->setup;
     for (int64_t k = 0; k < count; ++k) {
-        if (!peri__finite_vector(&positions[k * b->dim], b->dim)) return peri__fail(b, PERI_ERROR_POINT, "positions", k, 0.0);
+        if (!peri__finite_vector(&positions[k * b->dim], b->dim))
+            return peri__fail(b, PERI_ERROR_POINT, "positions", k, peri__not_finite(&positions[k * b->dim], b->dim));
         if (!(volumes[k] > 0.0 && peri__finite(volumes[k])))
             return peri__fail(b, PERI_ERROR_POINT, "volumes", k, volumes[k]);
         const int64_t at = materials ? peri__find(b, PERI_KIND_MATERIAL, materials[k], "materials") : 0;
