@@ -11,7 +11,19 @@ echo x | sed -E 's/\bx\b/y/' | grep -q y || { echo "skip: this sed has no \\b"; 
 rm -rf $dir
 mkdir -p $dir
 cp tests/migrate/*.c $dir
+printf 'void pull(peri_body *b, int32_t s, double *n, double *v) { peri_apply_surface_traction(b, s, 1, n, (v), NULL, NULL); }\n' > $dir/one.c
+printf '    peri_apply_traction(body,\n                        one(two(body), 1), 1, v, NULL, NULL);\n' > $dir/lines.c
 sed -E -i -f tools/migrate.sed $dir/*.c
+grep -q 'peri_apply_traction(b' $dir/one.c && grep -q 'peri_apply_layer_traction(body' $dir/lines.c || { echo "tractions: $dir/one.c, lines.c"; exit 1; }
+
+# a second run changes nothing, says so of every file, and leaves programs of 0.2 alone
+mkdir $dir/twice
+cp $dir/*.c examples/*.c $dir/twice
+sed -E -i -f tools/migrate.sed $dir/twice/*.c 2> $dir/twice/said
+for file in $dir/*.c; do cmp "$file" "$dir/twice/$(basename "$file")"; done
+for file in examples/*.c; do cmp "$file" "$dir/twice/$(basename "$file")"; done
+[ "$(grep -c 'left alone' $dir/twice/said)" -eq "$(ls $dir/twice/*.c | wc -l)" ] || { echo "migrate.sed: second run:"; cat $dir/twice/said; exit 1; }
+
 for edits in tests/migrate/*.sed; do
     name=$(basename "$edits" .sed)
     cp "$dir/$name.c" "$dir/$name.text"

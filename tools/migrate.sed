@@ -1,6 +1,23 @@
 # SPDX-License-Identifier: MIT
-# Turns a program written for peri 0.1 into one for 0.2 as far as text can: sed -E -i -f migrate.sed *.c
-# Once: run again it would rename what it has renamed. What is left to do by hand is in docs/migration.md. GNU sed (\b).
+# Turns programs written for peri 0.1 into such for 0.2 as far as text can: sed -E -i -f migrate.sed *.c
+# What is left to do by hand is in docs/migration.md. GNU sed (\b, a newline within the pattern space, /dev/stderr).
+
+# A file is read in whole. One that has names of 0.2 is left alone, because peri_apply_traction, peri_bond_count and the cuts are names of
+# both versions, of other meaning: to run this twice changes nothing. What a first run makes of these three is among the names looked for
+# (a peri_apply_traction of 0.2 has seven arguments, of 0.1 six).
+:slurp
+$!{
+N
+b slurp
+}
+/\b(peri_(advance|solve|choose|material)_desc|peri_(apply_layer_traction|entry_count|body_clone|get_error|get_field|export_vtu)|PERI_CUT_(INITIAL|NOW|IN_PLACE)|PERI_SPACE_(PLANE_STRESS|PLANE_STRAIN|SOLID)|PERI_(LAW|AXIS)_[A-Z_]+|PERI_FIELD_(DAMAGE|POSITION|DISPLACEMENT|VELOCITY|STRESS|STRAIN))\b|\bperi_apply_traction\((([^(),]|\(([^()]|\([^()]*\))*\))*,){6}([^(),]|\(([^()]|\([^()]*\))*\))*\)/{
+h
+s//\x01&/
+s/.*\x01(\w+).*/migrate.sed: left alone, as it is of 0.2: a file with \1/
+w /dev/stderr
+g
+b
+}
 
 # settings of a call are its descriptor
 s/\bperi_statics_report\b/peri_solve_report/g
@@ -45,7 +62,11 @@ s/\bperi_(get_obstacle_force|remove_obstacle)\(([^(),]+), *([0-9]+)([,)])/peri_\
 
 # enums
 s/\bPERI_(PLANE_STRESS|PLANE_STRAIN|SOLID)\b/PERI_SPACE_\1/g
-/\btype\b/s/\bPERI_F(64|32)\b/PERI_TYPE_F\1/g
+:type
+s/(\btype\b[^\n]*\bPERI_)(F64|F32)\b/\1TYPE_\2/
+t type
+s/\bPERI_(F64|F32)\b([^\n]*\btype\b)/PERI_TYPE_\1\2/
+t type
 s/\bPERI_F64\b/PERI_PRECISION_DOUBLE/g
 s/\bPERI_F32\b/PERI_PRECISION_SINGLE/g
 s/\bPERI_MIXED\b/PERI_PRECISION_MIXED/g
