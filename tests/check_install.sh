@@ -111,6 +111,6 @@ fi
 
 cd "$root"
 make uninstall
-(cd "$prefix" && find . ! -type d && find . -name '*peri*') > "$dir/left"
+(cd "$prefix" && find . -mindepth 1) > "$dir/left"
 [ ! -s "$dir/left" ] || { echo "left by make uninstall:"; cat "$dir/left"; exit 1; }
 echo "pass uninstall"

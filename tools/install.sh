@@ -75,12 +75,18 @@ for page in LICENSE README.md CHANGELOG.md docs/*.md docs/*.png; do
     [ ! -f "$page" ] || put 644 "$page" "$DOCDIR/$page"
 done
 
-if [ -n "$remove" ]; then # folders that are the library's own
-    for folder in "$INCLUDEDIR/peri" "$LIBDIR/cmake/peri" "$DOCDIR/docs" "$DOCDIR"; do
-        rmdir "$DESTDIR$folder" 2> /dev/null || true
-    done
-elif [ -z "$DESTDIR" ]; then
-    case "$LIBDIR" in # the loader finds libraries of the system by a table
-    /lib*|/usr/lib*|/usr/local/lib*) [ "$(id -u)" -ne 0 ] || ldconfig 2> /dev/null || true ;;
+if [ -n "$remove" ]; then # folders that are empty now; PREFIX itself and those of the system stay
+    empty() { rmdir "$DESTDIR$1" 2> /dev/null || true; }
+    for folder in "$INCLUDEDIR/peri" "$LIBDIR/cmake/peri" "$LIBDIR/cmake" "$LIBDIR/pkgconfig" "$DOCDIR/docs" "$DOCDIR"; do empty "$folder"; done
+    case "$PREFIX" in
+    /|/usr|/usr/local) ;;
+    *) for folder in "$INCLUDEDIR" "$LIBDIR" "$(dirname "$DOCDIR")" "$PREFIX/share"; do empty "$folder"; done ;;
     esac
+else
+    if [ -z "$DESTDIR" ]; then
+        case "$LIBDIR" in # the loader finds libraries of the system by a table
+        /lib*|/usr/lib*|/usr/local/lib*) [ "$(id -u)" -ne 0 ] || ldconfig 2> /dev/null || true ;;
+        esac
+    fi
+    echo "installed peri $VERSION to $DESTDIR$PREFIX; PKG_CONFIG_PATH=$LIBDIR/pkgconfig"
 fi
