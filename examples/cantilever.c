@@ -39,7 +39,9 @@ int main(void) {
     must(bar, peri_add_box(bar, material, lo, hi, h));
     must(bar, peri_build(bar));
 
-    /* The wall holds two horizons of bar: points feel what moves that far away. The force is spread over the end face likewise. */
+    /* The wall holds two horizons of bar: points feel what moves that far away. The force is spread over the end face likewise. The
+       last held points are the centres at x = -h/2, from where on the bar bends: 1.5 h/length = 0.4 % more at the tip. With
+       wall[0] = h, one column more, it bends from h/2 on. */
     const int32_t in_wall = must(bar, peri_select_box(bar, "wall", lo, wall)), at_end = must(bar, peri_select_box(bar, "end", end, hi));
     const int32_t held = must(bar, peri_prescribe_displacement(bar, in_wall, PERI_AXIS_XY, NULL, NULL, NULL));
     must(bar, peri_apply_traction(bar, at_end, depth, out, traction, NULL, NULL));

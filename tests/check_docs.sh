@@ -8,6 +8,7 @@
 #   <!-- file scope -->           declarations, as they stand
 #   <!-- same as PATH -->         the text of that file, which is another version's: it is compared, not compiled
 #   <!-- not compiled -->         needs a system that this machine may not have
+#   <!-- with MODULE -->          a block of Python that is skipped where Python has no such module
 # Blocks of sh are not run. Python finds the library in the environment variable PERI.
 set -e
 cc=${CC:-cc}
@@ -48,6 +49,10 @@ FNR == 1 {
         out = dir "/" page "_" at "." inside
         if (inside == "c") printf "#line %d \"%s\"\n", at, FILENAME > out
         printf "%s", text > out
+        if (inside == "py" && hint ~ /<!-- with /) {
+            gsub(/.*<!-- with | *-->.*/, "", hint)
+            print hint > (out ".needs")
+        }
     } else if (hint !~ /not compiled/) {
         if (hint !~ /needs:|file scope/) {
             print FILENAME ":" at ": a block without a main says neither what it needs nor that it is of file scope" > "/dev/stderr"
@@ -90,6 +95,10 @@ done
 [ $programs -ge 3 ] || { echo "only $programs programs"; exit 1; }
 if command -v python3 > /dev/null; then
     for program in $dir/*.py; do
+        if [ -f "$program.needs" ] && ! python3 -c "import $(cat "$program.needs")" 2> /dev/null; then
+            echo "skip $program: no $(cat "$program.needs")"
+            continue
+        fi
         PERI=build/libperi.so python3 "$program" > "${program%.py}.out"
     done
 else
