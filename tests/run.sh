@@ -129,7 +129,8 @@ else
         program sanitized_extremes build/san/extremes
         for name in $sanitized; do
             check "build_sanitized_$name" $CC $STRICT $SANITIZE $OPENMP -I. "tests/$name.c" build/san/serial.o -o "build/san/$name" -lm
-            program "sanitized_$name" "build/san/$name"
+            case $name in test_callbacks | test_memory | test_plan) whole=--long ;; *) whole= ;; esac
+            program "sanitized_$name" "build/san/$name" $whole
         done
     fi
 fi
