@@ -83,11 +83,11 @@ uninstall:
 
 # The library as others compile it, for tests/checks.sh: again the kernels apart, so that an edit elsewhere leaves them alone. OTHER of a
 # target is its compiler and flags. Sanitizers triple the time to optimise kernels: those of double in the plane, which most tests run, are
-# worth it. -ffast-math is tried with gcc where there is one, on the vectors of 16 bytes that other machines have. OWN_ of a directory: the kernels
-# that are compiled so; the others are those of the library. make validate compiles all (tests/run.sh).
+# worth it. -ffast-math is tried with gcc where there is one, on the vectors of 16 bytes that other machines have. OWN_ of a directory: the
+# kernels that are compiled so; the others are those of the library. make validate compiles all (tests/run.sh).
 OWN_san = d2 d3
 OWN_clang = d3 f2
-OWN_fast = d2 f3
+OWN_fast = f2
 SANITIZE ?= -g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/san/%.o: OTHER = $(CC) $(STRICT) $(SANITIZE) $(OPENMP)
 build/san/d3.o build/san/m%.o build/san/f%.o build/san/core.o: OTHER += -O0
