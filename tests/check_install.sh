@@ -102,7 +102,7 @@ add_subdirectory(${PERI} peri)
 add_executable(hello ../hello.c)
 target_link_libraries(hello peri::peri)
 END
-    { $configure -S include -B include/build -DPERI="$root" -DCMAKE_C_FLAGS_DEBUG=-O1 -DCMAKE_BUILD_TYPE=Debug &&
+    { $configure -S include -B include/build -DPERI="$root" -DCMAKE_C_FLAGS_DEBUG=-O0 -DCMAKE_BUILD_TYPE=Debug &&
         cmake --build include/build; } > log 2>&1 || { cat log; exit 1; }
     right add_subdirectory include/build/hello
 else

@@ -103,7 +103,8 @@ mkdir -p build/queue build/checks build/san out
 # under sanitizers, the tests of what handles memory: "NAME -CASE..." leaves out the cases that take longest there
 sanitized="test_breaking test_callbacks test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
     test_loadsteps test_loose test_memory test_misuse test_output test_plan test_programs test_quadrature test_random test_search test_solvers"
-longest="extremes test_kernels test_programs test_choose test_direction test_failure test_branching test_random"
+longest="extremes test_kernels test_programs test_choose test_direction test_failure test_branching test_random test_callbacks test_bending \
+    test_stale"
 shorter=$(basename -s .c tests/test_*.c)
 for name in $longest; do shorter=$(printf '%s\n' $shorter | grep -v -x "$name"); done
 
@@ -129,7 +130,8 @@ else
         program sanitized_extremes build/san/extremes
         for name in $sanitized; do
             check "build_sanitized_$name" $CC $STRICT $SANITIZE $OPENMP -I. "tests/$name.c" build/san/serial.o -o "build/san/$name" -lm
-            program "sanitized_$name" "build/san/$name"
+            case $name in test_callbacks | test_memory | test_plan) whole=--long ;; *) whole= ;; esac
+            program "sanitized_$name" "build/san/$name" $whole
         done
     fi
 fi

@@ -380,7 +380,7 @@ static void curves_are_those_of_the_network(void) {
     beam notched = beam_of(0.01, 3, 0.5), whole = beam_of(0.01, 3, 0);
     double few, many;
     (void)network_agrees(&notched, 62e-6, 4, 0);
-    (void)network_agrees(&notched, 62e-6, 4, 0.5);
+    if (test_long) (void)network_agrees(&notched, 62e-6, 4, 0.5);
     few = network_agrees(&notched, 62e-6, 4, 1);
     many = network_agrees(&notched, 62e-6, 20, 1);
     CHECK_NEAR(few, many, 1.5e-6, 0);
@@ -434,7 +434,7 @@ static void peaks_converge(double h, double deflection) {
     int steps;
     printf("    h %4.1f mm: peak of the network %.1f N at %.2f um\n", 1e3 * h, peak, 1e6 * at);
     CHECK(at < deflection);
-    for (steps = 10; steps <= (test_long ? 40 : 20); steps *= 2) {
+    for (steps = 10; steps <= (test_long ? 40 : 10); steps *= 2) {
         bending *t = bending_of(&b, deflection, PERI_GEOMETRY_LINEAR);
         double *curve = bend(t, steps, 1), got = peak_of(curve, steps);
         printf("    %2d steps: %.1f N, below by %.1f %%, bound %.1f %%\n", steps, got, 100 - 100 * got / peak,

@@ -196,7 +196,8 @@ static void table_3(void) {
     int shape, problem;
     for (shape = 0; shape < SHAPES; ++shape)
         for (problem = 0; problem < PROBLEMS; ++problem)
-            check_order(&GRADIENT, problem, shape, 1.5, test_long ? 80 : 40, printed[shape][problem]);
+            if (test_long || problem == 2 || shape % 2 == problem) /* shear has all shapes, the others every other one */
+                check_order(&GRADIENT, problem, shape, 1.5, test_long ? 80 : 40, printed[shape][problem]);
 }
 
 static void table_4(void) {
@@ -205,7 +206,7 @@ static void table_4(void) {
     int k, problem;
     for (k = 0; k < 5; ++k)
         for (problem = 0; problem < PROBLEMS; ++problem)
-            if (test_long || k < 2 || k == 4)
+            if (test_long || k == 4 || (k < 2 && (problem + k) % 2 == 0))
                 check_order(&GRADIENT, problem, CUBIC, 1.5 + 0.5 * k, test_long && k < 3 ? 80 : 40, printed[k][problem]);
 }
 

@@ -533,7 +533,7 @@ int main(int argc, char **argv) {
 #endif
     {
         RUN(every_allocation_fails_once_3d);
-        RUN(every_allocation_fails_once_mixed);
+        LONG_RUN(every_allocation_fails_once_mixed);
     }
     RUN(every_allocation_of_columns_fails_once);
     RUN(unaligned_dirty_memory);

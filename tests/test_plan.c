@@ -298,6 +298,8 @@ static void memory_is_what_the_allocator_counts(void) {
         for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law) {
             scene s;
             peri_body *copy;
+            /* half of the 2^3 spaces, precisions and quadratures of each law, the same ones of every other law; all with --long */
+            if (!test_long && ((k & 1) + (k >> 1 & 1) + (k >> 2) + law - PERI_LAW_BOND_BASED) % 2 == 0) continue;
             peri_memory m, c;
             const int families = k == 7 && law != PERI_LAW_CORRESPONDENCE;
             set_scene(&s, k % 2 && !families ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, families ? 1.5 : 2.2, law, 12, 9, 5, 1);

@@ -16,10 +16,10 @@
 #endif
 #endif
 #ifdef SANITIZED
-#define RANDOM_PROGRAMS 600
+#define RANDOM_PROGRAMS 300
 #define MANY_PROGRAMS   12000
 #else
-#define RANDOM_PROGRAMS 3000
+#define RANDOM_PROGRAMS 2000
 #define MANY_PROGRAMS   200000
 #endif
 #define LONGEST 240

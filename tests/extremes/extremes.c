@@ -2,7 +2,7 @@
 /* extremes.c - plays every row of every table in double, mixed and single precision: see extremes.h.
      extremes WORD     only rows whose subject or name contains WORD
      extremes --long   longer runs where a scene has them
-     extremes --some   a third of the rows of each scene that has three or more, in each precision (make test)
+     extremes --some   each row in one precision, in turn (make test)
    A row counts as one test per precision. */
 #include "extremes.h"
 #include <stdarg.h>
@@ -195,8 +195,8 @@ static const char *status_name(int32_t status) {
     }
 }
 
-/* Scenes with many rows play each in one precision, in turn; the turn moves on every three rows, for rows go by threes where
-   laws, spaces or kernels do. */
+/* Rows play in one precision, in turn. Those of a scene with three or more go round by themselves, and the turn moves on every three
+   rows, for rows go by threes where laws, spaces or kernels do; the others by their place in the table. */
 static int is_spared(const extreme_table *table, int at, int precision) {
     int row, rows = 0, before = 0;
     for (row = 0; row < table->count; ++row)
@@ -204,7 +204,7 @@ static int is_spared(const extreme_table *table, int at, int precision) {
             rows++;
             before += row < at;
         }
-    return rows >= 3 && (before + before / 3) % 3 != precision;
+    return (rows >= 3 ? before + before / 3 : at) % 3 != precision;
 }
 
 static void play(const extreme_table *table, int at, int some) {
