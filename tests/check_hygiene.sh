@@ -54,15 +54,19 @@ refused() {
     times=$1
     text=$2
     shift 2
-    if "$@" > $out/refused.log 2>&1; then echo "compiles: $*"; return 1; fi
-    grep 'error' $out/refused.log | head -n 1 | grep -q "error.*$text" || { cat $out/refused.log; return 1; }
-    [ "$times" -eq 0 ] || [ "$(grep -c 'error:' $out/refused.log)" -eq "$times" ] || { cat $out/refused.log; return 1; }
+    log=$out/refused.$$.log # checks run side by side
+    if "$@" > $log 2>&1; then echo "compiles: $*"; return 1; fi
+    grep 'error' $log | head -n 1 | grep -q "error.*$text" || { cat $log; return 1; }
+    [ "$times" -eq 0 ] || [ "$(grep -c 'error:' $log)" -eq "$times" ] || { cat $log; return 1; }
+    rm -f $log
 }
 cxx_implementation() {
     printf '#define PERI_IMPLEMENTATION\n#include "peri.h"\nint main() { return 0; }\n' > $out/implementation.cpp
+    mkdir -p $out/single_cxx
+    awk -f tools/dist.awk peri.h > $out/single_cxx/peri.h
     for compiler in g++ clang++; do
         command -v $compiler > /dev/null || continue
-        for folder in . build/dist; do
+        for folder in . $out/single_cxx; do
             refused 1 "PERI_IMPLEMENTATION in C++" $compiler -I$folder -fsyntax-only $out/implementation.cpp
         done
         refused 0 "is C99: compile it as C" $compiler -Wfatal-errors -x c++ -I. -fsyntax-only peri_impl.c

@@ -18,7 +18,7 @@ def header(path):
     """peri.h without comments and what the preprocessor reads."""
     with open(path, encoding="ascii") as file:
         text = re.sub(r"/\*.*?\*/", " ", file.read(), flags=re.S)
-    constants = {name: eval(value) for name, value in re.findall(r"^#define (PERI_ALL) +(\w+)", text, flags=re.M)}
+    constants = {name: eval(value) for name, value in re.findall(r"enum \{ (PERI_ALL) = (\w+) \};", text)}
     text = re.sub(r"^#.*$", " ", text, flags=re.M)
     for body in re.findall(r"typedef enum \w+ \{(.*?)\}", text, flags=re.S):
         for name, value in re.findall(r"(\w+) = (-?\w+)", body):
