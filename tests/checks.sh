@@ -88,7 +88,8 @@ left_out() { # left_out NAME: the cases that take longest, and whose calls other
     test_fields) echo -affine_strain_is_exact -static_pull -force_stress_is_the_stress ;;
     test_fragments) echo -remnants_of_families -stable_step_is_safe ;;
     # a body that sanitized kernels time takes longer than any machine would
-    test_plan) echo -measuring_builds_and_frees_a_small_body -memory_is_what_the_allocator_counts -corrections_and_large_families_are_planned -lattices_are_planned_exactly \
+    test_plan) echo -measuring_builds_and_frees_a_small_body -memory_is_what_the_allocator_counts \
+        -corrections_and_large_families_are_planned -lattices_are_planned_exactly \
         -quadratures_and_influences_are_planned_exactly -clouds_are_planned_to_5_percent ;;
     test_quadrature) echo -lattices_3d -own_points -second_moments -momentum ;;
     test_search) echo -densities -thin_clouds -renumbered -lattices -constants_shared ;;
