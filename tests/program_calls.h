@@ -347,9 +347,9 @@ static int64_t solve(program *p, int s) {
     if (p->mood == MOOD_NUMBERS) t.load_to = number(p, 0.0, 1.0);
     if (more / 64 == 1) {
         if (o->given[place_of(PERI_KIND_LOAD)] > 0 || p->mood == MOOD_CHOICES) t.curve_load = some_id(p, s, PERI_KIND_LOAD);
-        if (t.curve_load == 0) p->want = PERI_OK; /* none is wanted */
         t.curve = GIVEN(2, p->in);
         t.curve_rows = p->mood == MOOD_CHOICES ? below(p, 5) - 1 : t.curve_load == 0 ? 0 : 4;
+        if (t.curve_load == 0) p->want = t.curve_rows > 0 ? PERI_ERROR_ID_NONE : PERI_OK; /* rows want a load */
     }
     t.on_iteration = on_iteration;
     if (more / 64 > 1 || t.steps > 10 || t.halvings > 10) t.on_step = on_frame;
