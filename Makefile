@@ -184,7 +184,7 @@ test:
 
 validate:
 	@$(MAKE) --no-print-directory -j2 programs
-	@sh tests/run.sh --long
+	@CC="$(CC)" OPENMP="$(OPENMP)" sh tests/run.sh --long
 
 machines:
 	@sh tests/machines.sh
