@@ -124,7 +124,7 @@ typedef struct peri__candidate {
     const peri__recipe *recipe;
     const float        *per_cent;
     peri_body_desc      body;
-    peri_material_desc       material;
+    peri_material_desc  material;
     peri_plan_desc      plan;
     peri_plan_report    report;
     double              across, error, cost;

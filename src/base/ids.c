@@ -30,6 +30,12 @@ static int32_t peri__check_room(peri_body *b, int32_t kind, int64_t most, const 
     return peri__count_of(b, kind) < most ? PERI_OK : peri__fail(b, PERI_ERROR_TOO_LARGE, field, -1, (double)most);
 }
 
+/* Of materials and sets there is nothing to remove. */
+static int peri__is_removed(const peri_body *b, int32_t kind, int64_t index) {
+    return (kind == PERI_KIND_LOAD && b->loads[index].kind == PERI__FREE)
+        || (kind == PERI_KIND_OBSTACLE && b->obstacles[index].kind == PERI__REMOVED);
+}
+
 /* Where in the array of its kind a thing is, or why the id is none: `field` is the argument that holds it. */
 static int64_t peri__find(peri_body *b, int32_t kind, int32_t id, const char *field) {
     const int64_t index = (int64_t)PERI_ID_INDEX(id) - 1;
@@ -37,7 +43,7 @@ static int64_t peri__find(peri_body *b, int32_t kind, int32_t id, const char *fi
     if (id < 1 << 27) status = PERI_ERROR_ID_NONE;
     else if (PERI_ID_KIND(id) != kind - peri__first_kind + 1) status = PERI_ERROR_ID_KIND;
     else if (PERI_ID_NUMBER(id) != b->number) status = PERI_ERROR_ID_BODY;
-    else if (index < 0 || index >= peri__count_of(b, kind)) status = PERI_ERROR_ID_GONE;
+    else if (index < 0 || index >= peri__count_of(b, kind) || peri__is_removed(b, kind, index)) status = PERI_ERROR_ID_GONE;
     return status == PERI_OK ? index : peri__fail(b, status, field, id, 0.0);
 }
 

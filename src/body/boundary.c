@@ -101,15 +101,9 @@ PERI_API int32_t peri_apply_layer_traction(peri_body *b, int32_t id, double area
     return peri__load_id(b, at);
 }
 
-/* Where a load is, or why its id, which `field` holds, is none. */
-static int64_t peri__find_load(peri_body *b, int32_t id, const char *field) {
-    const int64_t at = peri__find(b, PERI_KIND_LOAD, id, field);
-    return at >= 0 && b->loads[at].kind == PERI__FREE ? peri__fail(b, PERI_ERROR_ID_GONE, field, id, 0.0) : at;
-}
-
 PERI_API int32_t peri_remove_load(peri_body *b, int32_t id) {
     PERI_NEED_CHANGEABLE(b);
-    const int64_t load = peri__find_load(b, id, "load");
+    const int64_t load = peri__find(b, PERI_KIND_LOAD, id, "load");
     if (load < 0) return (int32_t)load;
     const int support = b->loads[load].owned != NULL;
     peri__free_load(b, &b->loads[load]);
@@ -173,14 +167,9 @@ PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, doub
     return peri__add_obstacle(b, &obstacle, centre, stiffness);
 }
 
-static int64_t peri__find_obstacle(peri_body *b, int32_t id) {
-    const int64_t at = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
-    return at >= 0 && b->obstacles[at].kind == PERI__REMOVED ? peri__fail(b, PERI_ERROR_ID_GONE, "obstacle", id, 0.0) : at;
-}
-
 PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t id) {
     PERI_NEED_CHANGEABLE(b);
-    const int64_t obstacle = peri__find_obstacle(b, id);
+    const int64_t obstacle = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
     if (obstacle < 0) return (int32_t)obstacle;
     b->obstacles[obstacle].kind = PERI__REMOVED;
     peri__changed(b, PERI__ACTION);

@@ -6,7 +6,7 @@
 
 PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force) {
     PERI_NEED_BUILT(b);
-    const int64_t obstacle = peri__find_obstacle(b, id);
+    const int64_t obstacle = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
     if (obstacle < 0) return (int32_t)obstacle;
     PERI_NEED(b, force, "force");
     const int32_t status = peri__ensure_force(b); /* moves the obstacle to where it is now */
@@ -55,7 +55,7 @@ static int32_t peri__read_reaction_of(peri_body *b, int64_t at, double *force) {
 
 PERI_API int32_t peri_get_reaction(peri_body *b, int32_t load, double *force) {
     PERI_NEED_BUILT(b);
-    const int64_t at = peri__find_load(b, load, "load");
+    const int64_t at = peri__find(b, PERI_KIND_LOAD, load, "load");
     if (at < 0) return (int32_t)at;
     PERI_NEED(b, force, "force");
     return peri__read_reaction_of(b, at, force);

@@ -7,10 +7,10 @@
 #define PERI_COOKIE_MATERIAL (UINT64_C(0x7065726900010000) + sizeof(peri_material_desc))
 
 /* What a law differs in. Where p is proportional to A and that vanishes nothing is gathered. */
-static void peri__set_traits(peri__law *law, int32_t model) {
-    law->kind = model;
+static void peri__set_traits(peri__law *law, int32_t kind) {
+    law->kind = kind;
     law->gather = law->gauge = law->pairwise = 0;
-    switch (model) {
+    switch (kind) {
 #define PERI_CASE(name, number)                                                                                        \
     case number:                                                                                                       \
         law->gather = PERI__BY_A_##name && law->a == 0.0 ? PERI__NO_GATHER : PERI__GATHER_##name;                      \
@@ -23,26 +23,26 @@ static void peri__set_traits(peri__law *law, int32_t model) {
     }
 }
 
-static peri__law peri__traits_of(int32_t model) {
+static peri__law peri__traits_of(int32_t kind) {
     peri__law law;
     memset(&law, 0, sizeof law);
     law.a = 1.0;
-    peri__set_traits(&law, model);
+    peri__set_traits(&law, kind);
     return law;
 }
 
-static int peri__is_pairwise(int32_t model) { return peri__traits_of(model).pairwise; }
+static int peri__is_pairwise(int32_t kind) { return peri__traits_of(kind).pairwise; }
 
-static int peri__has_gradient(int32_t model) { return (peri__traits_of(model).gather & PERI__GRADIENT) != 0; }
+static int peri__has_gradient(int32_t kind) { return (peri__traits_of(kind).gather & PERI__GRADIENT) != 0; }
 
-PERI_API void peri_material_desc_init(peri_material_desc *m, int32_t model) {
+PERI_API void peri_material_desc_init(peri_material_desc *m, int32_t law) {
     if (!m) return;
     memset(m, 0, sizeof *m);
     m->cookie = PERI_COOKIE_MATERIAL;
-    m->law = model;
+    m->law = law;
     m->poisson = (double)NAN;
     m->criterion = PERI_CRITERION_STRETCH;
-    m->stabilization = peri__has_gradient(model) ? 0.2 : 0.0;
+    m->stabilization = peri__has_gradient(law) ? 0.2 : 0.0;
 }
 
 static double peri__bond_poisson(int32_t space) { return space == PERI_SPACE_PLANE_STRESS ? 1.0 / 3.0 : 0.25; }
@@ -155,8 +155,8 @@ static int peri__is_breakable(const peri__pair *pair) {
     return breakable;
 }
 
-/* What only some models can have. */
-static int32_t peri__check_model(peri_body *b, const peri_material_desc *m) {
+/* What only some laws can have. */
+static int32_t peri__check_law(peri_body *b, const peri_material_desc *m) {
     int32_t space = b->desc.space, bonds = m->law == PERI_LAW_BOND_BASED;
     PERI_NEED_CHOICE(b, law, m->law);
     PERI_NEED_CHOICE(b, criterion, m->criterion);
@@ -184,7 +184,7 @@ static int32_t peri__check_material(peri_body *b, const peri_material_desc *m, i
     if ((m->young > 0.0) == (m->bulk > 0.0)) return peri__fail(b, PERI_ERROR_MATERIAL, "bulk", -1, m->bulk);
     if (m->fracture_energy > 0.0 && m->critical_stretch > 0.0)
         return peri__fail(b, PERI_ERROR_MATERIAL, "critical_stretch", -1, m->critical_stretch);
-    return peri__check_model(b, m);
+    return peri__check_law(b, m);
 }
 
 PERI_API int32_t peri_add_material(peri_body *b, const peri_material_desc *m) {

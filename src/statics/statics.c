@@ -42,8 +42,10 @@ static int32_t peri__check_statics(peri_body *b, const peri_solve_desc *st) {
     PERI_NEED(b, st->steps > 0, "steps");
     PERI_NEED(b, st->halvings >= 0 && st->halvings <= 60, "halvings");
     PERI_NEED(b, st->curve_rows >= 0 && (st->curve || st->curve_rows == 0), "curve");
-    const int64_t curve = st->curve_load != 0 || st->curve_rows > 0 ? peri__find_load(b, st->curve_load, "curve_load") : 0;
-    if (curve < 0) return (int32_t)curve;
+    if (st->curve_load != 0 || st->curve_rows > 0) {
+        const int64_t curve = peri__find(b, PERI_KIND_LOAD, st->curve_load, "curve_load");
+        if (curve < 0) return (int32_t)curve;
+    }
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     return PERI_OK;
 }
