@@ -89,7 +89,6 @@ typedef struct sums {
     double  size;        /* |w| |xi|^2 V                        */
     double  length;      /* w |xi| V                            */
     double  span;        /* |w| |xi| V                          */
-    double  shear;       /* w (xi_1 xi_2)^2/|xi|^2 V            */
     double  full;        /* integral of w |xi| over the horizon */
     double  odd, odd_x;  /* w V, and w xi_1^2/|xi|^2 V, of the bonds between the two colours of a checkerboard */
     double  t[3][3];     /* w xi xi V                           */
@@ -128,7 +127,6 @@ static inline void lattice_sums(const scene *s, sums *o) {
                 o->size += fabs(w) * len * len;
                 o->length += w * len;
                 o->span += fabs(w) * len;
-                o->shear += w * xi[0] * xi[0] * xi[1] * xi[1] / (len * len);
                 if ((n[0] + n[1] + n[2]) % 2) o->odd += w;
                 if ((n[0] + n[1] + n[2]) % 2) o->odd_x += w * xi[0] * xi[0] / (len * len);
                 for (a = 0; a < dim; ++a)
@@ -176,9 +174,10 @@ static inline void stiffness_of_sums(int dim, double alpha, double t[3][3], doub
                      the sum has that energy, c = 2 D^2 bulk/sum
      LPS             W = 1/2 A/D theta^2 + 1/2 B/m sum w e^2 V, whose derivative to e is the t of the table. The energy correction
                      changes nothing: sum w e^2 V over the mean of all deviators depends on m alone, which B is divided by
-     Oterkus         [C] 8-17: W = a theta^2 + b sum w e^2 V, theta = d sum w e V; d = D/sum w|xi|V ([C] 12), b = mu/(2 shear)
-                     ([C] 15, 16: simple shear s has the energy mu s^2/2), a = (bulk - 2 b m/D^2)/2 ([C] 13, 17: isotropic strain);
-                     with next to no bonds for shear (isotropic: shear = m/(D(D+2)); here less than a fifth of it) that of LPS, B/(2m).
+     Oterkus         [C] 8-17: W = a theta^2 + b sum w e^2 V, theta = d sum w e V; d = D/sum w|xi|V ([C] 12), b = mu/(2 S),
+                     S = sum w |xi|^2 n_1^2 n_2^2 V ([C] 15, 16: simple shear s has the energy mu s^2/2) on the mean over all directions of
+                     the shear: n_1^2 n_2^2 is 1/8 on the mean over the circle, 1/15 over the sphere, so S = m/(D(D+2)) (theory.md);
+                     a = (bulk - 2 b m/D^2)/2 ([C] 13, 17: isotropic strain).
                      By Cauchy-Schwarz theta^2 <= d^2 sum w V sum w e^2 V, so W >= 0 needs b + a d^2 sum w V >= 0 where a < 0: no larger b
      correspondence  F is exact for any family, and so is W; the stabilization is 0
    With the moment correction: that of the solid, which is what it is for. */
@@ -191,8 +190,7 @@ static inline void stiffness_of_law(const scene *s, const sums *o, int32_t law, 
     } else if (law == PERI_LAW_LPS) {
         stiffness_of_sums(dim, e.a * dim / (o->m * o->m), (double(*)[3])o->t, e.b / o->m, &o->q, out);
     } else if (law == PERI_LAW_OTERKUS) {
-        int none_to_shear = dim * (dim + 2) * o->shear < 0.2 * o->m;
-        double b = none_to_shear ? dim * (dim + 2) * e.mu / (2 * o->m) : e.mu / (2 * o->shear);
+        double b = e.mu / (2 * o->m / (dim == 3 ? 15 : 8));
         double d = dim / o->length, a, over = o->m * o->plain / (o->length * o->length) - 1;
         if (2 * b * o->m * over > e.bulk * d2 * (over + 1)) b = 0.5 * e.bulk * d2 * (over + 1) / (over * o->m);
         a = 0.5 * (e.bulk - 2 * b * o->m / d2);

@@ -60,7 +60,7 @@ static double influence(int32_t kind, double q) {
 }
 
 typedef struct sums { /* over the family of a lattice point                                                               */
-    double volume, m, length, shear, axis; /* w V; w r^2 V; w r V; w x^2 y^2/r^2 V; w x^2 V                               */
+    double volume, m, length, axis; /* w V; w r^2 V; w r V; w x^2 V                                                       */
     double springs, over, theta1, theta2;  /* w (1 - cos)(n.a)^2 V, the same /r; w r (n.a) sin V; w (n.a) sin V             */
     double g[3], apart;                    /* w xi sin V;  w ((1 - cos)^2 + (sin - g.xi)^2) V                              */
 } sums;
@@ -91,7 +91,6 @@ static sums family_sums(const solid *s, const double *k, const double *a) {
                     }
                     f.m += w * r * r;
                     f.length += w * r;
-                    f.shear += w * xi[0] * xi[0] * xi[1] * xi[1] / (r * r);
                     f.axis += w * xi[0] * xi[0];
                     f.springs += w * (1 - cos(phase)) * na * na;
                     f.over += w * (1 - cos(phase)) * na * na / r;
@@ -120,8 +119,9 @@ static double lattice_speed(const solid *s, double per_wave, int kind, int diago
         double big_a = dim == 3 ? 3 * bulk - 5 * mu : 2 * lambda - 2 * mu, theta = dim / f.m * f.theta1;
         stiff = 2 * big_b / f.m * f.springs + big_a / dim * theta * theta;
     }
-    if (s->law == PERI_LAW_OTERKUS) { /* W = a theta^2 + b sum w e^2 V with the moduli of shear and of isotropic strain */
-        double b = mu / (2 * f.shear), aa = 0.5 * bulk - b * f.m / (dim * dim), theta = dim / f.length * f.theta2;
+    if (s->law == PERI_LAW_OTERKUS) { /* W = a theta^2 + b sum w e^2 V with the moduli of isotropic strain and of shear, the latter on the
+                                         mean over its directions: r^2 n_1^2 n_2^2 is r^2/8 over the circle, r^2/15 over the sphere */
+        double b = mu / (2 * f.m / (dim == 3 ? 15 : 8)), aa = 0.5 * bulk - b * f.m / (dim * dim), theta = dim / f.length * f.theta2;
         stiff = 4 * b * f.springs + 2 * aa * theta * theta;
     }
     if (s->law == PERI_LAW_CORRESPONDENCE) {

@@ -13,20 +13,15 @@ typedef struct peri__moments { /* sums over the bonds of a family, inner units  
     double m;            /* w |xi|^2 V                                                                                   */
     double length;       /* w |xi| V                                                                                     */
     double plain;        /* w V                                                                                          */
-    double shear;        /* w xi_a^2 xi_b^2/|xi|^2 V, mean over the planes a < b                                         */
     double shape[6];     /* w xi xi V                                                                                    */
 } peri__moments;
 
 static void peri__add_moments(peri__moments *sum, int32_t dim, const double *xi, double bond, double weight) {
-    const double planes = dim * (dim - 1) / 2;
     sum->m += weight * bond * bond;
     sum->length += weight * bond;
     sum->plain += weight;
     for (int a = 0; a < dim; ++a)
-        for (int c = a; c < dim; ++c) {
-            sum->shape[peri__packed(dim, a, c)] += weight * xi[a] * xi[c];
-            if (a != c) sum->shear += weight * peri__square(xi[a] * xi[c] / bond) / planes;
-        }
+        for (int c = a; c < dim; ++c) sum->shape[peri__packed(dim, a, c)] += weight * xi[a] * xi[c];
 }
 
 /* Is m all that the law of all points is calibrated on? */

@@ -183,7 +183,7 @@ static void deform(const dense *s, int64_t i, double stiff, double shape[3][3], 
 static void respond(const dense *s, int64_t i, const peri_material_desc *m) {
     node *n = &s->node[i];
     const int dim = s->dim;
-    double stiff = 0, length = 0, plain = 0, shear = 0, shape[3][3] = {{0}}, theta = 0, big_theta = 0, square = 0, big_square = 0;
+    double stiff = 0, length = 0, plain = 0, shape[3][3] = {{0}}, theta = 0, big_theta = 0, square = 0, big_square = 0;
     double whole = 0, bonds = 0, big_bonds = 0, d_, room;
     bond g;
     int64_t k, j;
@@ -205,10 +205,7 @@ static void respond(const dense *s, int64_t i, const peri_material_desc *m) {
         length += g.length * s->volume[j];
         plain += s->volume[j];
         for (a = 0; a < dim; ++a)
-            for (c = 0; c < dim; ++c) {
-                shape[a][c] += g.xi[a] * g.xi[c] * s->volume[j];
-                if (a < c) shear += pow(g.xi[a] * g.xi[c] / g.length, 2) * s->volume[j] / (dim * (dim - 1) / 2);
-            }
+            for (c = 0; c < dim; ++c) shape[a][c] += g.xi[a] * g.xi[c] * s->volume[j];
         theta += (gauge_lps > 0 ? g.length : 1) * g.e * s->volume[j];
         big_theta += (gauge_lps > 0 ? g.length : 1) * g.reach * s->volume[j];
         square += g.e * g.e * s->volume[j];
@@ -231,9 +228,10 @@ static void respond(const dense *s, int64_t i, const peri_material_desc *m) {
         n->big_energy = fabs(big_a) / (2 * dim) * pow(dim / stiff * big_theta, 2) + 0.5 * n->spring * big_square;
         return;
     }
-    case PERI_LAW_OTERKUS: /* W = a theta^2 + b sum w e^2 V; spring = 2 b, from simple shear; a from isotropic strain */
+    case PERI_LAW_OTERKUS: /* W = a theta^2 + b sum w e^2 V; spring = 2 b, from simple shear on the mean over its directions, a from
+                               isotropic strain */
         d_ = dim / length;
-        n->spring = dim * (dim + 2) * shear > 0.2 * stiff ? n->moduli.mu / shear : dim * (dim + 2) * n->moduli.mu / stiff;
+        n->spring = n->moduli.mu / (stiff / (dim == 3 ? 15 : 8));
         room = stiff * plain / (length * length) - 1; /* q (1 - m sum(w V)/(sum w |xi| V)^2) + D^2 bulk sum(w V)/(...)^2 >= 0 */
         if (n->spring * room > n->moduli.bulk * dim * dim * plain / (length * length))
             n->spring = n->moduli.bulk * dim * dim * plain / (length * length) / room;

@@ -134,8 +134,8 @@ static double strain_of(int which, int dim, double size, double *gradient, doubl
     return square;
 }
 
-/* W and stress in the middle of a block under each strain. Oterkus without correction is calibrated on the first and the shears along the
-   axes alone: on a lattice the others differ. */
+/* W and stress in the middle of a block under each strain. Oterkus without correction is calibrated on isotropic strain and on the mean
+   of shear over its directions alone: on a lattice the others differ. */
 static void strain_block(outcome *o, const extreme *row, peri_body *b, int32_t space, int32_t precision, int32_t law, double nu,
                          double size) {
     const int dim = dim_of(space);
