@@ -70,17 +70,13 @@ static int peri__invert(int32_t dim, const double *packed, double cut, double *i
     return kept;
 }
 
-/* Solves G x = r for a positive semi-definite G [n][n] with a row length of `row`, by Cholesky's factors in place; directions
-   without a pivot above 1e-12 of their diagonal stay 0. x may be r. */
+/* Solves G x = r for a positive definite G [n][n] with a row length of `row`, by Cholesky's factors in place. Directions without a positive
+   pivot stay 0: which ones they are depends on the axes. x may be r. */
 static void peri__solve(int n, int row, double *g, const double *r, double *x) {
-    double floor_[16];
-    for (int k = 0; k < n; ++k) floor_[k] = 1e-12 * g[k * row + k];
     for (int k = 0; k < n; ++k) {
-        double pivot = g[k * row + k];
-        int dead = !(pivot > floor_[k]);
-        double root = dead ? 0.0 : sqrt(pivot);
+        const double pivot = g[k * row + k], root = pivot > 0.0 ? sqrt(pivot) : 0.0;
         g[k * row + k] = root;
-        for (int i = k + 1; i < n; ++i) g[i * row + k] = dead ? 0.0 : g[i * row + k] / root;
+        for (int i = k + 1; i < n; ++i) g[i * row + k] = root > 0.0 ? g[i * row + k] / root : 0.0;
         for (int i = k + 1; i < n; ++i)
             for (int j = k + 1; j <= i; ++j) g[i * row + j] -= g[i * row + k] * g[j * row + k];
     }

@@ -8,24 +8,39 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_QUARTICS 15 /* monomials of degree 4 in n: 5 in 2D, 15 in 3D                                                 */
+#define PERI_QUARTICS 15 /* components of a symmetric tensor of rank 4 that differ: 5 in 2D, 15 in 3D                       */
+#define PERI_FIT_SOFT 0.01 /* weight of |lambda|^2 in a compromise                                                         */
+#define PERI_FIT_MOST 10.0 /* the factor from which on an exact fit gives way to a compromise                              */
 
-/* n^4 by monomials, and (isotropic != NULL) their mean over all directions. Returns their number. */
-static int peri__quartics(int32_t dim, const double *n, double *monomial, double *isotropic) {
+/* Root of how often the component of p times x, q times y and 4 - p - q times z occurs: of 4!/(p! q! r!). */
+static const double peri__quartic_root[5][5] = { { 1.0, 2.0, 2.449489742783178, 2.0, 1.0 },
+                                                 { 2.0, 3.4641016151377544, 3.4641016151377544, 2.0, 0.0 },
+                                                 { 2.449489742783178, 3.4641016151377544, 2.449489742783178, 0.0, 0.0 },
+                                                 { 2.0, 2.0, 0.0, 0.0, 0.0 },
+                                                 { 1.0, 0.0, 0.0, 0.0, 0.0 } };
+
+/* The tensor n n n n by its components, each times that root: then sums of products are contractions, and no rotation changes them. Returns
+   their number. n has three entries. */
+static int peri__quartics(int32_t dim, const double *n, double *component) {
+    double power[3][5];
     int count = 0;
+    for (int d = 0; d < 3; ++d) {
+        power[d][0] = 1.0;
+        for (int k = 1; k < 5; ++k) power[d][k] = power[d][k - 1] * n[d];
+    }
     for (int p = 4; p >= 0; --p)
-        for (int q = 4 - p; q >= 0; --q) {
-            int r = 4 - p - q;
-            if (dim == 2 && r > 0) continue;
-            double product = 1.0;
-            for (int k = 0; k < p; ++k) product *= n[0];
-            for (int k = 0; k < q; ++k) product *= n[1];
-            for (int k = 0; k < r; ++k) product *= n[2];
-            int odd = p % 2 || q % 2 || r % 2, pure = p == 4 || q == 4 || r == 4;
-            if (isotropic) isotropic[count] = odd ? 0.0 : (pure ? 3.0 : 1.0) / (dim * (dim + 2));
-            monomial[count++] = product;
-        }
+        for (int q = 4 - p; q >= (dim == 2 ? 4 - p : 0); --q)
+            component[count++] = peri__quartic_root[p][q] * power[0][p] * power[1][q] * power[2][4 - p - q];
     return count;
+}
+
+/* Its mean over all directions n. */
+static void peri__isotropic_quartic(int32_t dim, double *component) {
+    for (int p = 4; p >= 0; --p)
+        for (int q = 4 - p; q >= (dim == 2 ? 4 - p : 0); --q) {
+            const int r = 4 - p - q, odd = p % 2 || q % 2 || r % 2, pure = p == 4 || q == 4 || r == 4;
+            *component++ = odd ? 0.0 : peri__quartic_root[p][q] * (pure ? 3.0 : 1.0) / (dim * (dim + 2));
+        }
 }
 
 typedef struct peri__fitter {
@@ -49,50 +64,53 @@ static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n
     return m->laws[m->material[i]].pairwise ? weight * bond : weight * bond * bond;
 }
 
-/* Factors x_k = max(0, 1 + lambda.n^4) of row i, nearest to 1 in the mean weighted by the bonds, whose fourth moment is isotropic: the
-   minimum of a convex function of lambda, by Newton's method. soft > 0: a compromise, where no such factors exist. Returns the
-   largest factor, or HUGE_VAL where the moment was missed by more than rounding (soft = 0). */
+/* Factors x_k = max(0, 1 + lambda.n^4) of row i, nearest to 1 in the mean weighted by the bonds, whose fourth moment is isotropic: where
+       phi = sum a_k x_k^2/2 - lambda.I + soft |lambda|^2/2
+   is least, by Newton's method; a_k: shares of the bonds in m, I: the mean of n^4 over all directions. soft > 0: a compromise, where no
+   such factors exist. lambda is a symmetric tensor and all that is made of it a contraction, so that the factors turn with the family; so
+   is the shift of the Hessian, which has no inverse where the bonds have few directions: it leaves lambda next to 0 along what no bond
+   sees. Returns the largest factor, or HUGE_VAL where the moment was missed by more than rounding (soft = 0). */
 static double peri__fit_row(const peri__fitter *f, int64_t i, double total, double soft) {
     const peri__model *m = f->cloud->model;
-    double lambda[PERI_QUARTICS] = { 0.0 }, isotropic[PERI_QUARTICS], psi[PERI_QUARTICS], step[PERI_QUARTICS];
+    double lambda[PERI_QUARTICS] = { 0.0 }, isotropic[PERI_QUARTICS], psi[PERI_QUARTICS], step[PERI_QUARTICS] = { 0.0 };
     double n[3] = { 0.0, 0.0, 0.0 }, *x = &f->factor[m->start[i]], missed = 0.0, largest = 0.0, value = HUGE_VAL, scale = 0.0, sum = 0.0;
-    int terms = peri__quartics(m->dim, n, psi, isotropic);
-    for (int d = 0; d < PERI_QUARTICS; ++d) step[d] = 0.0;
+    const int terms = peri__quartics(m->dim, n, psi);
+    peri__isotropic_quartic(m->dim, isotropic);
     for (int newton = 0; newton < 60; ++newton) {
-        double g[PERI_QUARTICS], hessian[PERI_QUARTICS * PERI_QUARTICS] = { 0.0 }, trial[PERI_QUARTICS], now = 0.0;
+        double g[PERI_QUARTICS], hessian[PERI_QUARTICS * PERI_QUARTICS] = { 0.0 }, trial[PERI_QUARTICS], now = 0.0, seen = 0.0;
         for (int a = 0; a < terms; ++a) {
             trial[a] = lambda[a] + scale * step[a];
             g[a] = soft * trial[a] - isotropic[a];
-            hessian[a * PERI_QUARTICS + a] = soft;
             now += (0.5 * soft * trial[a] - isotropic[a]) * trial[a];
         }
         for (int64_t k = 0; k < m->count[i]; ++k) {
             double share = peri__stiff(f, i, k, n) / total, factor = 1.0;
-            (void)peri__quartics(m->dim, n, psi, NULL);
+            (void)peri__quartics(m->dim, n, psi);
             for (int a = 0; a < terms; ++a) factor += trial[a] * psi[a];
             if (!(factor > 0.0)) continue;
             now += 0.5 * share * factor * factor;
+            seen += share;
             for (int a = 0; a < terms; ++a) {
                 g[a] += share * factor * psi[a];
                 for (int c = 0; c <= a; ++c) hessian[a * PERI_QUARTICS + c] += share * psi[a] * psi[c];
             }
         }
-        if (now > value + 1e-13 * fabs(value) && scale > 1e-9) { /* too far: half the way */
+        if (now > value + 1e-13 * (1.0 + fabs(value)) && scale > 1e-9) { /* too far: half the way. Parts of phi are of order 1 */
             scale *= 0.5;
             continue;
         }
         memcpy(lambda, trial, sizeof lambda);
         value = now;
-        missed = 0.0;
-        for (int a = 0; a < terms; ++a) missed = fabs(g[a]) > missed ? fabs(g[a]) : missed;
-        if (missed < 1e-15) break;
+        missed = sqrt(peri__dot(g, g, terms));
+        if (missed < 4e-15) break; /* rounding of sums of order 1 */
+        for (int a = 0; a < terms; ++a) hessian[a * PERI_QUARTICS + a] += soft + 1e-12 * seen; /* seen: the trace, as |n^4| = 1 */
         peri__solve(terms, PERI_QUARTICS, hessian, g, step);
         for (int a = 0; a < terms; ++a) step[a] = -step[a];
         scale = 1.0;
     }
     for (int64_t k = 0; k < m->count[i]; ++k) {
         double share = peri__stiff(f, i, k, n) / total;
-        (void)peri__quartics(m->dim, n, psi, NULL);
+        (void)peri__quartics(m->dim, n, psi);
         x[k] = 1.0;
         for (int a = 0; a < terms; ++a) x[k] += lambda[a] * psi[a];
         if (!(x[k] > 0.0)) x[k] = 0.0;
@@ -144,9 +162,9 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
                 continue;
             }
             fitted = i;
-            if (!(peri__fit_row(f, i, total, 0.0) < 10.0)) {
+            if (!(peri__fit_row(f, i, total, 0.0) < PERI_FIT_MOST)) {
                 sums->n++;
-                (void)peri__fit_row(f, i, total, 0.01);
+                (void)peri__fit_row(f, i, total, PERI_FIT_SOFT);
             }
         }
         for (int64_t k = 0; bonds && k < m->count[i]; ++k) x[k] *= f->full / total;
