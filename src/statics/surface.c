@@ -56,35 +56,72 @@ static void peri__frame(int dim, const double *n, double frame[3][3]) {
     peri__cross(n, frame[1], frame[2]);
 }
 
-/* For each axis t of the frame of n: the stress t n + n t (n n for n itself), and the share of a point in what holds it, along t. */
-static int32_t peri__fill_traction(peri_body *b, peri__surface *f, const peri__law *law) {
+/* Does the set feel about the area, of which `total` is what it feels? */
+static int32_t peri__check_area(peri_body *b, const peri__surface *f, const peri__law *law, double total) {
+    const int exact = (law->gather & PERI__GRADIENT) != 0;
+    const double felt = total / f->area; /* of uncorrected laws up to twice too much */
+    if (felt > (exact ? 0.5 : 0.25) && felt < (exact ? 1.5 : 4.0)) return PERI_OK;
+    return peri__fail(b, PERI_ERROR_AREA, "area", -1, total * pow(b->model->length, b->model->dim - 1));
+}
+
+/* Adds to f->spread the dyads of the axes first..last of the frame, times the share that place k of the set has: scale times that of
+   share[k], or (NULL) of the force along the one axis. */
+static void peri__add_shares(peri_body *b, peri__surface *f, double frame[3][3], int first, int last, const double *share, double scale) {
     const peri__model *m = b->model;
-    const int dim = m->dim, exact = (law->gather & PERI__GRADIENT) != 0;
-    double frame[3][3];
-    const double *n = frame[0];
-    peri__frame(dim, f->normal, frame);
-    for (int c = 0; c < dim; ++c) {
-        double sigma[3][3] = { { 0.0 } }, total = 0.0, scale;
-        for (int p = 0; p < dim; ++p)
-            for (int q = 0; q < dim; ++q) sigma[p][q] = c == 0 ? n[p] * n[q] : frame[c][p] * n[q] + n[p] * frame[c][q];
-        peri__stress_force(&f->t, law, sigma);
-        for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
-            int64_t i = peri__set_point(b, f->set, k);
-            for (int d = 0; d < dim; ++d) total -= m->volume[i] * frame[c][d] * peri__get_real(f->t.q, b->f32, d * m->stride + i);
-        }
-        double felt = total / f->area; /* of uncorrected laws up to twice too much */
-        if (!(felt > (exact ? 0.5 : 0.25) && felt < (exact ? 1.5 : 4.0)))
-            return peri__fail(b, PERI_ERROR_AREA, "area", -1, total * pow(m->length, dim - 1));
-        scale = exact ? -1.0 : -f->area / total;
-        for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
-            double share = 0.0;
-            for (int d = 0; d < dim; ++d)
-                share += scale * frame[c][d] * peri__get_real(f->t.q, b->f32, d * m->stride + peri__set_point(b, f->set, k));
+    const int dim = m->dim;
+    for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
+        double own = share ? scale * share[k] : 0.0;
+        for (int d = 0; !share && d < dim; ++d)
+            own += scale * frame[first][d] * peri__get_real(f->t.q, b->f32, d * m->stride + peri__set_point(b, f->set, k));
+        for (int c = first; c <= last; ++c)
             for (int p = 0; p < dim; ++p)
-                for (int q = 0; q < dim; ++q) f->spread[(k * dim + p) * dim + q] += share * frame[c][p] * frame[c][q];
+                for (int q = 0; q < dim; ++q) f->spread[(k * dim + p) * dim + q] += own * frame[c][p] * frame[c][q];
+    }
+}
+
+/* The forces of the bonds under the stress t n + n t (n n for n itself), t axis c of the frame of n; what of them lies along t, over the
+   set: returned as a total, and added to share[k] unless that is NULL. */
+static double peri__feel(peri_body *b, peri__surface *f, const peri__law *law, double frame[3][3], int c, double *share) {
+    const peri__model *m = b->model;
+    const int dim = m->dim;
+    const double *n = frame[0];
+    double sigma[3][3] = { { 0.0 } }, total = 0.0;
+    for (int p = 0; p < dim; ++p)
+        for (int q = 0; q < dim; ++q) sigma[p][q] = c == 0 ? n[p] * n[q] : frame[c][p] * n[q] + n[p] * frame[c][q];
+    peri__stress_force(&f->t, law, sigma);
+    for (int64_t k = 0; k < peri__set_count(b, f->set); ++k) {
+        int64_t i = peri__set_point(b, f->set, k);
+        for (int d = 0; d < dim; ++d) {
+            const double along = frame[c][d] * peri__get_real(f->t.q, b->f32, d * m->stride + i);
+            total -= m->volume[i] * frame[c][d] * peri__get_real(f->t.q, b->f32, d * m->stride + i);
+            if (share) share[k] += along;
         }
     }
-    return PERI_OK;
+    return total;
+}
+
+/* The share of each point in what holds the stress n n, along n, and t n + n t, along t. Of tangents t in 3D the mean over all directions
+   counts, half the trace over two of them: which two the frame has depends on the axes of the coordinates. */
+static int32_t peri__fill_traction(peri_body *b, peri__surface *f, const peri__law *law) {
+    const int64_t count = peri__set_count(b, f->set);
+    const int dim = b->model->dim, exact = (law->gather & PERI__GRADIENT) != 0;
+    double frame[3][3], total;
+    int32_t status = PERI_OK;
+    peri__frame(dim, f->normal, frame);
+    for (int c = 0; c < 2 && status == PERI_OK; ++c) {
+        double *share = NULL;
+        if (c == 1 && dim == 3) {
+            share = (double *)peri__new(&b->memory, count, sizeof *share);
+            if (!share) return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+        }
+        total = peri__feel(b, f, law, frame, c, share);
+        if (share) total = 0.5 * (total + peri__feel(b, f, law, frame, 2, share));
+        status = peri__check_area(b, f, law, total);
+        if (status == PERI_OK)
+            peri__add_shares(b, f, frame, c, share ? 2 : c, share, (share ? 0.5 : 1.0) * (exact ? -1.0 : -f->area / total));
+        peri__delete(&b->memory, share, count, sizeof *share);
+    }
+    return status;
 }
 
 static void peri__fill_pressure(peri_body *b, peri__surface *f, const peri__law *law) {
