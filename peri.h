@@ -484,7 +484,7 @@ typedef enum peri_axis { /* or-ed */
 } peri_axis;
 
 /* Add value[dim] to the displacement [L] or velocity [L T^-1] of a set, now; peri_reset clears
-   both. Up to 1e15 spacings, 1e9 speeds of sound. */
+   both. Sums are below 1e15 spacings, 1e9 speeds of sound. */
 PERI_API int32_t peri_add_displacement(peri_body *body, int32_t set, const double *value);
 PERI_API int32_t peri_add_velocity(peri_body *body, int32_t set, const double *value);
 
