@@ -219,8 +219,8 @@ typedef enum peri_influence {
     PERI_INFLUENCE_INVERSE = 411,      /* 1/q, also beyond [T], [C] Inv */
     PERI_INFLUENCE_INVERSE_4 = 412,    /* q^-4, also beyond; no finite moments [T] */
     PERI_INFLUENCE_POLE_EDGE = 413,    /* 1/(1 + spacing/(2 horizon) - q) [T] */
-    PERI_INFLUENCE_POLE_HALF = 414,    /* 1/(2q - 1), also beyond; no finite moments [T] */
-    PERI_INFLUENCE_POLE_QUARTER = 415, /* exp(1/(q - 1/4)), also beyond; no finite moments [T] */
+    PERI_INFLUENCE_POLE_HALF = 414,    /* 1/|2q - 1|, also beyond; no finite moments [T] */
+    PERI_INFLUENCE_POLE_QUARTER = 415, /* exp(1/(q - 1/4)), also beyond; no moments; [T] in mm */
     PERI_INFLUENCE_USER = 416          /* influence_fn */
 } peri_influence;
 
