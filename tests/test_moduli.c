@@ -282,8 +282,8 @@ static plate row_of_table(const printed *row) {
     return p;
 }
 
-/* The tensor method on a family of the bulk under uniform strain: as the lattice has it to rounding. The fields are linear in the strain, so E
-   and nu come out whatever the strain; that of tension is taken. Returns whether the body was built. */
+/* The tensor method on a family of the bulk under uniform strain: as the lattice has it to rounding. The fields are linear in the
+   strain, so E and nu come out whatever the strain; that of tension is taken. Returns whether the body was built. */
 static int tensor_method_of_the_bulk(plate p, double room, moduli *m) {
     double young, poisson, lateral, *x, *u;
     int i;
@@ -320,9 +320,9 @@ static void tensor_method_of_table_4_2(void) {
     }
 }
 
-/* The formulas of the poles under every quadrature, where some cells are partial and others beyond the horizon. The pole at h/4 has no unit:
-   whatever the horizon, the moduli are the same; with the exponent of [T] they are not, and at m = 6 those of the library are off its
-   table by more than 1.5 points (docs/theory.md: 2). */
+/* The formulas of the poles under every quadrature, where some cells are partial and others beyond the horizon. The pole at h/4 has no
+   unit: whatever the horizon, the moduli are the same; with the exponent of [T] they are not, and at m = 6 those of the library are off
+   its table by more than 1.5 points (docs/theory.md: 2). */
 static void poles_of_the_text(void) {
     static const int32_t poles[3] = {PERI_INFLUENCE_POLE_HALF, PERI_INFLUENCE_POLE_QUARTER, QUARTER};
     static const int ratios[3] = {3, 5, 7};

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_sums.c - what adds up: a limit that one call keeps is not passed by several.
 
-   SOURCE OF TRUTH: peri.h and docs/manual.md, with every sum restated here in double and in the units of the caller: a call is refused where
-   the sum of all calls is beyond, the record names the field and the first point, and what was refused has changed nothing. Limits are
-   1e15 mean spacings (1e11 where cubes must fit into single precision), 1e9 sqrt(E/rho), and the largest number of the precision. */
+   SOURCE OF TRUTH: peri.h and docs/manual.md, with every sum restated here in double and in the units of the caller: a call is refused
+   where the sum of all calls is beyond, the record names the field and the first point, and what was refused has changed nothing. Limits
+   are 1e15 mean spacings (1e11 where cubes must fit into single precision), 1e9 sqrt(E/rho), and the largest number of the precision. */
 #include "refusal.h"
 #include <float.h>
 
@@ -161,7 +161,8 @@ static void displacements_by_motion(void) {
     peri_body_destroy(b);
 }
 
-/* Newton's second law: under the acceleration a the n-th step ends at n a dt. The first whose velocity is no longer below the limit fails. */
+/* Newton's second law: under the acceleration a the n-th step ends at n a dt. The first whose velocity is no longer below the limit
+   fails. */
 static void velocities_by_motion(void) {
     int32_t precision;
     for (precision = PERI_PRECISION_DOUBLE; precision < peri__end_precision; ++precision) {
@@ -294,8 +295,8 @@ static void factors_that_are_too_far_apart(void) {
     peri_body_destroy(b);
 }
 
-/* Stiffness over the least density adds up in the bound of the stable step, 2/sqrt(row sum + sum of stiffness/density) (docs/theory.md): what
-   alone would leave none is refused. */
+/* Stiffness over the least density adds up in the bound of the stable step, 2/sqrt(row sum + sum of stiffness/density)
+   (docs/theory.md): what alone would leave none is refused. */
 static void stiffness_of_obstacles(void) {
     const double place[2] = {0, -1}, up[2] = {0, 1}, heavy = 1e6, light = 1e-3;
     peri_body_desc d;

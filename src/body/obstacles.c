@@ -85,7 +85,8 @@ static int32_t peri__apply_obstacles(peri_body *b, double time, double dt) {
     const peri__sums total = peri__total(b->sums, b->model->points);
     for (int32_t d = 0; total.bad >= 0 && d < b->dim; ++d) {
         const double force = peri__get_real(b->f, b->f32, d * b->model->stride + total.bad);
-        if (peri__is_pushed_out(b, total.bad, force)) return peri__fail(b, PERI_ERROR_RANGE, "stiffness", total.bad, force * peri__force_unit(b->model));
+        if (!peri__is_pushed_out(b, total.bad, force)) continue;
+        return peri__fail(b, PERI_ERROR_RANGE, "stiffness", total.bad, force * peri__force_unit(b->model));
     }
     if (b->desc.ledger && dt > 0.0) b->now.ledger.obstacle += total.a;
     return PERI_OK;
