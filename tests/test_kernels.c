@@ -426,8 +426,8 @@ static void both_ends_break(void) {
     }
 }
 
-/* Newton's third law, to the last bit: a point that is displaced pulls the neighbours at xi and at -xi alike, by vectors of the table that are
-   opposite. What they weigh is measured apart, as parts of cells on either side of a horizon, and differs by rounding. */
+/* Newton's third law, to the last bit: a point that is displaced pulls the neighbours at xi and at -xi alike, by vectors of the
+   table that are opposite. What they weigh is measured apart, as parts of cells on either side of a horizon, and differs by rounding. */
 static void opposite_bonds_weigh_the_same(void) {
     static const double ratio[3] = {2.346, 2.865, 3.557};
     int32_t quadrature;

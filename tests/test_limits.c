@@ -255,8 +255,8 @@ static int32_t near_only(void *user, double q, double *w) {
     return 0;
 }
 
-/* The same of points without a weight, in a cloud whose points come in no order: six on either side of a square, at the height of every other
-   row and a spacing and a half from it, two from each other, where w is 0. */
+/* The same of points without a weight, in a cloud whose points come in no order: six on either side of a square, at the height of
+   every other row and a spacing and a half from it, two from each other, where w is 0. */
 static void first_without_a_weight(void) {
     enum { N = 156 };
     int trial;

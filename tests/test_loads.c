@@ -305,8 +305,9 @@ static void later_supports_win(void) {
     peri_body_destroy(b);
 }
 
-/* SOURCE OF TRUTH: peri.h: later supports win. Which are later is told by those that there are: a support that is removed gives its components
-   back to the last one before it, and a component that nobody prescribes is free. x of column 0 under three supports, y of it under one. */
+/* SOURCE OF TRUTH: peri.h: later supports win. Which are later is told by those that there are: a support that is removed gives its
+   components back to the last one before it, and a component that nobody prescribes is free. x of column 0 under three supports, y of it
+   under one. */
 static void removed_supports_give_back(void) {
     const double one[2] = {0.01, 0.004}, two[2] = {0.02, 9}, three[2] = {0.03, 9}, lo[2] = {0, 0}, hi[2] = {2 * H, 4 * H};
     peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 5, 4, 1);

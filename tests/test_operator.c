@@ -536,8 +536,9 @@ static void zero_energy_modes(void) {
     CHECK(zeros == 3 && least > -1e-12);
 }
 
-/* SOURCE OF TRUTH: a linear operator is linear, whatever the size: of a vector of a few units of the smallest number of double the product is
-   that of the same vector times 2^1000, over 2^1000. A modulus of 1e20 keeps it among the normal numbers, where that is exact. */
+/* SOURCE OF TRUTH: a linear operator is linear, whatever the size: of a vector of a few units of the smallest number of double the
+   product is that of the same vector times 2^1000, over 2^1000. A modulus of 1e20 keeps it among the normal numbers, where that is
+   exact. */
 static void smallest_vectors(void) {
     int32_t precision;
     for (precision = PERI_PRECISION_DOUBLE; precision < peri__end_precision; ++precision) {
