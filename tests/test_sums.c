@@ -161,6 +161,39 @@ static void displacements_by_motion(void) {
     peri_body_destroy(b);
 }
 
+/* A support times the load factor, in one step and in equilibrium: the speed that it takes has a limit, the way has none. */
+static void supports_by_the_load_factor(void) {
+    int factor, integrator;
+    for (integrator = PERI_INTEGRATOR_VELOCITY_VERLET; integrator < peri__end_integrator; ++integrator)
+        for (factor = 1; factor <= 2; ++factor) {
+            peri_body *b = plate_of(PERI_LAW_BOND_BASED, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR);
+            const double dt = 0.9 * peri_stable_step(b), way[2] = {0, 0.6e9 * sqrt(YOUNG / DENSITY) * dt}, far[2] = {0.6e15 * H, 0};
+            peri_advance_desc r;
+            peri_solve_desc s;
+            double u[2 * POINTS];
+            MUST(b, peri_prescribe_displacement(b, from(b, 40), PERI_AXIS_Y, way, NULL, NULL));
+            peri_advance_desc_init(&r);
+            r.integrator = integrator;
+            r.time_step = dt;
+            r.steps = 1;
+            r.load_factor = factor;
+            if (factor == 2) {
+                REFUSE(b, PERI_ERROR_UNSTABLE, peri_advance(b, &r));
+                CHECK(seen.index == 40);
+            } else MUST(b, peri_advance(b, &r));
+            MUST(b, peri_reset(b));
+            MUST(b, peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_XY, far, NULL, NULL));
+            peri_solve_desc_init(&s);
+            s.load_to = factor;
+            MUST(b, peri_solve(b, &s, NULL));
+            MUST(b, peri_get_field(b, PERI_FIELD_DISPLACEMENT, u, 2 * POINTS));
+            CHECK_NEAR(u[0], factor * far[0], 1e-12, 0);
+            if (factor == 2) REFUSE(b, PERI_ERROR_RANGE, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 2 * POINTS));
+            else MUST(b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 2 * POINTS));
+            peri_body_destroy(b);
+        }
+}
+
 /* Newton's second law: under the acceleration a the n-th step ends at n a dt. The first whose velocity is no longer below the limit
    fails. */
 static void velocities_by_motion(void) {
@@ -372,6 +405,7 @@ int main(int argc, char **argv) {
     RUN(states_by_two_calls);
     RUN(states_that_single_rounds_up);
     RUN(displacements_by_motion);
+    RUN(supports_by_the_load_factor);
     RUN(velocities_by_motion);
     RUN(forces_by_two);
     RUN(totals_of_forces);
