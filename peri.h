@@ -219,8 +219,8 @@ typedef enum peri_influence {
     PERI_INFLUENCE_INVERSE = 411,      /* 1/q, also beyond [T], [C] Inv */
     PERI_INFLUENCE_INVERSE_4 = 412,    /* q^-4, also beyond; no finite moments [T] */
     PERI_INFLUENCE_POLE_EDGE = 413,    /* 1/(1 + spacing/(2 horizon) - q) [T] */
-    PERI_INFLUENCE_POLE_HALF = 414,    /* 1/(2q - 1), also beyond; no finite moments [T] */
-    PERI_INFLUENCE_POLE_QUARTER = 415, /* exp(1/(q - 1/4)), also beyond; no finite moments [T] */
+    PERI_INFLUENCE_POLE_HALF = 414,    /* 1/|2q - 1|, also beyond; no finite moments [T] */
+    PERI_INFLUENCE_POLE_QUARTER = 415, /* exp(1/(q - 1/4)), also beyond; no moments; [T] in mm */
     PERI_INFLUENCE_USER = 416          /* influence_fn */
 } peri_influence;
 
@@ -242,7 +242,7 @@ typedef enum peri_correction {
     PERI_CORRECTION_NONE = 701,   /* the constants of an infinite body */
     PERI_CORRECTION_VOLUME = 702, /* bond-based, by volumes (Le, Bobaru 2018): for comparison */
     PERI_CORRECTION_ENERGY = 703, /* bond-based: right energy of isotropic strain and mean shear */
-    PERI_CORRECTION_MOMENT = 704  /* weights, as little as makes uniform strain exact */
+    PERI_CORRECTION_MOMENT = 704  /* weights, as little as makes uniform strain exact on lattices */
 } peri_correction;
 
 typedef enum peri_kernel { /* results agree to the rounding of sums */
@@ -484,7 +484,7 @@ typedef enum peri_axis { /* or-ed */
 } peri_axis;
 
 /* Add value[dim] to the displacement [L] or velocity [L T^-1] of a set, now; peri_reset clears
-   both. Up to 1e15 spacings, 1e9 speeds of sound. */
+   both. Sums are below 1e15 spacings, 1e9 speeds of sound. */
 PERI_API int32_t peri_add_displacement(peri_body *body, int32_t set, const double *value);
 PERI_API int32_t peri_add_velocity(peri_body *body, int32_t set, const double *value);
 

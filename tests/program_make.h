@@ -306,7 +306,7 @@ static int64_t plan(program *p, int s) {
     if (deed < 0 && b) (void)peri_get_error(b, &f);
     if (p->trace) printf("    plan %d %s, deed %d %s\n", status, status < 0 ? e.field : "", (int)deed, deed < 0 ? f.field : "");
     const hook *h = (const hook *)d.influence_user;
-    const int negative = d.influence == PERI_INFLUENCE_POLE_HALF || (h && h->kind == INFLUENCE_NEGATIVE);
+    const int negative = h && h->kind == INFLUENCE_NEGATIVE;
     /* of negative functions, the plan looks at a whole family, which no point of a thin box has */
     if (deed != PERI_ERROR_MEMORY && !(negative && (deed == PERI_ERROR_INFLUENCE || status == PERI_ERROR_INFLUENCE))) {
         HOLDS(p, status == (int32_t)(deed < 0 ? deed : 0));

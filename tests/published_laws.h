@@ -65,7 +65,7 @@ static inline double influence(int32_t kind, double q, double edge) {
     case PERI_INFLUENCE_INVERSE: return 1 / q;
     case PERI_INFLUENCE_INVERSE_4: return pow(q, -4);
     case PERI_INFLUENCE_POLE_EDGE: return 1 / (1 + edge - q);
-    case PERI_INFLUENCE_POLE_HALF: return 1 / (2 * q - 1);
+    case PERI_INFLUENCE_POLE_HALF: return fabs(1 / (2 * q - 1));
     case PERI_INFLUENCE_POLE_QUARTER: return exp(1 / (q - 0.25));
     default: return 1;
     }

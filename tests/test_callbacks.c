@@ -62,6 +62,10 @@ static int32_t support(void *user, double time, int64_t count, const int32_t *po
     for (k = 0; k < count; ++k) value[2 * k] = rate * time;
     return say(SUPPORT);
 }
+static int32_t still(void *user, double time, int64_t count, const int32_t *points, double *value) {
+    (void)user, (void)time, (void)count, (void)points, (void)value;
+    return say(SUPPORT);
+}
 static int32_t motion(void *user, double time, double *place) {
     (void)user;
     place[1] = -0.52 + 0.04 * rate * time;
@@ -154,7 +158,7 @@ static void equip(peri_body *b) {
     MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
     grip[0] = (int32_t)MUST(b, peri_select_box(b, "left", lo, left));
     grip[1] = (int32_t)MUST(b, peri_select_box(b, "right", right, hi));
-    MUST(b, peri_prescribe_displacement(b, grip[0], PERI_AXIS_XY, NULL, NULL, NULL));
+    MUST(b, peri_prescribe_velocity(b, grip[0], PERI_AXIS_XY, NULL, still, NULL)); /* asked for wherever forces are made */
     MUST(b, peri_prescribe_displacement(b, grip[1], PERI_AXIS_XY, NULL, support, NULL));
     MUST(b, peri_set_no_fail(b, grip[0], 1));
     MUST(b, peri_set_no_fail(b, grip[1], 1));
@@ -206,11 +210,11 @@ static int64_t total(const peri_body *b) {
 
 /* ---- the calls ------------------------------------------------------------------------------------------------------ */
 
-enum call { BUILD, CONSTANTS, SHAPE, SELECT, CUT_IF, CUT_NONE, VTU, HISTORY, FORCE, REACTION, PUSH, PRODUCT, /* runs: */ VERLET, CENTRAL,
-            NESTED, NEWTON, BICGSTAB, RELAX, NESTED_SOLVE, CALLS };
+enum call { BUILD, CONSTANTS, SHAPE, SELECT, CUT_IF, CUT_NONE, VTU, HISTORY, FORCE, REACTION, PUSH, VIEW, MATRIX, PRODUCT, /* runs: */
+            VERLET, CENTRAL, NESTED, NEWTON, BICGSTAB, RELAX, NESTED_SOLVE, CALLS };
 static const char *const call_name[CALLS] = {"build", "constants", "shape", "select", "cut_if", "cut_none", "vtu", "history", "force",
-                                             "reaction", "push", "product", "verlet", "central", "nested", "newton", "bicgstab", "relax",
-                                             "nested_solve"};
+                                             "reaction", "push", "view", "matrix", "product", "verlet", "central", "nested", "newton",
+                                             "bicgstab", "relax", "nested_solve"};
 #define IS_RUN(call)    ((call) >= VERLET)
 #define IS_SOLVE(call)  ((call) >= NEWTON)
 #define BEFORE_BUILD(call) ((call) == BUILD || (call) == SHAPE)
@@ -244,6 +248,8 @@ static const int32_t method_of[CALLS] = {[NEWTON] = PERI_METHOD_NEWTON, [BICGSTA
 static int64_t call(peri_body *b, int which) {
     const double lo[2] = {20, 0}, hi[2] = {24, 4}, far[2] = {30, 31};
     double x[2 * 112] = {0}, f[2], s0;
+    peri_matrix *matrix = NULL;
+    peri_view view;
     rate = IS_SOLVE(which) ? 0.5 : 0.02;
     nests = which == NESTED || which == NESTED_SOLVE;
     cuts = 0;
@@ -259,6 +265,12 @@ static int64_t call(peri_body *b, int which) {
     case FORCE: return peri_get_field(b, PERI_FIELD_FORCE_DENSITY, x, 2 * 112);
     case REACTION: return peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, 3), f);
     case PUSH: return peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, 1), f);
+    case VIEW: return peri_view_field(b, PERI_FIELD_REACTION, &view);
+    case MATRIX: {
+        const int32_t made = peri_matrix_create(b, &matrix);
+        peri_matrix_destroy(matrix);
+        return made;
+    }
     case PRODUCT: return peri_multiply_stiffness(b, x, x, 2 * 112);
     case VERLET: case NESTED: return advance(b, PERI_INTEGRATOR_VELOCITY_VERLET, 43);
     case CENTRAL: return advance(b, PERI_INTEGRATOR_CENTRAL_DIFFERENCE, 43);
@@ -361,7 +373,8 @@ static void stops(int form, int which, int kind, int64_t at) {
     result = call(b, which);
     CHECK(result == PERI_STOPPED);
     steps = peri_step_count(b);
-    if (kind <= MOTION && !IS_SOLVE(which)) CHECK(trip.calls[kind] == at); /* not a step more */
+    if (kind <= MOTION && !IS_SOLVE(which)) /* not a step more; of two supports the other may be asked */
+        CHECK(trip.calls[kind] == at || (kind == SUPPORT && trip.calls[kind] == at + 1));
     if (kind == BREAK && !IS_SOLVE(which)) CHECK(peri_time(b) == trip_time);
     CHECK(steps <= (IS_SOLVE(which) ? 4 : 43));
     if (!nests && (kind == BREAK || kind == STEP || !IS_SOLVE(which))) { /* at a whole step, every break of it reported */
@@ -407,6 +420,12 @@ static void jumps(int form, int which, int kind, int64_t at) {
     peri_body_destroy(b); /* ignored */
     CHECK(peri_unlock(b) == PERI_OK);
     no_trip();
+    if (tried % 3 == 2 && !copy) { /* it may be destroyed at once */
+        tell(form, which, kind, result);
+        end(b);
+        tried++;
+        return;
+    }
     if (!IS_RUN(which) && which != PRODUCT && which != CUT_NONE) CHECK(bytes == held && (before == 0 || digest(b) == before));
     if (before) { /* it may be read */
         MUST(b, peri_get_energy(b, &e));

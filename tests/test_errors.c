@@ -474,6 +474,7 @@ static void ids_of_another_kind_or_body(void) {
 /* SOURCE OF TRUTH: peri_format_error's contract; lengths counted here. */
 static void errors_format(void) {
     peri_body *b = block(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 5, 5, 1);
+    const double zero[2] = {0, 0};
     char full[512], part[512];
     peri_error e;
     int64_t need, k;
@@ -499,6 +500,16 @@ static void errors_format(void) {
     CHECK(peri_build(b) == PERI_ERROR_ORDER && peri_get_error(b, &e) == PERI_OK);
     (void)peri_format_error(&e, full, sizeof full);
     CHECK(strstr(full, ": peri_build was called") != NULL);
+    /* 0 is a value like another where a number or a choice is at fault; elsewhere it is none */
+    CHECK(peri_select_ball(b, NULL, zero, 0.0) == PERI_ERROR_RANGE && peri_get_error(b, &e) == PERI_OK);
+    (void)peri_format_error(&e, full, sizeof full);
+    CHECK(strcmp(full + strlen(e.text), ": radius value 0") == 0);
+    CHECK(peri_size_of_field(b, 0) == PERI_ERROR_CHOICE && peri_get_error(b, &e) == PERI_OK);
+    (void)peri_format_error(&e, full, sizeof full);
+    CHECK(strcmp(full + strlen(e.text), ": field value 0") == 0);
+    CHECK(peri_add_velocity(b, PERI_ALL, NULL) == PERI_ERROR_ARGUMENT && peri_get_error(b, &e) == PERI_OK);
+    (void)peri_format_error(&e, full, sizeof full);
+    CHECK(strcmp(full + strlen(e.text), ": value") == 0); /* the name of the argument */
     CHECK(peri_format_error(NULL, full, 10) == PERI_ERROR_ARGUMENT);
     CHECK(peri_format_error(&e, NULL, 10) == PERI_ERROR_ARGUMENT);
     CHECK(peri_format_error(&e, full, -1) == PERI_ERROR_ARGUMENT);

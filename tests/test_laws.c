@@ -21,19 +21,16 @@ typedef struct expected {
     int     usable; /* 0: only isotropic strain is held against it, see below */
 } expected;
 
-/* Tolerances: 1e-12 for sums of up to 924 terms, more where weights of both signs cancel in m or in sum w|xi| (POLE_HALF); 1e-10 where
-   a fit is part of it. The moment correction leaves families with negative weights as they are, and is a compromise where steep
+/* Tolerances: 1e-12 for sums of up to 924 terms, 1e-10 where a fit is part of it. The moment correction is a compromise where steep
    poles would take large factors (peri.h): POLE_QUARTER, where only the energy of isotropic strain is exact. So it is where Oterkus's
    spring meets the bound of its energy (stiffness_of_law), which is taken of the sums before the fit, hence the 0.8. */
 static expected expect(const scene *s, const sums *o, int32_t law, double nu) {
     expected x;
-    scene plain = *s;
     int fitted = s->correction == PERI_CORRECTION_MOMENT && law != PERI_LAW_CORRESPONDENCE;
     memset(&x, 0, sizeof x);
-    if (fitted && s->influence == PERI_INFLUENCE_POLE_HALF) plain.correction = PERI_CORRECTION_NONE;
     x.law = law;
     x.nu = law == PERI_LAW_BOND_BASED ? bond_nu(s->space) : nu;
-    stiffness_of_law(&plain, o, law, nu, &x.moduli);
+    stiffness_of_law(s, o, law, nu, &x.moduli);
     stiffness_of_solid(dim_of(s->space), moduli_of(s->space, x.nu), &x.solid);
     x.scale = fmax(largest_entry(&x.moduli), largest_entry(&x.solid));
     x.tolerance = 1e-12 * fmax(o->size / o->m, o->span / fabs(o->length));
@@ -138,13 +135,12 @@ static int inner_points(int dim, const int *n, int margin, int *point) {
 }
 
 /* Builds, or says that the influence function is refused by name: which it must be for a bond-based body without moments, and where
-   it is infinite (POLE_HALF at |xi| = horizon/2); a function with negative values may be. Returns 1 where the body is built. */
+   it is infinite (POLE_HALF at |xi| = horizon/2). Returns 1 where the body is built. */
 static int build_or_refuse(peri_body *b, const scene *s, int bonds) {
     int infinite = s->influence == PERI_INFLUENCE_POLE_HALF && fabs(fmod(s->reach, 2)) < 1e-9;
     int32_t status = peri_build(b);
     peri_error error;
     if ((bonds && !has_moments(s->influence)) || infinite) CHECK(status == PERI_ERROR_INFLUENCE);
-    else if (s->influence == PERI_INFLUENCE_POLE_HALF) CHECK(status == PERI_OK || status == PERI_ERROR_INFLUENCE);
     else (void)MUST(b, status);
     CHECK(peri_get_error(b, &error) == PERI_OK);
     if (status == PERI_ERROR_INFLUENCE) CHECK(strcmp(error.field, "influence") == 0 && error.code == status);

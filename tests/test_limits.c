@@ -221,6 +221,78 @@ static void steps_that_become_too_large(void) {
     }
 }
 
+/* SOURCE OF TRUTH: peri.h: index is the first offending point. Of those that are too fast in one step, whichever component and block of
+   points they are in. */
+static void first_of_the_fast(void) {
+    static const int32_t point[4] = {130, 70, 12, 5};
+    static const int32_t axes[4] = {PERI_AXIS_X, PERI_AXIS_Y, PERI_AXIS_X, PERI_AXIS_Y};
+    const double fast[2] = {1.1e9, 1.1e9};
+    int k, count;
+    for (count = 1; count <= 4; ++count) {
+        peri_body_desc desc;
+        peri_advance_desc run;
+        peri_error e;
+        peri_body *b;
+        peri_body_desc_init(&desc);
+        desc.space = PERI_SPACE_PLANE_STRESS;
+        desc.horizon = 2;
+        desc.geometry = PERI_GEOMETRY_LINEAR;
+        b = box_of(&desc, PERI_LAW_BOND_BASED, 0, 0, 12);
+        for (k = 0; k < count; ++k)
+            MUST(b, peri_prescribe_velocity(b, peri_select_points(b, NULL, 1, &point[k]), axes[k], fast, NULL, NULL));
+        peri_advance_desc_init(&run);
+        run.steps = 1;
+        run.time_step = 1e-3; /* too short to throw the neighbours */
+        CHECK(peri_advance(b, &run) == PERI_ERROR_UNSTABLE && peri_get_error(b, &e) == PERI_OK);
+        CHECK(e.index == point[count - 1]);
+        peri_body_destroy(b);
+    }
+}
+
+static int32_t near_only(void *user, double q, double *w) {
+    (void)user;
+    *w = q < 0.6 ? 1 : 0;
+    return 0;
+}
+
+/* The same of points without a weight, in a cloud whose points come in no order: six on either side of a square, at the height of
+   every other row and a spacing and a half from it, two from each other, where w is 0. */
+static void first_without_a_weight(void) {
+    enum { N = 156 };
+    int trial;
+    for (trial = 0; trial < 6; ++trial) {
+        double x[2 * N], v[N];
+        int32_t order[N], k, least = N;
+        uint64_t seed = (uint64_t)trial;
+        peri_body_desc desc;
+        peri_error e;
+        peri_body *b;
+        for (k = 0; k < N; ++k) order[k] = k;
+        for (k = N - 1; k > 0; --k) {
+            const int32_t other = (int32_t)(test_random(&seed) * (k + 1)), kept = order[k];
+            order[k] = order[other];
+            order[other] = kept;
+        }
+        for (k = 0; k < N; ++k) {
+            const int32_t at = order[k], lone = k - 144;
+            v[at] = 1;
+            x[2 * at] = lone < 0 ? k % 12 + 0.5 : lone < 6 ? -1 : 13;
+            x[2 * at + 1] = lone < 0 ? k / 12 + 0.5 : 2 * (lone % 6) + 0.5;
+            if (lone >= 0 && at < least) least = at;
+        }
+        peri_body_desc_init(&desc);
+        desc.space = PERI_SPACE_PLANE_STRESS;
+        desc.horizon = 2;
+        desc.influence = PERI_INFLUENCE_USER;
+        desc.influence_fn = near_only;
+        b = body_of(&desc, PERI_LAW_LPS, 0.3, 0);
+        MUST(b, peri_add_points(b, N, x, v, NULL));
+        CHECK(peri_build(b) == PERI_ERROR_FAMILY && peri_get_error(b, &e) == PERI_OK);
+        CHECK(e.index == least);
+        peri_body_destroy(b);
+    }
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(without_bonds);
@@ -228,5 +300,7 @@ int main(int argc, char **argv) {
     RUN(factors_of_w_cancel);
     RUN(small_critical_stretch);
     RUN(steps_that_become_too_large);
+    RUN(first_of_the_fast);
+    RUN(first_without_a_weight);
     return test_end("test_limits");
 }

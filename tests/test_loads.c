@@ -305,6 +305,111 @@ static void later_supports_win(void) {
     peri_body_destroy(b);
 }
 
+/* SOURCE OF TRUTH: peri.h: later supports win. Which are later is told by those that there are: a support that is removed gives its
+   components back to the last one before it, and a component that nobody prescribes is free. x of column 0 under three supports, y of it
+   under one. */
+static void removed_supports_give_back(void) {
+    const double one[2] = {0.01, 0.004}, two[2] = {0.02, 9}, three[2] = {0.03, 9}, lo[2] = {0, 0}, hi[2] = {2 * H, 4 * H};
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 5, 4, 1);
+    const int32_t wide = (int32_t)MUST(b, peri_select_box(b, "wide", lo, hi));
+    const int32_t first = (int32_t)MUST(b, peri_prescribe_displacement(b, column(b, 0), PERI_AXIS_XY, one, NULL, NULL));
+    const int32_t second = (int32_t)MUST(b, peri_prescribe_displacement(b, wide, PERI_AXIS_X, two, NULL, NULL));
+    const int32_t third = (int32_t)MUST(b, peri_prescribe_displacement(b, column(b, 0), PERI_AXIS_X, three, NULL, NULL));
+    const int32_t removed[4] = {0, second, third, first};
+    const double x0[4] = {0.03, 0.03, 0.01, 0}, y0[4] = {0.004, 0.004, 0.004, 0}; /* 0: free */
+    int k;
+    for (k = 0; k < 4; ++k) {
+        double *u, r[2];
+        if (removed[k]) MUST(b, peri_remove_load(b, removed[k]));
+        (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 2, 0, 0);
+        u = get(b, PERI_FIELD_DISPLACEMENT);
+        if (k < 3) CHECK_NEAR(u[0], x0[k], 1e-15, 0);
+        else CHECK(fabs(u[0] - 0.01) > 1e-6);
+        if (k < 3) CHECK_NEAR(u[1], y0[k], 1e-15, 0);
+        else CHECK(fabs(u[1] - 0.004) > 1e-6);
+        if (k == 0) CHECK_NEAR(u[2], 0.02, 1e-15, 0);
+        else CHECK(fabs(u[2] - 0.02) > 1e-6); /* column 1 is free with its only support gone */
+        free(u);
+        if (k < 2) { /* x of the first belongs to others: its reaction is along y */
+            MUST(b, peri_get_reaction(b, first, r));
+            CHECK(r[0] == 0 && r[1] != 0);
+        } else if (k == 2) {
+            MUST(b, peri_get_reaction(b, first, r));
+            CHECK(r[0] != 0);
+        }
+    }
+    peri_body_destroy(b);
+}
+
+/* SOURCE OF TRUTH: peri.h: peri_reset takes all motion away. A body at rest that nothing loads needs nobody to hold it, as before its first
+   step; under a body force a support holds what the bonds to it would, none. Bonds that can break and such that cannot. */
+static void reactions_are_reset(void) {
+    int breakable;
+    for (breakable = 0; breakable < 2; ++breakable) {
+        const double pull[2] = {0.3, 0.1}, shift[2] = {1e-3, 0};
+        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, H, 3, 6, 4, 1);
+        double *field, r[2], want[2];
+        int32_t still, driven, k;
+        peri_body *b;
+        s.material.critical_stretch = breakable ? 0.5 : 0;
+        b = specimen_make(&s);
+        still = (int32_t)MUST(b, peri_prescribe_displacement(b, column(b, 0), PERI_AXIS_XY, NULL, NULL, NULL));
+        driven = (int32_t)MUST(b, peri_prescribe_displacement(b, column(b, 5), PERI_AXIS_X, shift, NULL, NULL));
+        MUST(b, peri_apply_body_force(b, PERI_ALL, pull, NULL, NULL));
+        MUST(b, peri_get_reaction(b, still, want));
+        (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 20, 0, 0);
+        MUST(b, peri_get_reaction(b, driven, r));
+        CHECK(fabs(r[0]) > 1e-3);
+        MUST(b, peri_reset(b));
+        MUST(b, peri_get_reaction(b, still, r));
+        for (k = 0; k < 2; ++k) {
+            CHECK_NEAR(r[k], want[k], 1e-15, 0);
+            CHECK_NEAR(r[k], -pull[k] * 4 * H * H, 1e-12, 0); /* what is put on its points themselves */
+        }
+        MUST(b, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 3)));
+        MUST(b, peri_reset(b));
+        field = get(b, PERI_FIELD_REACTION);
+        for (k = 0; k < 48; ++k) CHECK(field[k] == 0);
+        free(field);
+        peri_body_destroy(b);
+    }
+}
+
+/* SOURCE OF TRUTH: peri.h: a clone is an independent copy, and a run goes on at peri_load_factor: so it does of the clone. */
+static void clones_keep_the_load_factor(void) {
+    const double pull[2] = {0.3, 0.1};
+    int solved;
+    for (solved = 0; solved < 2; ++solved) {
+        peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 6, 4, 1), *copy = NULL;
+        peri_advance_desc r;
+        peri_solve_desc s;
+        double *u[2], total[2];
+        const int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, column(b, 5), pull, NULL, NULL));
+        MUST(b, peri_prescribe_displacement(b, column(b, 0), PERI_AXIS_XY, NULL, NULL, NULL));
+        peri_advance_desc_init(&r);
+        r.steps = 3;
+        r.load_factor = 0.25;
+        peri_solve_desc_init(&s);
+        s.load_to = 0.25;
+        if (solved) MUST(b, peri_solve(b, &s, NULL));
+        else MUST(b, peri_advance(b, &r));
+        CHECK(peri_body_clone(b, &copy, NULL) == PERI_OK);
+        CHECK(peri_load_factor(copy) == 0.25);
+        MUST(copy, peri_get_reaction(copy, load, total));
+        CHECK_NEAR(total[0], 0.25 * pull[0] * 4 * H * H * THICK, 1e-12, 0);
+        (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 5, 0, 0);
+        (void)go(copy, PERI_INTEGRATOR_VELOCITY_VERLET, 5, 0, 0);
+        CHECK(peri_load_factor(copy) == 0.25 && peri_load_factor(b) == 0.25);
+        u[0] = get(b, PERI_FIELD_DISPLACEMENT);
+        u[1] = get(copy, PERI_FIELD_DISPLACEMENT);
+        CHECK(u[0][10] > 1e-3 && memcmp(u[0], u[1], 48 * sizeof **u) == 0);
+        free(u[0]);
+        free(u[1]);
+        peri_body_destroy(b);
+        peri_body_destroy(copy);
+    }
+}
+
 static int32_t spoil(void *user, double time, int64_t count, const int32_t *points, double *value) {
     const double *when = (const double *)user;
     (void)points;
@@ -478,6 +583,9 @@ int main(int argc, char **argv) {
     RUN(supports_prescribe_their_components_only);
     RUN(supports_give_the_momentum);
     RUN(later_supports_win);
+    RUN(removed_supports_give_back);
+    RUN(reactions_are_reset);
+    RUN(clones_keep_the_load_factor);
     RUN(callbacks_that_write_nan);
     RUN(obstacle_force_by_brute_force);
     RUN(a_disc_bounces);

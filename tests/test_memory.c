@@ -525,6 +525,45 @@ static void every_allocation_of_columns_fails_once(void) {
     CHECK(calls > 30);
 }
 
+/* SOURCE OF TRUTH: peri.h: peri_memory holds the bytes that the body holds, as asked of its allocator. Interfaces are kept to the end. */
+static void interfaces_are_counted(void) {
+    const double lo[2] = {0, 0}, middle[2] = {4, 4}, half[2] = {4, 0}, hi[2] = {8, 4};
+    int count;
+    for (count = 0; count <= 40; count += 20) {
+        pool p = {0, 0, 0, -1, 0, 0};
+        peri_body_desc d;
+        peri_material_desc m;
+        peri_memory held;
+        peri_body *b = NULL, *copy = NULL;
+        int32_t mat[10];
+        int i, j, made = 0;
+        peri_body_desc_init(&d);
+        d.space = PERI_SPACE_PLANE_STRESS;
+        d.horizon = 2;
+        d.allocate = pool_allocate;
+        d.release = pool_release;
+        d.memory_user = &p;
+        CHECK(peri_body_create(&d, &b, NULL) == PERI_OK);
+        peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
+        m.young = m.density = 1;
+        for (i = 0; i < 10; ++i) mat[i] = (int32_t)MUST(b, peri_add_material(b, &m));
+        for (i = 0; i < 10; ++i)
+            for (j = i + 1; j < 10; ++j)
+                if (made < count && ++made) MUST(b, peri_set_interface(b, mat[i], mat[j], &m));
+        CHECK(made == count && peri_get_memory(b, &held) == PERI_OK && held.total == p.bytes);
+        MUST(b, peri_add_box(b, mat[0], lo, middle, 1));
+        MUST(b, peri_add_box(b, mat[1], half, hi, 1));
+        MUST(b, peri_build(b));
+        CHECK(peri_get_memory(b, &held) == PERI_OK && held.total == p.bytes);
+        CHECK(peri_body_clone(b, &copy, NULL) == PERI_OK);
+        CHECK(peri_get_memory(b, &held) == PERI_OK);
+        peri_body_destroy(b); /* what is shared lives on */
+        CHECK(peri_get_memory(copy, &held) == PERI_OK && held.total == p.bytes);
+        peri_body_destroy(copy);
+        CHECK(p.blocks == 0 && p.bytes == 0 && p.wrong == 0);
+    }
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(every_allocation_fails_once_2d);
@@ -536,6 +575,7 @@ int main(int argc, char **argv) {
         LONG_RUN(every_allocation_fails_once_mixed);
     }
     RUN(every_allocation_of_columns_fails_once);
+    RUN(interfaces_are_counted);
     RUN(unaligned_dirty_memory);
     RUN(null_body_everywhere);
     RUN(null_arguments);

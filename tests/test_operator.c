@@ -535,6 +535,32 @@ static void zero_energy_modes(void) {
     CHECK(zeros == 3 && least > -1e-12);
 }
 
+/* SOURCE OF TRUTH: a linear operator is linear, whatever the size: of a vector of a few units of the smallest number of double the
+   product is that of the same vector times 2^1000, over 2^1000. A modulus of 1e20 keeps it among the normal numbers, where that is
+   exact. */
+static void smallest_vectors(void) {
+    int32_t precision;
+    for (precision = PERI_PRECISION_DOUBLE; precision < peri__end_precision; ++precision) {
+        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS, 0.2, 1, 2, 6, 5, 1);
+        double in[60], small[60], out[60], tiny[60];
+        peri_body *b;
+        int k;
+        s.desc.precision = precision;
+        s.material.young = 1e20;
+        b = specimen_make(&s);
+        for (k = 0; k < 60; ++k) {
+            small[k] = (k * k % 7 - 3) * 4.9406564584124654e-324;
+            in[k] = ldexp(small[k], 1000);
+        }
+        CHECK(in[0] != 0);
+        MUST(b, peri_multiply_stiffness(b, in, out, 60));
+        MUST(b, peri_multiply_stiffness(b, small, tiny, 60));
+        for (k = 0; k < 60; ++k) CHECK_NEAR(tiny[k], ldexp(out[k], -1000), precision == PERI_PRECISION_SINGLE ? 1e-5 : 1e-13, 0);
+        CHECK(largest(tiny, 60) > 1e-304);
+        peri_body_destroy(b);
+    }
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(force_plane_stress);
@@ -548,6 +574,7 @@ int main(int argc, char **argv) {
     RUN(single_precision);
     RUN(zero_energy_modes);
     RUN(chain);
+    RUN(smallest_vectors);
     LONG_RUN(operator_long);
     return test_end("test_operator");
 }

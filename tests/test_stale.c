@@ -532,6 +532,22 @@ static void changes_by_the_caller_are_initial(void) {
             }
 }
 
+/* The same of several changes with nothing read between them: they count together. */
+static void changes_add_up_as_initial(void) {
+    static const change changes[] = {ADD_VELOCITY, ADD_DISPLACEMENT, CUT_SEGMENT, WRITE_VELOCITY, CUT_IF, ADD_VELOCITY};
+    for (int past = 0; past < PASTS; ++past)
+        for (size_t c = 0; c + 2 < sizeof changes / sizeof *changes; ++c) {
+            peri_body *b = body_of(kinds[0], past);
+            const peri_energy before = ledger_of(b);
+            for (size_t k = c; k < c + 3; ++k) (void)apply(b, changes[k]);
+            const peri_energy after = ledger_of(b);
+            const double put_in = after.kinetic + after.elastic - before.kinetic - before.elastic;
+            CHECK_NEAR(after.initial - before.initial, put_in, 1e-9, 1e-14);
+            CHECK_NEAR(after.error, before.error, 1e-9, 1e-14);
+            peri_body_destroy(b);
+        }
+}
+
 /* SOURCE OF TRUTH: what each scene is here for. */
 static void scenes_are_stored_as_meant(void) {
     static const char *const text[KINDS] = {"columns", "list", "columns", "reference", "columns", "columns", "list"};
@@ -553,5 +569,6 @@ int main(int argc, char **argv) {
     RUN(changes_are_as_built_anew);
     RUN(reset_is_as_built);
     RUN(changes_by_the_caller_are_initial);
+    RUN(changes_add_up_as_initial);
     return test_end("test_stale");
 }

@@ -55,6 +55,7 @@ static double peri__load_power(const peri_body *b, const peri__load *load) {
 /* Adds all loads at `time` to f; dt > 0: counts the work of the step that ends there. */
 static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
     const peri__model *m = b->model;
+    const double most = peri__most_force(b);
     for (int64_t s = 0; s < b->load_count; ++s) {
         peri__load *load = &b->loads[s];
         if (load->kind != PERI__FORCE) continue;
@@ -66,8 +67,8 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t at = peri__dof(b, load, k, d);
                 double force = peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d);
-                if (!(fabs(force) < (b->f32 ? FLT_MAX : DBL_MAX)))
-                    return peri__fail(b, PERI_ERROR_RANGE, "value", peri__set_point(b, load->set, k), force);
+                if (!(fabs(force) < most))
+                    return peri__fail(b, PERI_ERROR_RANGE, "value", peri__set_point(b, load->set, k), force * peri__force_unit(m));
                 peri__put_real(b->f, b->f32, at, force);
             }
     }

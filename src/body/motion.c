@@ -6,12 +6,39 @@
 
 /* Displacements and velocities that the arithmetic can square, and cube where stresses are P = F S: within 1e15 spacings, or 1e11; below
    1e9 speeds of sound. */
+static double peri__state_limit(const peri_body *b, const void *array) {
+    const int cubes = b->model->gathers & PERI__GRADIENT && b->b32 && b->desc.geometry != PERI_GEOMETRY_LINEAR;
+    return array == b->v ? 1e9 : cubes ? 1e11 : 1e15;
+}
+
+/* Is a below the limit, inner units, as the array will hold it, too? Single precision may round it up to the limit. */
+static int peri__holds_below(const peri_body *b, double a, double limit) {
+    const double stored = peri__stored(a);
+    return fabs(stored) < limit && (!b->f32 || fabs((double)(float)stored) < limit);
+}
+
 static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit,
                                  const char *field) {
-    const int cubes = b->model->gathers & PERI__GRADIENT && b->b32 && b->desc.geometry != PERI_GEOMETRY_LINEAR;
-    const double limit = array == b->v ? 1e9 : cubes ? 1e11 : 1e15;
+    const double limit = peri__state_limit(b, array);
     for (int64_t k = 0; k < count; ++k)
-        if (!(fabs(in[k] / unit) < limit)) return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);
+        if (!peri__holds_below(b, in[k] / unit, limit)) return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);
+    return PERI_OK;
+}
+
+/* Component d of a point's entry of the array with `value` added, inner units. */
+static double peri__sum_at(const peri_body *b, const void *array, double unit, int64_t point, int32_t d, const double *value) {
+    return peri__get_real(array, b->f32, d * b->model->stride + point) + value[d] / unit;
+}
+
+/* What counts is the sum: what peri_set_field refuses is not reached by adding twice either. */
+static int32_t peri__check_sums(peri_body *b, const void *array, double unit, int32_t set, const double *value) {
+    const double limit = peri__state_limit(b, array);
+    for (int64_t k = 0; k < peri__set_count(b, set); ++k)
+        for (int32_t d = 0; d < b->dim; ++d) {
+            const double sum = peri__sum_at(b, array, unit, peri__set_point(b, set, k), d, value);
+            if (!peri__holds_below(b, sum, limit))
+                return peri__fail(b, PERI_ERROR_RANGE, "value", peri__set_point(b, set, k), sum * unit);
+        }
     return PERI_OK;
 }
 
@@ -19,13 +46,13 @@ static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t id, 
     PERI_NEED_VECTOR(b, value);
     const int32_t set = peri__find_set(b, id);
     if (set < 0) return set;
-    const int32_t status = peri__check_state(b, array, value, b->dim, unit, "value");
+    const int32_t status = peri__check_sums(b, array, unit, set, value);
     if (status < 0) return status;
     peri__changed(b, PERI__MOTION);
     for (int64_t k = 0; k < peri__set_count(b, set); ++k)
         for (int32_t d = 0; d < b->dim; ++d) {
-            int64_t at = d * b->model->stride + peri__set_point(b, set, k);
-            peri__put_real(array, b->f32, at, peri__get_real(array, b->f32, at) + value[d] / unit);
+            const int64_t point = peri__set_point(b, set, k);
+            peri__put_real(array, b->f32, d * b->model->stride + point, peri__sum_at(b, array, unit, point, d, value));
         }
     return PERI_OK;
 }

@@ -45,7 +45,16 @@ typedef struct peri__pusher {
     double     half_step; /* dt/2                                                                                         */
 } peri__pusher;
 
-/* sums->a: work of old and new push. */
+/* Is the force density f on point i beyond the precision, of a point that is not? Where the motion itself has left the numbers that is for
+   its own status. */
+static int peri__is_pushed_out(const peri_body *b, int64_t i, double f) {
+    if (fabs(f) < peri__most_force(b)) return 0;
+    for (int32_t d = 0; d < b->dim; ++d)
+        if (!peri__finite(peri__get_real(b->u, b->f32, d * b->model->stride + i))) return 0;
+    return 1;
+}
+
+/* sums->a: work of old and new push; bad: the first point whose force is beyond the precision. */
 static void peri__push_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__pusher *pusher = (const peri__pusher *)context;
     peri_body *b = pusher->body;
@@ -57,7 +66,10 @@ static void peri__push_block(void *context, int64_t begin, int64_t end, peri__su
             int64_t at = d * m->stride + i;
             work += (b->push[at] + push[d]) * peri__get_real(b->v, b->f32, at);
             b->push[at] = push[d];
-            if (push[d] != 0.0) peri__put_real(b->f, b->f32, at, peri__get_real(b->f, b->f32, at) + push[d]);
+            if (push[d] == 0.0) continue;
+            const double force = peri__get_real(b->f, b->f32, at) + push[d];
+            if (sums->bad < 0 && peri__is_pushed_out(b, i, force)) sums->bad = i;
+            peri__put_real(b->f, b->f32, at, force);
         }
         sums->a += pusher->half_step * work * m->volume[i];
     }
@@ -70,6 +82,12 @@ static int32_t peri__apply_obstacles(peri_body *b, double time, double dt) {
     int32_t status = peri__move_obstacles(b, time);
     if (status < 0) return status;
     peri__for_points(b, b->model->points, 4 * b->obstacle_count, peri__push_block, &pusher, b->sums);
-    if (b->desc.ledger && dt > 0.0) b->now.ledger.obstacle += peri__total(b->sums, b->model->points).a;
+    const peri__sums total = peri__total(b->sums, b->model->points);
+    for (int32_t d = 0; total.bad >= 0 && d < b->dim; ++d) {
+        const double force = peri__get_real(b->f, b->f32, d * b->model->stride + total.bad);
+        if (!peri__is_pushed_out(b, total.bad, force)) continue;
+        return peri__fail(b, PERI_ERROR_RANGE, "stiffness", total.bad, force * peri__force_unit(b->model));
+    }
+    if (b->desc.ledger && dt > 0.0) b->now.ledger.obstacle += total.a;
     return PERI_OK;
 }

@@ -4,6 +4,16 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* A total in inner units to force[dim]. Many forces, each within double, may sum up beyond it. */
+static int32_t peri__tell_force(peri_body *b, const double *total, double *force) {
+    const peri__model *m = b->model;
+    double told[3] = { 0.0, 0.0, 0.0 };
+    for (int32_t d = 0; d < m->dim; ++d) told[d] = total[d] * m->energy / m->length;
+    if (!peri__finite_vector(told, m->dim)) return peri__fail(b, PERI_ERROR_RANGE, "force", -1, peri__not_finite(told, m->dim));
+    memcpy(force, told, (size_t)m->dim * sizeof *force);
+    return PERI_OK;
+}
+
 PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force) {
     PERI_NEED_BUILT(b);
     const int64_t obstacle = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
@@ -18,8 +28,7 @@ PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force
         peri__push(b, &b->obstacles[obstacle], i, push);
         for (int32_t d = 0; d < m->dim; ++d) total[d] += push[d] * m->volume[i];
     }
-    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
-    return PERI_OK;
+    return peri__tell_force(b, total, force);
 }
 
 /* Force density of the supports on every point, inner units. */
@@ -49,8 +58,7 @@ static int32_t peri__read_reaction_of(peri_body *b, int64_t at, double *force) {
             if (load->owned) total[d] += *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d) * volume;
             else total[d] += peri__load_force(b, load, k, d) * volume;
         }
-    for (int32_t d = 0; d < m->dim; ++d) force[d] = total[d] * m->energy / m->length;
-    return PERI_OK;
+    return peri__tell_force(b, total, force);
 }
 
 PERI_API int32_t peri_get_reaction(peri_body *b, int32_t load, double *force) {

@@ -88,6 +88,12 @@ static double peri__velocity_unit(const peri__model *m) { return m->length / m->
 
 static double peri__force_unit(const peri__model *m) { return m->stress / m->length; }
 
+/* The most that a force density can be, inner units: the precision holds it, and so does a double in the unit of the caller. */
+static double peri__most_force(const peri_body *b) {
+    const double most = b->f32 ? FLT_MAX : DBL_MAX, unit = peri__force_unit(b->model);
+    return unit > 1.0 ? fmin(most, DBL_MAX / unit) : most;
+}
+
 /* A place in inner units. */
 static void peri__inner(const peri_body *b, const double *place, double *out) {
     for (int32_t d = 0; d < b->dim; ++d) out[d] = (place[d] - b->model->origin[d]) / b->model->length;

@@ -58,7 +58,7 @@ static int32_t peri__heed_influence(peri_body *b, int32_t status) {
     X(INVERSE, 411, 1.0 / q, 1.0 / k, NULL)                                                                             \
     X(INVERSE_4, 412, 1.0 / (q * q * q * q), 0.0, NULL)                                                                 \
     X(POLE_EDGE, 413, q < 1.0 + edge ? 1.0 / (1.0 + edge - q) : 0.0, PERI_BY_QUADRATURE, NULL)                          \
-    X(POLE_HALF, 414, 1.0 / (2.0 * q - 1.0), 0.0, NULL)                                                                 \
+    X(POLE_HALF, 414, peri__pole(2.0 * q - 1.0), 0.0, NULL)                                                             \
     X(POLE_QUARTER, 415, peri__in_range(exp(1.0 / (q - 0.25))), 0.0, NULL)                                              \
     X(USER, 416, peri__in_range(peri__user_influence(b, q)), PERI_BY_QUADRATURE, NULL)
 
@@ -71,6 +71,9 @@ static double peri__within_one(double q) { return q < 1.0 - PERI_HORIZON_TOLERAN
 
 /* Squares and products of a few values beyond 1e100, or below its inverse, leave the range of double: not finite, or nothing. */
 static double peri__in_range(double w) { return fabs(w) <= 1e100 ? fabs(w) >= 1e-100 ? w : 0.0 : (double)NAN; }
+
+/* 1/|a|, and no number where a is zero up to the rounding of lengths: whether a point at the pole is refused does not hang on it. */
+static double peri__pole(double a) { return fabs(a) > PERI_HORIZON_TOLERANCE ? 1.0 / fabs(a) : (double)NAN; }
 
 static double peri__polynomial_value(const peri__polynomial *p, double q) {
     double t = peri__within_one(q), sum = 0.0;

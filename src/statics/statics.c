@@ -323,6 +323,7 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_
     const double factor = b->now.load_factor;
     const int32_t still = b->now.still;
     s.load_from = !peri__is_nan(st->load_from) ? st->load_from : b->now.loaded ? factor : 0.0;
+    if (!peri__finite(peri__stored(st->load_to - s.load_from))) return peri__fail(b, PERI_ERROR_RANGE, "load_to", -1, st->load_to);
     const int32_t former = peri__begin_run(b);
     status = peri__load_steps(&s);
     peri__end_run(b, former);

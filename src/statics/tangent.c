@@ -208,9 +208,9 @@ static void peri__from_planes(void *context, int64_t begin, int64_t end, peri__s
         const float *narrow = (const float *)product->t.q + d * b->model->stride;
         double *out = product->out + d;
         if (b->f32)
-            for (int64_t i = begin; i < end; ++i) out[i * b->dim] = unit * (scale * (volume[i] * (double)narrow[i]));
+            for (int64_t i = begin; i < end; ++i) out[i * b->dim] = scale * (unit * (volume[i] * (double)narrow[i]));
         else
-            for (int64_t i = begin; i < end; ++i) out[i * b->dim] = unit * (scale * (volume[i] * wide[i]));
+            for (int64_t i = begin; i < end; ++i) out[i * b->dim] = scale * (unit * (volume[i] * wide[i]));
     }
 }
 
