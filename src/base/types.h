@@ -411,7 +411,8 @@ typedef enum peri__stale {
     PERI__STALE_CONSTANTS = 2, /* body->constant, gather_row_sum, row_sum, largest_row_sum, central: likewise, where laws are state-based */
     PERI__STALE_FORCE = 4,     /* body->f and all that comes with it: push, response, reactions, places of obstacles     */
     PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
-    PERI__STALE_BALANCE = 16   /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
+    PERI__STALE_BALANCE = 16,  /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
+    PERI__STALE_SHARP = 32     /* body->sharp: bonds of which it was made have been cut or mended since; or never asked for */
 } peri__stale;
 
 /* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. */
@@ -488,6 +489,8 @@ struct peri_body {
     void     *response;      /* bond [1 + dim*dim][stride]: p, and Q where there are tensors; with margins               */
     double   *row_sum, *gather_row_sum; /* [points] row sum of the stiffness over rho; kappa_i R_i, see stiffness.c */
     double    largest_row_sum; /* largest row_sum                                                                        */
+    double    sharp;         /* the square of the highest frequency, estimated: frequency.c; HUGE_VAL where it is not     */
+    int32_t   softens;       /* 1: found to get no stiffer whatever bonds it loses, so that `sharp` outlasts that         */
     uint8_t  *central;       /* [groups of PERI_GROUP] 1: points there or beside it act by central bonds instead of a gradient; NULL without
                                 gradients                                                                                */
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */

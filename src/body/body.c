@@ -104,7 +104,7 @@ static peri__progress peri__at_start(int64_t cut) {
     memset(&now, 0, sizeof now);
     now.cut = cut;
     now.load_factor = 1.0;
-    now.stale = PERI__STALE_FORCE;
+    now.stale = PERI__STALE_FORCE | PERI__STALE_SHARP;
     return now;
 }
 

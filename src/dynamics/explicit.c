@@ -28,11 +28,12 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
     r->load_factor = (double)NAN;
 }
 
-/* Inner units. 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice, once on the
-   diagonal and once off it; obstacles once, taken as if all touched the lightest point. */
-static double peri__stable(const peri_body *b) {
+/* The stable step, inner units: 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice,
+   once on the diagonal and once off it; `sharp`: or what is closer; obstacles once, taken as if all touched the lightest point. */
+static double peri__step_of(const peri_body *b, double sharp) {
     const peri__model *m = b->model;
     double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum, lightest = m->rho[0];
+    if (sharp < lambda) lambda = sharp;
     for (int32_t k = 1; k < m->materials; ++k)
         if (m->rho[k] < lightest) lightest = m->rho[k];
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -40,9 +41,15 @@ static double peri__stable(const peri_body *b) {
     return 2.0 / sqrt(lambda);
 }
 
+/* By the bound, which costs nothing; and by the estimate too, where there is one that holds. */
+static double peri__bounded(const peri_body *b) { return peri__step_of(b, HUGE_VAL); }
+
+static double peri__stable(const peri_body *b) { return peri__step_of(b, b->now.stale & PERI__STALE_SHARP ? HUGE_VAL : b->sharp); }
+
 PERI_API double peri_stable_step(const peri_body *b) {
     if (!b || !b->model) return 0.0;
     (void)peri__ensure((peri_body *)b, PERI__STALE_CONSTANTS);
+    if (b->running <= PERI__IN_FRAME) peri__sharpen((peri_body *)b);
     return peri__stable(b) * b->model->time;
 }
 
@@ -149,6 +156,7 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "duration", -1, r->duration);
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     const double unit = b->model->time;
+    if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit)) peri__sharpen(b); /* else the estimate has no say */
     double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
     /* in the unit of time both may vanish */
     if (!(peri__stored(step / unit) > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
@@ -199,9 +207,11 @@ static int32_t peri__plan_steps(peri_body *b, const peri_advance_desc *r, double
 
 static double peri__next_size(const peri__plan *plan) { return plan->done < plan->full ? plan->dt : plan->last; }
 
-/* Is a step of `size` too large by now? State-based bonds that broke, or an obstacle that on_frame added, can have made it so. */
-static int peri__outrun(const peri_body *b, const peri_advance_desc *r, double size) {
-    return !(r->force_step && r->time_step > 0.0) && size > peri__stable(b) * (1.0 + 1e-12);
+/* Is a step of `size` too large by now? State-based bonds that broke, or what on_frame cut or added, can have made it so. */
+static int peri__outrun(peri_body *b, const peri_advance_desc *r, double size) {
+    if ((r->force_step && r->time_step > 0.0) || !(size > peri__stable(b) * (1.0 + 1e-12))) return 0;
+    peri__sharpen(b);
+    return size > peri__stable(b) * (1.0 + 1e-12);
 }
 
 static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
