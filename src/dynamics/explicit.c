@@ -49,7 +49,7 @@ static double peri__stable(const peri_body *b) { return peri__step_of(b, b->now.
 PERI_API double peri_stable_step(const peri_body *b) {
     if (!b || !b->model) return 0.0;
     (void)peri__ensure((peri_body *)b, PERI__STALE_CONSTANTS);
-    if (b->running <= PERI__IN_FRAME) peri__sharpen((peri_body *)b);
+    if (b->running <= PERI__IN_FRAME) (void)peri__sharpen((peri_body *)b);
     return peri__stable(b) * b->model->time;
 }
 
@@ -156,7 +156,8 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "duration", -1, r->duration);
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     const double unit = b->model->time;
-    if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit)) peri__sharpen(b); /* else the estimate has no say */
+    if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */
+        return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
     double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
     /* in the unit of time both may vanish */
     if (!(peri__stored(step / unit) > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
@@ -208,10 +209,8 @@ static int32_t peri__plan_steps(peri_body *b, const peri_advance_desc *r, double
 static double peri__next_size(const peri__plan *plan) { return plan->done < plan->full ? plan->dt : plan->last; }
 
 /* Is a step of `size` too large by now? State-based bonds that broke, or what on_frame cut or added, can have made it so. */
-static int peri__outrun(peri_body *b, const peri_advance_desc *r, double size) {
-    if ((r->force_step && r->time_step > 0.0) || !(size > peri__stable(b) * (1.0 + 1e-12))) return 0;
-    peri__sharpen(b);
-    return size > peri__stable(b) * (1.0 + 1e-12);
+static int peri__outrun(const peri_body *b, const peri_advance_desc *r, double size) {
+    return !(r->force_step && r->time_step > 0.0) && size > peri__stable(b) * (1.0 + 1e-12);
 }
 
 static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
@@ -248,7 +247,9 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
             status = peri__show_frame(b, r);
         }
         if (status == PERI_OK) status = peri__heed_callbacks(b);
-        if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, peri__next_size(&plan))) {
+        if (status != PERI_OK || plan.done == plan.steps || !peri__outrun(b, r, peri__next_size(&plan))) continue;
+        if (!peri__sharpen(b)) return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
+        if (peri__outrun(b, r, peri__next_size(&plan))) {
             if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
             plan.dt = r->safety * peri__stable(b);
             status = peri__plan_steps(b, r, plan.end - b->now.time, &plan);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* frequency.c - the square of the highest frequency of a body at rest, estimated sharply; what stiffness.c bounds by row sums.
 
    A = M^-1 K, K the tangent at rest, M = rho V, is self-adjoint in the product <x, y> = sum rho V x.y. Lanczos's method takes k products
@@ -14,17 +15,23 @@
    equal bodies have equal steps; it knows nothing of any body, so bodies play the part of the draw.
      A body in several parts, or one that k products exhaust, is no special case.
 
-   The estimate outlasts changes of the bonds that can only lower L: those of a body all of whose laws are pairwise, with no negative weight,
-   where every bond adds a square to the energy. It is then made of the bonds that are not initially cut. Of other bodies it is made of
-   the bonds as they are, if none can break: cuts make it stale. Where they can, a point may get stiffer by what it loses, the step
-   would have to follow within the run, and the bound by row sums, which does, stands. So it does for the centroid rule, whose A is not
-   self-adjoint, and where memory is short. */
+   At rest is not in motion. Springs get stiffer by a stretch s by about s, which the safety of a run has room for; P = F S of a gradient
+   does by the fourth power: L of such bodies is taken PERI_STRETCHED times, so that stretches of a tenth are safe, too. Linear
+   geometry needs neither.
+
+   The estimate outlasts changes of the bonds that can only lower L: those of a body all of whose laws are pairwise, with no negative
+   weight, where every bond adds a square to the energy. It is then made of the bonds that are not initially cut. Of other bodies it is
+   made of the bonds as they are, if none can break: cuts make it stale. Where they can, a point may get stiffer by what it loses, the
+   step would have to follow within the run, and the bound of stiffness.c, which does, stands. So it does for the centroid rule, whose A
+   is not self-adjoint. A run that needs the estimate and has no memory for it fails: with the bound it would be another one. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
 
 #define PERI_LANCZOS_MARGIN 0.06  /* e: 3 % of the step, for 35 products of small bodies, 50 of large ones                 */
+#define PERI_LANCZOS_SLACK  (1.0 + PERI_LANCZOS_MARGIN / (1.0 - 2.0 * PERI_LANCZOS_MARGIN)) /* over T, where t = 0          */
 #define PERI_LANCZOS_CHANCE 1e-6
+#define PERI_STRETCHED      1.5   /* 1.1^4                                                                              */
 #define PERI_LANCZOS_LIMIT 64     /* products, for more points than ids can number                                        */
 
 typedef struct peri__lanczos {
@@ -139,14 +146,59 @@ static void peri__lanczos_next(void *context, int64_t begin, int64_t end, peri__
     }
 }
 
+/* sums->a: <before, now>. */
+static void peri__lanczos_overlap(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__lanczos *s = (const peri__lanczos *)context;
+    const peri__model *m = s->body->model;
+    const int32_t f32 = s->body->f32;
+    for (int64_t i = begin; i < end; ++i)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            const int64_t at = d * m->stride + i;
+            sums->a += peri__mass(m, i) * peri__get_real(s->before, f32, at) * peri__get_real(s->now, f32, at);
+        }
+}
+
+/* before -= alpha now; sums->a: its norm. */
+static void peri__lanczos_part(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__lanczos *s = (const peri__lanczos *)context;
+    const peri__model *m = s->body->model;
+    const int32_t f32 = s->body->f32;
+    for (int64_t i = begin; i < end; ++i)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            const int64_t at = d * m->stride + i;
+            const double next = peri__get_real(s->before, f32, at) - s->alpha * peri__get_real(s->now, f32, at);
+            peri__put_real(s->before, f32, at, next);
+            sums->a += peri__mass(m, i) * next * next;
+        }
+}
+
 static double peri__lanczos_pass(peri__lanczos *s, void (*pass)(void *, int64_t, int64_t, peri__sums *)) {
     peri__for_points(s->body, s->body->model->points, 2, pass, s, s->body->sums);
     return peri__total(s->body->sums, s->body->model->points).a;
 }
 
+/* To twelve bits: kernels that agree to the rounding of sums, which the products magnify, shall have one step. */
+static double peri__round_up(double value) {
+    int exponent = 0;
+    const double mantissa = frexp(value, &exponent);
+    return peri__finite(value) ? ldexp(ceil(mantissa * 4096.0), exponent - 12) : value;
+}
+
+/* The next vector of the basis, not scaled, to `before`; returns its size. What little the products of small bodies leave of it is made
+   orthogonal to the last vector once more; 0 where it is rounding. */
+static double peri__lanczos_extend(peri__lanczos *s, double size) {
+    double next = sqrt(peri__lanczos_pass(s, peri__lanczos_next));
+    if (next < 1e-3 * size) {
+        s->alpha = peri__lanczos_pass(s, peri__lanczos_overlap);
+        next = sqrt(peri__lanczos_pass(s, peri__lanczos_part));
+    }
+    return next > (s->body->b32 ? 1e-5 : 1e-12) * size ? next : 0.0;
+}
+
 /* L, with its margin; what is no number where something has left the range of numbers. */
 static double peri__lanczos_run(peri__lanczos *s, int products) {
     int n = 0;
+    double size = 0.0;
     s->beta = 0.0;
     s->scale = 1.0 / sqrt(peri__lanczos_pass(s, peri__lanczos_start));
     for (;;) {
@@ -154,16 +206,17 @@ static double peri__lanczos_run(peri__lanczos *s, int products) {
         s->operands.u = s->operands.drifted = s->now;
         peri__sum_bonds(s->body, &s->operands, NULL);
         s->alpha = s->diagonal[n] = peri__lanczos_pass(s, peri__lanczos_dot);
+        if (!(fabs(s->alpha) <= size)) size = fabs(s->alpha);
         if (++n == products) break;
-        s->beta = s->beside[n - 1] = sqrt(peri__lanczos_pass(s, peri__lanczos_next));
-        if (!(s->beta > 1e-7 * fabs(s->alpha))) break; /* the products span no more; or no number */
+        s->beta = s->beside[n - 1] = peri__lanczos_extend(s, size);
+        if (!(s->beta > 0.0)) break; /* the products span no more */
         void *now = s->before;
         s->before = s->now;
         s->now = now;
         s->scale = 1.0 / s->beta;
     }
     const double least = peri__bisect(n, s->diagonal, s->beside, 0), most = peri__bisect(n, s->diagonal, s->beside, n - 1);
-    return most + PERI_LANCZOS_MARGIN / (1.0 - 2.0 * PERI_LANCZOS_MARGIN) * (most - least);
+    return peri__round_up(most + (PERI_LANCZOS_SLACK - 1.0) * (most - least));
 }
 
 /* k of n degrees of freedom: 2 1.648 sqrt(n) exp(-(2k - 1) sqrt(e)) <= chance. */
@@ -193,10 +246,15 @@ static int peri__heal_for_lanczos(peri__lanczos *s) {
     s->operands.alive = b->uncut;
     s->operands.masks = NULL;
     if (!b->uncut || !b->masks) return 1;
-    s->masks = (uint16_t *)peri__new(&b->memory, m->stencil.columns, sizeof *s->masks);
+    s->masks = (uint16_t *)peri__new(&b->scratch, m->stencil.columns, sizeof *s->masks);
     for (int64_t g = 0; s->masks && g < m->stencil.groups; ++g) peri__group_masks(m, g, ~(uint32_t)0, b->uncut, s->masks);
     s->operands.masks = s->masks;
     return s->masks != NULL;
+}
+
+/* What the motion may make of the highest frequency at rest, squared. */
+static double peri__stretched(const peri_body *b, const peri__model *m) {
+    return m->gathers & PERI__GRADIENT && b->desc.geometry != PERI_GEOMETRY_LINEAR ? PERI_STRETCHED : 1.0;
 }
 
 /* The estimate of a body whose constants and masks are up to date. Below 0 where memory is short. */
@@ -208,8 +266,8 @@ static double peri__estimate_frequency(const peri_body *b) {
     memset(&s, 0, sizeof s);
     s.body = b;
     s.operands = peri__operands_of(b);
-    void *vectors[3] = { peri__new_vector(b), peri__new_vector(b), peri__new_vector(b) };
-    if (!m->pairwise) s.response = peri__new(&b->memory, response, peri__bond_real(b));
+    void *vectors[3] = { peri__new_vector(b, &b->scratch), peri__new_vector(b, &b->scratch), peri__new_vector(b, &b->scratch) };
+    if (!m->pairwise) s.response = peri__new(&b->scratch, response, peri__bond_real(b));
     if (vectors[0] && vectors[1] && vectors[2] && (s.response || m->pairwise) && (!b->softens || peri__heal_for_lanczos(&s))) {
         s.now = vectors[0];
         s.before = vectors[1];
@@ -219,23 +277,24 @@ static double peri__estimate_frequency(const peri_body *b) {
         s.operands.linear = 1;
         most = peri__lanczos_run(&s, peri__lanczos_products((double)m->points * m->dim));
     }
-    for (int k = 0; k < 3; ++k) peri__delete_vector(b, vectors[k]);
-    peri__delete(&b->memory, s.response, response, peri__bond_real(b));
-    peri__delete(&b->memory, s.masks, m->stencil.columns, sizeof *s.masks);
+    for (int k = 0; k < 3; ++k) peri__delete_vector(b, &b->scratch, vectors[k]);
+    peri__delete(&b->scratch, s.response, response, peri__bond_real(b));
+    peri__delete(&b->scratch, s.masks, m->stencil.columns, sizeof *s.masks);
     return most;
 }
 
-/* Brings b->sharp up to date. */
-static void peri__sharpen(peri_body *b) {
+/* Brings b->sharp up to date. 0 where memory is short: the bound stands until the next time. */
+static int peri__sharpen(peri_body *b) {
     const peri__model *m = b->model;
-    if (!(b->now.stale & PERI__STALE_SHARP)) return;
+    if (!(b->now.stale & PERI__STALE_SHARP)) return 1;
     b->softens = peri__softens(b);
     b->sharp = HUGE_VAL;
     if (!m->centroid && (b->softens || !m->breakable)) {
         (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
         const double most = peri__estimate_frequency(b);
-        if (most < 0.0) return; /* another time */
-        if (most > 0.0) b->sharp = most;
+        if (most < 0.0) return 0;
+        if (most > 0.0) b->sharp = most * peri__stretched(b, m);
     }
     b->now.stale &= ~(uint32_t)PERI__STALE_SHARP;
+    return 1;
 }

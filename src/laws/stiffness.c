@@ -5,14 +5,16 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* At rest twice the energy is the sum of the squares of springs, k ((u_i - u_j).n)^2 <= 2 k (u_i.n)^2 + 2 k (u_j.n)^2, of the stabilisation,
-   likewise, and of kappa theta^2, or C:H:H. theta_i = sum_j g_ij.u_j with g_ij = d w g V n, itself included; with R_i = sum_j |g_ij|
+/* At rest twice the energy is the sum of the squares of springs, k ((u_i - u_j).n)^2 <= 2 k (u_i.n)^2 + 2 k (u_j.n)^2, of the
+   stabilisation, likewise, and of kappa theta^2, or C:H:H. theta_i = sum_j g_ij.u_j with g_ij = d w g V n, itself included; with
+   R_i = sum_j |g_ij|
 
      kappa_i theta_i^2 <= kappa_i R_i sum_j |g_ij| (u_j.n_ij)^2
 
-   since the square is convex; and so of H_i = sum_j u_j g_ij, g_ij = w V K^-1 xi, where C:un:un = (lambda + mu) (u.n)^2 + mu u^2. All this is
-   sum_i V_i u_i.S_i u_i: the square of the highest frequency is the largest eigenvalue of an S_i/rho_i at most. Row sums, which have
-   u^2 for (u.n)^2, are D times as much where bonds point everywhere. The centroid rule, whose stiffness is not symmetric, has those.
+   since the square is convex; and so of H_i = sum_j u_j g_ij, g_ij = w V K^-1 xi, where C:un:un = (lambda + mu) (u.n)^2 + mu u^2.
+   All this is sum_i V_i u_i.S_i u_i: the square of the highest frequency is the largest eigenvalue of an S_i/rho_i at most. Row sums,
+   which have u^2 for (u.n)^2, are D times as much where bonds point everywhere. The centroid rule, whose stiffness is not symmetric,
+   has those.
    The largest eigenvalue of a symmetric matrix is at most tr/D + sqrt((D - 1)/D) |its deviator|; in the plane just that. */
 PERI_INLINE double peri__largest_eigenvalue(int32_t dim, const double *s) {
     double mean = 0.0, square = 0.0;
@@ -33,7 +35,8 @@ PERI_INLINE void peri__add_stiffness(int32_t dim, double along, double round, co
 
 /* What a point has by its part g (|g| = size) in a theta or H of the law, of which gather_row_sum is the kappa R, or R. even: wherever g
    points. */
-PERI_INLINE void peri__add_gathered(const peri__law *law, int32_t dim, int even, double gather_row_sum, const double *g, double size, double *s) {
+PERI_INLINE void peri__add_gathered(const peri__law *law, int32_t dim, int even, double gather_row_sum, const double *g, double size,
+                                    double *s) {
     const double sum = gather_row_sum * size, stiff = law->lambda > 0.0 ? dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
     if (!(law->gather & PERI__GRADIENT)) peri__add_stiffness(dim, even ? 0.0 : sum, even ? sum : 0.0, g, size, s);
     else if (even) peri__add_stiffness(dim, 0.0, stiff * sum, g, size, s);
@@ -41,33 +44,32 @@ PERI_INLINE void peri__add_gathered(const peri__law *law, int32_t dim, int even,
 }
 
 /* d g n of a bond of point i, or K^-1 xi: what the bond adds to theta or H, over w V. Returns its size. */
-PERI_INLINE double peri__gather_vector(const peri_body *b, int64_t i, const double *xi, double bond, double *g) {
-    const peri__model *m = b->model;
-    const peri__law *law = &m->laws[m->material[i]];
+PERI_INLINE double peri__gather_vector(const peri_body *b, int32_t dim, int64_t i, const double *xi, double bond, double *g) {
+    const peri__law *law = &b->model->laws[b->model->material[i]];
     if (law->gather & PERI__GRADIENT) {
-        for (int a = 0; a < m->dim; ++a) {
+        for (int a = 0; a < dim; ++a) {
             g[a] = 0.0;
-            for (int c = 0; c < m->dim; ++c) g[a] += peri__get_constant(b, i, PERI__SHAPE_INVERSE + peri__packed(m->dim, a, c)) * xi[c];
+            for (int c = 0; c < dim; ++c) g[a] += peri__get_constant(b, i, PERI__SHAPE_INVERSE + peri__packed(dim, a, c)) * xi[c];
         }
-        return sqrt(peri__dot(g, g, m->dim));
+        return sqrt(peri__dot(g, g, dim));
     }
     const double size = law->pairwise ? 0.0 : peri__get_constant(b, i, PERI__THETA_FACTOR) * peri__law_gauge(law, bond);
-    for (int a = 0; a < m->dim; ++a) g[a] = size * xi[a] / bond;
+    for (int a = 0; a < dim; ++a) g[a] = size / bond * xi[a];
     return size;
 }
 
 /* g_ii, what a motion of i alone does to its theta or H. *sum: R_i. */
-static void peri__gather_diagonal(const peri_body *b, int64_t i, const peri__row *row, double *diagonal, double *sum) {
+PERI_INLINE void peri__gather_diagonal(const peri_body *b, int32_t dim, int64_t i, const peri__row *row, double *diagonal, double *sum) {
     const peri__model *m = b->model;
     diagonal[0] = diagonal[1] = diagonal[2] = *sum = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
         double xi[3] = { 0.0, 0.0, 0.0 }, g[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(row->weight, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
-        *sum += fabs(w) * peri__gather_vector(b, i, xi, peri__get_real(row->bond, b->b32, k), g);
-        for (int a = 0; a < m->dim; ++a) diagonal[a] += w * g[a];
+        *sum += fabs(w) * peri__gather_vector(b, dim, i, xi, peri__get_real(row->bond, b->b32, k), g);
+        for (int a = 0; a < dim; ++a) diagonal[a] += w * g[a];
     }
-    *sum += sqrt(peri__dot(diagonal, diagonal, m->dim));
+    *sum += sqrt(peri__dot(diagonal, diagonal, dim));
 }
 
 /* kappa R; R of a gradient. 0 where there is no kappa, or it is below 0. */
@@ -77,11 +79,13 @@ static void peri__set_gather_row_sum(peri_body *b, int64_t i, const peri__row *r
     double sum = 0.0, diagonal[3], theta_factor = peri__get_constant(b, i, PERI__THETA_FACTOR), stiff = 0.0;
     if (law->gather & PERI__GRADIENT) stiff = 1.0;
     else if (theta_factor > 0.0) stiff = peri__get_constant(b, i, PERI__PRESSURE_FACTOR) / theta_factor;
-    if (stiff > 0.0) peri__gather_diagonal(b, i, row, diagonal, &sum);
+    if (stiff > 0.0 && m->dim == 2) peri__gather_diagonal(b, 2, i, row, diagonal, &sum);
+    else if (stiff > 0.0) peri__gather_diagonal(b, 3, i, row, diagonal, &sum);
     b->gather_row_sum[i] = stiff > 0.0 ? stiff * sum : 0.0;
 }
 
-static void peri__set_row_sum(peri_body *b, int64_t i) {
+/* dim is a constant where this is inlined. */
+PERI_INLINE double peri__row_sum_of(const peri_body *b, int32_t dim, int64_t i) {
     const peri__model *m = b->model;
     double s[6] = { 0.0 }, g[3] = { 0.0 };
     const int tensors = (m->gathers & PERI__GRADIENT) != 0, even = m->centroid != NULL;
@@ -99,17 +103,21 @@ static void peri__set_row_sum(peri_body *b, int64_t i) {
         double round = even ? along : 0.0;
         if (tensors)
             round += 2.0 * (own * peri__get_constant(b, i, PERI__STABILIZATION) + back * peri__get_constant(b, j, PERI__STABILIZATION));
-        peri__add_stiffness(m->dim, even ? 0.0 : along, round, xi, bond, s);
+        peri__add_stiffness(dim, even ? 0.0 : along, round, xi, bond, s);
         if (!(b->gather_row_sum[j] > 0.0)) continue;
-        const double size = peri__gather_vector(b, j, xi, bond, g);
-        peri__add_gathered(&m->laws[m->material[j]], m->dim, even, back * b->gather_row_sum[j], g, size, s);
+        const double size = peri__gather_vector(b, dim, j, xi, bond, g);
+        peri__add_gathered(&m->laws[m->material[j]], dim, even, back * b->gather_row_sum[j], g, size, s);
     }
     if (b->gather_row_sum[i] > 0.0) {
         double whole;
-        peri__gather_diagonal(b, i, &row, g, &whole);
-        peri__add_gathered(&m->laws[m->material[i]], m->dim, even, b->gather_row_sum[i], g, sqrt(peri__dot(g, g, m->dim)), s);
+        peri__gather_diagonal(b, dim, i, &row, g, &whole);
+        peri__add_gathered(&m->laws[m->material[i]], dim, even, b->gather_row_sum[i], g, sqrt(peri__dot(g, g, dim)), s);
     }
-    b->row_sum[i] = peri__largest_eigenvalue(m->dim, s) / m->rho[m->material[i]];
+    return peri__largest_eigenvalue(dim, s) / m->rho[m->material[i]];
+}
+
+static void peri__set_row_sum(peri_body *b, int64_t i) {
+    b->row_sum[i] = b->model->dim == 2 ? peri__row_sum_of(b, 2, i) : peri__row_sum_of(b, 3, i);
 }
 
 /* ---- bodies on columns whose bonds are all alive ------------------------------------------------------------------- */
@@ -139,32 +147,41 @@ static void peri__copy_equal_groups(peri_body *b, int planes) {
     }
 }
 
-/* What peri__set_row_sum makes of the points of group g, one law and ordinary. Of a point gather_row_sum = stiff R. */
-static void peri__group_row_sums(peri_body *b, int64_t g) {
+/* What peri__set_row_sum makes of the points of group g, one law and ordinary; dim is a constant where this is inlined. Lanes without a
+   point, or without the bond, count for nothing. Of a point gather_row_sum = kappa R. */
+PERI_INLINE void peri__group_row_sums(peri_body *b, int32_t dim, int64_t g) {
     const peri__model *m = b->model;
     const peri__stencil *l = &m->stencil;
     const peri__column *column = &l->column[l->first[g]];
     const int64_t first = g * PERI_GROUP, count = peri__min(PERI_GROUP, m->points - first);
-    double spring[PERI_GROUP], sum[PERI_GROUP][6] = { { 0.0 } }, diagonal[PERI_GROUP][3] = { { 0.0 } };
+    double spring[PERI_GROUP] = { 0.0 }, along[PERI_GROUP], there[PERI_GROUP];
+    double sum[6][PERI_GROUP] = { { 0.0 } }, diagonal[3][PERI_GROUP] = { { 0.0 } };
     for (int64_t n = 0; n < count; ++n) spring[n] = peri__get_constant(b, first + n, PERI__SPRING);
     for (int64_t c = l->begin[g]; c < l->begin[g + 1]; ++c, ++column) {
         const peri__stencil_bond *entry = &l->table[column->vector];
-        const double w = fabs(entry->weight), gauge = m->gauge ? entry->length : 1.0;
+        const double w = fabs(entry->weight), gauge = m->gauge ? entry->length : 1.0, pull = entry->weight * gauge / entry->length;
         double dyad[6] = { 0.0 };
-        peri__add_stiffness(m->dim, 1.0, 0.0, entry->xi, entry->length, dyad);
-        for (int64_t n = 0, j = first + column->offset; n < count; ++n, ++j) {
+        peri__add_stiffness(dim, 1.0, 0.0, entry->xi, entry->length, dyad);
+        for (int64_t n = 0, j = first + column->offset; n < PERI_GROUP; ++n, ++j) {
+            along[n] = there[n] = 0.0;
             if (!(column->member >> n & 1)) continue;
-            const double along = 2.0 * w * (spring[n] + peri__get_constant(b, j, PERI__SPRING))
-                               + w * gauge * peri__get_constant(b, j, PERI__THETA_FACTOR) * b->gather_row_sum[j];
-            for (int k = 0; k < PERI_PACKED(m->dim); ++k) sum[n][k] += along * dyad[k];
-            for (int a = 0; a < m->dim; ++a) diagonal[n][a] += entry->weight * gauge / entry->length * entry->xi[a];
+            there[n] = 1.0;
+            along[n] = 2.0 * w * (spring[n] + peri__get_constant(b, j, PERI__SPRING))
+                     + w * gauge * peri__get_constant(b, j, PERI__THETA_FACTOR) * b->gather_row_sum[j];
         }
+        for (int k = 0; k < PERI_PACKED(dim); ++k)
+            for (int n = 0; n < PERI_GROUP; ++n) sum[k][n] += along[n] * dyad[k];
+        for (int a = 0; a < dim; ++a)
+            for (int n = 0; n < PERI_GROUP; ++n) diagonal[a][n] += there[n] * (pull * entry->xi[a]);
     }
     for (int64_t n = 0; n < count; ++n) {
-        const double size = sqrt(peri__dot(diagonal[n], diagonal[n], m->dim)) * peri__get_constant(b, first + n, PERI__THETA_FACTOR);
-        peri__add_stiffness(m->dim, size * b->gather_row_sum[first + n], 0.0, diagonal[n],
-                            sqrt(peri__dot(diagonal[n], diagonal[n], m->dim)), sum[n]);
-        b->row_sum[first + n] = peri__largest_eigenvalue(m->dim, sum[n]) / m->rho[m->material[first + n]];
+        double s[6] = { 0.0 }, own[3] = { 0.0 };
+        for (int k = 0; k < PERI_PACKED(dim); ++k) s[k] = sum[k][n];
+        for (int a = 0; a < dim; ++a) own[a] = diagonal[a][n];
+        const double size = sqrt(peri__dot(own, own, dim));
+        const double gathered = size * peri__get_constant(b, first + n, PERI__THETA_FACTOR) * b->gather_row_sum[first + n];
+        peri__add_stiffness(dim, gathered, 0.0, own, size, s);
+        b->row_sum[first + n] = peri__largest_eigenvalue(dim, s) / m->rho[m->material[first + n]];
     }
 }
 
@@ -193,7 +210,10 @@ static void peri__row_sums_block(void *context, int64_t begin, int64_t end, peri
     peri_body *b = r->body;
     (void)sums;
     if (r->whole && !b->model->mixed && !(b->model->gathers & PERI__GRADIENT))
-        for (int64_t g = begin / PERI_GROUP; g * PERI_GROUP < end; ++g) peri__group_row_sums(b, g);
+        for (int64_t g = begin / PERI_GROUP; g * PERI_GROUP < end; ++g) {
+            if (b->dim == 2) peri__group_row_sums(b, 2, g);
+            else peri__group_row_sums(b, 3, g);
+        }
     else
         for (int64_t i = begin; i < end; ++i) peri__set_row_sum(b, i);
 }
