@@ -408,12 +408,8 @@ PERI_API double peri_load_factor(const peri_body *body); /* that loads act with;
 /* How bonds are worked on: "columns, AVX-512", "list, SSE2", "rows", "reference". */
 PERI_API const char *peri_kernel_text(const peri_body *body);
 
-/* Largest stable time step [T] at rest, within 4 % below the limit; of correspondence in nonlinear
-   geometry 20 %, for stretches of a tenth. Obstacles count as if all points touched them. The first
-   call, or run that needs it, takes the time of some 50 steps, and memory meanwhile (where that is
-   short: the bound that follows). So again after cuts, if state-based. State-based bodies whose
-   bonds can break, and negative weights, have a bound that follows the bonds: 1.3 times below the
-   limit, of correspondence 2 times. 0 before peri_build. */
+/* Largest stable time step [T] at rest, to 4 %; of state-based bodies that can break, a bound.
+   Takes some 50 steps once: docs/accuracy.md. 0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
 /* Rows [first, first+count) of the families ([T] 3.11) to rows[count*width]: ascending, padded with

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_stable_life.c - when peri_stable_step changes and when not: cuts, resets, clones, callbacks, short memory; and
    whether plans know it. */
 #include "specimen.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_stable_step.c - how close peri_stable_step is to the true limit.
    SOURCE OF TRUTH: an explicit step is stable up to 2/sqrt(L), L the largest eigenvalue of M^-1 K. Small bodies: all eigenvalues of the
    matrix of differences of the force, by Jacobi's rotations. Larger ones: the power method on peri_multiply_stiffness from several
