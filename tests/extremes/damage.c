@@ -232,7 +232,7 @@ static double limit_probe(scene *s) {
     expand(s, s->row->other);
     if (extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     stored = e.elastic;
-    (void)advance(s, 1, 0.9, 1e-9 * peri_stable_step(s->body));
+    (void)advance(s, 1, 0.9, 1e-10 * peri_stable_step(s->body)); /* no energy moves */
     if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     broken = (double)peri_broken_count(s->body);
     if (broken != (s->row->choice ? bonds_of(s) : 0)) return 1;
