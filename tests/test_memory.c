@@ -474,7 +474,8 @@ static int32_t run_or_nothing(peri_body *b, const peri_advance_desc *run) {
 /* ---- a plate of one material --------------------------------------------------------------------------------------- */
 
 /* Its families are also packed by columns, with a table, drafts and masks of their own. A cut plate is built, cloned and run; a call
-   that fails for want of memory is made again, the run, too: it estimates the stable step in memory of its own. Returns the number of calls that failed, and the checksum of the motion. */
+   that fails for want of memory is made again, the run, too: it estimates the stable step in memory of its own.
+   Returns the number of calls that failed, and the checksum of the motion. */
 static int columns_life(pool *p, double *sum) {
     const double lo[2] = {0, 0}, hi[2] = {9, 7}, from[2] = {0, 3.5}, to[2] = {4, 3.5}, v[2] = {0.02, 0};
     peri_body_desc d;

@@ -15,9 +15,9 @@
    equal bodies have equal steps; it knows nothing of any body, so bodies play the part of the draw.
      A body in several parts, or one that k products exhaust, is no special case.
 
-   At rest is not in motion. Springs get stiffer by a stretch s by about s, which the safety of a run has room for; P = F S of a gradient
-   does by the fourth power: L of such bodies is taken PERI_STRETCHED times, so that stretches of a tenth are safe, too. Linear
-   geometry needs neither.
+   At rest is not in motion. Springs stretched to f times resist across their length, too: L is below 1/f + D (1 - 1/f) times itself. The
+   safety of a run has room for f = 1.1, not for f = 2 in all directions. P = F S of a gradient gets stiffer by the fourth power: L of such
+   bodies is taken PERI_STRETCHED times, so that stretches of a tenth are safe, too. Linear geometry needs neither.
 
    The estimate outlasts changes of the bonds that can only lower L: those of a body all of whose laws are pairwise, with no negative
    weight, where every bond adds a square to the energy. It is then made of the bonds that are not initially cut. Of other bodies it is

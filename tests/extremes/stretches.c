@@ -215,8 +215,8 @@ static void advance(scene *s, int64_t steps, double safety, double time_step) {
     if (s->o->status >= 0) (void)extreme_fails(s->o, s->body, peri_advance(s->body, &run));
 }
 
-/* Momenta after a run through each other, over the sums of their sizes. The stable step is that of the body at rest: bonds at any length ask
-   for half of it. */
+/* Momenta after a run through each other, over the sums of their sizes. The stable step is that of the body at rest: bonds at any length
+   ask for half of it. */
 static double passing_probe(scene *s) {
     const int dim = peri_dimension(s->body), tensor = is_tensor(s);
     double linear[3] = {0}, angular[3] = {0}, size = 0, arm = 0, p = 0, l = 0, *at, *v, *volume;
