@@ -103,6 +103,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 
 /* ---- dynamics -------------------------------------------------------------------------- */
 #include "src/dynamics/frequency.c" /* the highest frequency, by Lanczos's method                                  */
+#include "src/dynamics/stretched.c" /* what deformation does to it                                                  */
 #include "src/dynamics/failure.c"  /* state-based bonds that break                                                 */
 #include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
 

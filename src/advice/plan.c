@@ -291,7 +291,7 @@ static int peri__is_thin(const peri__estimate *s) {
 static double peri__small_estimate(peri__estimate *s, double row_sum) {
     if (peri__coarsen_estimate(s, 3.0, PERI_SMALL_POINTS) < 0) return -1.0;
     const double bound = s->model.pairwise ? peri__middle_row_sum(s) : peri__corner_row_sum(s);
-    return row_sum * peri__stretched(&s->body, &s->model) * peri__small_frequency(s) / bound;
+    return row_sum * peri__small_frequency(s) / bound;
 }
 
 /* The stable step [T]. With many bonds to a family this hardly depends on how many: coarser cells then stand for them. The frequency of

@@ -412,7 +412,8 @@ typedef enum peri__stale {
     PERI__STALE_FORCE = 4,     /* body->f and all that comes with it: push, response, reactions, places of obstacles     */
     PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
     PERI__STALE_BALANCE = 16,  /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
-    PERI__STALE_SHARP = 32     /* body->sharp: bonds of which it was made have been cut or mended since; or never asked for */
+    PERI__STALE_SHARP = 32,    /* body->sharp: bonds of which it was made have been cut or mended since; or never asked for */
+    PERI__STALE_STRETCH = 64   /* now.stiffer: displacements were changed since, not by a run                            */
 } peri__stale;
 
 /* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. */
@@ -423,6 +424,7 @@ typedef struct peri__progress {
     double       load_factor;        /* of constant loads and supports; the time of callbacks where `still`              */
     int32_t      still;              /* 1: the last motion was a static one                                              */
     int32_t      torn;               /* 1: a run is under way; and where no call is, a callback left it by a jump        */
+    double       stiffer;            /* what the deformation makes of the square of the highest frequency: stretched.c   */
     uint32_t     stale;              /* bits of peri__stale                                                              */
     peri__ledger ledger;
 } peri__progress;

@@ -103,7 +103,7 @@ static peri__progress peri__at_start(int64_t cut) {
     peri__progress now;
     memset(&now, 0, sizeof now);
     now.cut = cut;
-    now.load_factor = 1.0;
+    now.load_factor = now.stiffer = 1.0;
     now.stale = PERI__STALE_FORCE | PERI__STALE_SHARP;
     return now;
 }

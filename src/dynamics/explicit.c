@@ -33,7 +33,8 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
 static double peri__step_of(const peri_body *b, double sharp) {
     const peri__model *m = b->model;
     double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum, lightest = m->rho[0];
-    if (sharp < lambda) lambda = sharp;
+    if (m->gathers & PERI__GRADIENT) lambda *= b->now.stiffer; /* of springs, the bound holds however they are stretched */
+    if (sharp * b->now.stiffer < lambda) lambda = sharp * b->now.stiffer;
     for (int32_t k = 1; k < m->materials; ++k)
         if (m->rho[k] < lightest) lightest = m->rho[k];
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -49,7 +50,10 @@ static double peri__stable(const peri_body *b) { return peri__step_of(b, b->now.
 PERI_API double peri_stable_step(const peri_body *b) {
     if (!b || !b->model) return 0.0;
     (void)peri__ensure((peri_body *)b, PERI__STALE_CONSTANTS);
-    if (b->running <= PERI__IN_FRAME) (void)peri__sharpen((peri_body *)b);
+    if (b->running <= PERI__IN_FRAME) {
+        if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch((peri_body *)b);
+        (void)peri__sharpen((peri_body *)b);
+    }
     return peri__stable(b) * b->model->time;
 }
 
@@ -136,6 +140,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         operands.loss_old = 0.0;
         peri__kick(b, &operands, &bad);
     }
+    if (b->now.steps % PERI_LOOK == 0) peri__look_at_stretch(b);
     if (b->before && broke) peri__report_breaks(b);
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
     return PERI_OK;
@@ -155,6 +160,7 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED(b, r->steps >= 0, "steps");
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "duration", -1, r->duration);
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
+    if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch(b);
     const double unit = b->model->time;
     if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */
         return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);

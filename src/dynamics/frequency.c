@@ -15,9 +15,7 @@
    equal bodies have equal steps; it knows nothing of any body, so bodies play the part of the draw.
      A body in several parts, or one that k products exhaust, is no special case.
 
-   At rest is not in motion. Springs stretched to f times resist across their length, too: L is below 1/f + D (1 - 1/f) times itself. The
-   safety of a run has room for f = 1.1, not for f = 2 in all directions. P = F S of a gradient gets stiffer by the fourth power: L of such
-   bodies is taken PERI_STRETCHED times, so that stretches of a tenth are safe, too. Linear geometry needs neither.
+   At rest is not in motion: see stretched.c.
 
    The estimate outlasts changes of the bonds that can only lower L: those of a body all of whose laws are pairwise, with no negative
    weight, where every bond adds a square to the energy. It is then made of the bonds that are not initially cut. Of other bodies it is
@@ -31,7 +29,6 @@
 #define PERI_LANCZOS_MARGIN 0.06  /* e: 3 % of the step, for 35 products of small bodies, 50 of large ones                 */
 #define PERI_LANCZOS_SLACK  (1.0 + PERI_LANCZOS_MARGIN / (1.0 - 2.0 * PERI_LANCZOS_MARGIN)) /* over T, where t = 0          */
 #define PERI_LANCZOS_CHANCE 1e-6
-#define PERI_STRETCHED      1.5   /* 1.1^4                                                                              */
 #define PERI_LANCZOS_LIMIT 64     /* products, for more points than ids can number                                        */
 
 typedef struct peri__lanczos {
@@ -252,11 +249,6 @@ static int peri__heal_for_lanczos(peri__lanczos *s) {
     return s->masks != NULL;
 }
 
-/* What the motion may make of the highest frequency at rest, squared. */
-static double peri__stretched(const peri_body *b, const peri__model *m) {
-    return m->gathers & PERI__GRADIENT && b->desc.geometry != PERI_GEOMETRY_LINEAR ? PERI_STRETCHED : 1.0;
-}
-
 /* The estimate of a body whose constants and masks are up to date. Below 0 where memory is short. */
 static double peri__estimate_frequency(const peri_body *b) {
     const peri__model *m = b->model;
@@ -293,7 +285,7 @@ static int peri__sharpen(peri_body *b) {
         (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
         const double most = peri__estimate_frequency(b);
         if (most < 0.0) return 0;
-        if (most > 0.0) b->sharp = most * peri__stretched(b, m);
+        if (most > 0.0) b->sharp = most;
     }
     b->now.stale &= ~(uint32_t)PERI__STALE_SHARP;
     return 1;
