@@ -233,8 +233,8 @@ typedef enum peri_quadrature { /* how much of a neighbour's cell counts, and fro
 } peri_quadrature;
 
 typedef enum peri_break_timing {
-    PERI_BREAK_AT_STEP_END = 601, /* a bond acts to the end of the step that breaks it */
-    PERI_BREAK_AFTER_DRIFT = 602  /* not in its second half kick [P]; ledger error O(dt) */
+    PERI_BREAK_WITHIN_STEP = 601, /* a bond acts until it meets its criterion; error O(dt^2) */
+    PERI_BREAK_AFTER_DRIFT = 602  /* until the middle of the step [P]; ledger error O(dt) */
 } peri_break_timing;
 
 /* For families cut off at surfaces, and coarse sums; measured in docs/accuracy.md. */
@@ -267,7 +267,7 @@ typedef struct peri_body_desc {
     int32_t influence;                 /* Default PERI_INFLUENCE_CONSTANT */
     int32_t quadrature;                /* Default PERI_QUADRATURE_FULL */
     int32_t correction;                /* Default PERI_CORRECTION_NONE */
-    int32_t break_timing;              /* Default PERI_BREAK_AT_STEP_END */
+    int32_t break_timing;              /* Default PERI_BREAK_WITHIN_STEP */
     int32_t kernel;                    /* Default PERI_KERNEL_BEST */
     int32_t instructions;              /* Default PERI_INSTRUCTIONS_BEST */
     int32_t threads;                   /* 0 (default): as OpenMP says; 1: serial; n: n threads */

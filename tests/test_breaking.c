@@ -65,7 +65,7 @@ static void two_points(void) {
             dim = n / 9 % 2 && n % 3 < 2 ? 2 : 3;
             precision = n / 18 % 2 ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE;
             geometry = n / 36 % 2 ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR;
-            timing = n / 72 % 2 ? PERI_BREAK_AFTER_DRIFT : PERI_BREAK_AT_STEP_END;
+            timing = n / 72 % 2 ? PERI_BREAK_AFTER_DRIFT : PERI_BREAK_WITHIN_STEP;
             above = n / 144 % 2;
             margin = precision == PERI_PRECISION_DOUBLE ? 1e-9 : 1e-5;
             stretch = crit * (above ? 1 + margin : 1 - margin);
@@ -139,7 +139,7 @@ static void add_material(peri_body *body, double young, double s0) {
 static peri_body *plain_lattice(int32_t space, int32_t precision, double s0) {
     static const double lo[3] = {0, 0, 0}, hi[3] = {8, 7, 4};
     peri_body *body = create(space, space == PERI_SPACE_SOLID ? 2.0 : 3.0, precision, PERI_INFLUENCE_CONSTANT,
-                             PERI_BREAK_AT_STEP_END);
+                             PERI_BREAK_WITHIN_STEP);
     add_material(body, 1.0, s0);
     MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
     MUST(body, peri_build(body));
@@ -254,7 +254,7 @@ static void fracture_energy(void) {
     for (n = 0; n < 8; ++n) {
         const int32_t precision = n % 2 ? PERI_PRECISION_SINGLE : PERI_PRECISION_DOUBLE;
         const int32_t influence = n / 2 % 2 ? PERI_INFLUENCE_LINEAR : PERI_INFLUENCE_CONSTANT;
-        peri_body *body = shaken(precision, influence, n / 4 ? PERI_BREAK_AFTER_DRIFT : PERI_BREAK_AT_STEP_END);
+        peri_body *body = shaken(precision, influence, n / 4 ? PERI_BREAK_AFTER_DRIFT : PERI_BREAK_WITHIN_STEP);
         const double dt = 0.5 * peri_stable_step(body), h = 0.3, *x = field(body, PERI_FIELD_POSITION), *v = field(body, PERI_FIELD_VOLUME);
         const double *material = field(body, PERI_FIELD_MATERIAL);
         double sum = 0;
@@ -289,7 +289,7 @@ static void fracture_energy(void) {
    centroid rule's two directions see different stretches where cells differ; the bond must not care. */
 static void both_directions(void) {
     for (quadrature_now = PERI_QUADRATURE_FULL; quadrature_now < peri__end_quadrature; ++quadrature_now) {
-        peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_AT_STEP_END);
+        peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_WITHIN_STEP);
         static int32_t rows[N_MAX * 128];
         const int32_t width = peri_family_width(body), n = (int32_t)peri_point_count(body);
         int64_t broken = 0, one_sided = 0, told = 0;
@@ -316,7 +316,7 @@ static void both_directions(void) {
 
 /* Truth: the stretch that is told is the one after the step's drift, so the displacement after one step gives it. */
 static void event_stretch(void) {
-    peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_AT_STEP_END);
+    peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_WITHIN_STEP);
     const double *x = field(body, PERI_FIELD_POSITION), *u, dt = 0.3 * peri_stable_step(body);
     int64_t k;
     int steps;
@@ -338,7 +338,7 @@ static void event_stretch(void) {
    bonds at the same times and stretches, to the last bit. */
 static void reset_and_repeat(void) {
     static event first[4096];
-    peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_AT_STEP_END);
+    peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_WITHIN_STEP);
     const int64_t cut = peri_cut_count(body);
     const double dt = 0.5 * peri_stable_step(body);
     double before[N_MAX];
@@ -367,7 +367,7 @@ static void reset_and_repeat(void) {
 static void clones(void) {
     static const int32_t bond[2] = {90, 91};
     double here[2 * 96], there[2 * 96];
-    peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_AT_STEP_END), *copy = NULL;
+    peri_body *body = shaken(PERI_PRECISION_DOUBLE, PERI_INFLUENCE_CONSTANT, PERI_BREAK_WITHIN_STEP), *copy = NULL;
     const double dt = 0.5 * peri_stable_step(body);
     int64_t broken;
     int32_t was;

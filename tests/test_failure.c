@@ -105,7 +105,7 @@ static void closes(tearing how, const char *note) {
     CHECK(coarse.error <= ratio * ratio * coarse.total);
 }
 static tearing small_plate(int32_t law, int32_t criterion) {
-    tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_AT_STEP_END, 1, 24, 12, 1, 0.012, 3};
+    tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_WITHIN_STEP, 1, 24, 12, 1, 0.012, 3};
     how.what = kind_of(criterion == PERI_CRITERION_NODE_ENERGY ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_PLANE_STRESS, law, criterion, 0.2);
     if (criterion == PERI_CRITERION_NODE_ENERGY) how.time = 3.5; /* begins later */
     return how;
@@ -139,7 +139,7 @@ static void fracture_closes_in_3d(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
         for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
-            tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_AT_STEP_END, 1, 16, 4, 3, 0.012, 4};
+            tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_WITHIN_STEP, 1, 16, 4, 3, 0.012, 4};
             how.what = kind_of(PERI_SPACE_SOLID, law, criterion, 0.2);
             closes(how, "");
         }

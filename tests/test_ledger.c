@@ -448,7 +448,7 @@ static double recoil(int64_t n) {
    energy of its own run. At the step's end: as good as the elastic run (within a factor of 3) and falling with dt^2 (breaks
    fall on other steps as dt changes, so the order is asked for over three halvings together: 2.0 +- 0.4). */
 static void torn_bar_closes(int32_t integrator, int32_t grips, double speed) {
-    tearing how = {PERI_BREAK_AT_STEP_END, 0, PERI_PRECISION_DOUBLE, 0, 0};
+    tearing how = {PERI_BREAK_WITHIN_STEP, 0, PERI_PRECISION_DOUBLE, 0, 0};
     double first = 0, last = 0;
     int64_t n;
     how.integrator = integrator;
@@ -473,7 +473,7 @@ static void fracture_at_the_supports_closes(void) { torn_bar_closes(PERI_INTEGRA
 
 /* Float: closes to the same size where that is above rounding: 256 steps of u on the energy, and events sum to the ledger. */
 static void fracture_closes_in_float(void) {
-    tearing how = {PERI_BREAK_AT_STEP_END, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_PRECISION_SINGLE, 1, 0.02};
+    tearing how = {PERI_BREAK_WITHIN_STEP, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_PRECISION_SINGLE, 1, 0.02};
     torn t = tear(how, 256);
     CHECK(t.broken > 10 && t.error / t.total <= 3 * recoil(256) + 256 * ULP32);
 }
@@ -493,7 +493,7 @@ static void break_after_drift_is_of_first_order(void) {
                fabs(t.end) / t.fracture, last);
     }
     CHECK(first / last > 4 && first / last < 20);
-    how.timing = PERI_BREAK_AT_STEP_END;
+    how.timing = PERI_BREAK_WITHIN_STEP;
     end = tear(how, 2048);
     CHECK(last > 2 * end.error / end.total);
 }

@@ -322,7 +322,8 @@ typedef struct peri__operands {
     int32_t            linear;  /* the geometry                                                                          */
     int32_t            working; /* the work on bonds is counted                                                          */
     int32_t            breaking; /* bonds may break                                                                      */
-    double             impulse; /* time that a bond still acts after it broke: half a step, or 0                         */
+    double             step;    /* how long the drift took                                                               */
+    void              *closing; /* real [dim][stride]: impulse per volume of the bonds that broke; NULL: it is let go     */
     double             keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                       */
     double             loss_old, loss_new; /* damping work: (loss_old v_old + loss_new v_new).(v_old + v_new)/2 rho V     */
     double            *out;     /* energy density per point, or NULL                                                     */
@@ -443,7 +444,8 @@ struct peri__ops { /* kernels of one precision, dimension and instruction set; a
     void (*gather)(void *, int64_t, int64_t, peri__sums *);  /* what each point makes of its family, then                */
     void (*gather_rows)(void *, int64_t, int64_t, peri__sums *);
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
-    void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign);
+    void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign, double time);
+    void (*part)(const peri__operands *, int64_t i, const peri__row *row, int64_t k, double *moment, double *share);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
@@ -498,6 +500,8 @@ struct peri_body {
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
     uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
+    void     *closing;       /* real [dim][stride] impulse per volume that bonds still give in the step that breaks them; 0 between
+                                steps; NULL where none break, or not so                                                  */
     void     *work;          /* real work done on bonds, by peri__bond_slot; NULL, like the next, without that criterion */
     void     *pull;          /* real force density of bonds when last worked out: on the list [entries][dim], on columns [columns][dim]
                                 [PERI_GROUP]                                                                             */

@@ -10,9 +10,8 @@
      kick      v = (v + dt/2 f/rho)/(1+h)      |  none: v stays at the half step until the run ends or a frame is shown
    Both are the same motion; the second makes one kick of two.
 
-   A bond that breaks at n+1 is not in f, but under PERI_BREAK_AT_STEP_END it still gives its half kick that closes the step. The state
-   after the step is then what the unbroken body would have reached, so breaking takes exactly the bond's energy at that state from the
-   elastic energy and the ledger closes as without fracture. */
+   A bond that breaks at n+1 is not in f. Under PERI_BREAK_WITHIN_STEP the closing kick still has what the bond gives until it meets its
+   criterion, within the step, and fracture is the energy that it has then: motion and ledger are off by O(dt^2). */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -118,7 +117,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
     operands.breaking = b->alive != NULL && m->breakable;
     operands.working = m->seen_by & PERI__BY_WORK;
-    operands.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
+    operands.step = dt;
     peri__bond_forces(b, &operands);
     if (operands.breaking) {
         peri__sums total = peri__total(b->sums, m->points);
@@ -129,6 +128,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
             b->now.broken += total.n;
         }
         broke = total.n > 0;
+        if (broke && b->closing) peri__close_step(b);
     }
     peri__hold_supports(b, dt, damping);
 
