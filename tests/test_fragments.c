@@ -375,7 +375,7 @@ static void the_step_follows(void) {
             CHECK(peri_get_error(b, &error) == PERI_OK && error.code == PERI_ERROR_STEP && strcmp(error.field, "time_step") == 0);
             CHECK_NEAR(error.value, peri_stable_step(b), 1e-12, 0);
             CHECK(peri_advance(b, &r) == PERI_ERROR_STEP && peri_step_count(b) == 10);
-            r.time_step = error.value;
+            r.time_step = (law == PERI_LAW_CORRESPONDENCE ? 0.8 : 1) * error.value; /* P = F S gets stiffer as it is stretched */
             (void)MUST(b, peri_advance(b, &r));
             CHECK(peri_step_count(b) == 60);
             all_finite(b);

@@ -332,6 +332,12 @@ typedef struct peri__operands {
     void              *change;  /* as response: of p and Q                                                               */
 } peri__operands;
 
+typedef struct peri__parting { /* how a bond breaks within a step: PERI_FN(part)                                         */
+    double met;    /* the extension at which it breaks, over that at the end of the step                                 */
+    double moment; /* when, as a part of the step                                                                        */
+    double share;  /* what it still gives, over the force at the end of the step times half a step                       */
+} peri__parting;
+
 typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                        */
     peri_body  *body;
     const void *p;      /* real [dim][stride] with margins: the change                                                   */
@@ -445,7 +451,7 @@ struct peri__ops { /* kernels of one precision, dimension and instruction set; a
     void (*gather_rows)(void *, int64_t, int64_t, peri__sums *);
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
     void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign, double time);
-    void (*part)(const peri__operands *, int64_t i, const peri__row *row, int64_t k, double *moment, double *share);
+    peri__parting (*part)(const peri__operands *, int64_t i, const peri__row *row, int64_t k);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);

@@ -5,8 +5,8 @@
    every bond that they have. Only the points that lose a bond, and those next to them, are done again.
    Under PERI_BREAK_WITHIN_STEP the difference D of the force before and after acts until the moment t of the break, a part of the step: what
    that leaves after the half kick that opened the step goes to `closing` (see PERI_FN(part)). Breaking takes the difference of two elastic
-   energies as it is at that moment: that at the end of the step and what D has done from t on, sum V D.v (1 - t) dt, below 0.
-   The bonds of a step are taken by the quarter in which they break; those of a quarter share the means of shares and moments. */
+   energies as it is at that moment: that at the end of the step and what D, which has grown from met D, has done from t on, sum V D.v
+   (1 - t) dt (1 + met)/2, below 0. The bonds of a step are taken by the quarter in which they break; those of a quarter share its means. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -18,7 +18,7 @@ typedef struct peri__deaths { /* the bonds in `dying` that break up to the end o
     const peri__operands *operands;
     int                   quarter;
     int64_t               bonds, count;  /* directed; points that lose one, then their neighbours too                    */
-    double                moment, share; /* sums over the bonds                                                          */
+    double                late, share;   /* sums over the bonds: (1 - t) (1 + met)/2, share                              */
 } peri__deaths;
 
 static void peri__mark(peri_body *b, int64_t i, uint8_t mark, int64_t *count) {
@@ -27,16 +27,16 @@ static void peri__mark(peri_body *b, int64_t i, uint8_t mark, int64_t *count) {
 }
 
 /* Is bond k of row i in the quarter? As its lower end sees it: with centroids the ends differ. */
-static int peri__parts(const peri__deaths *s, int64_t i, const peri__row *row, int64_t k, double *moment, double *share) {
+static int peri__parts(const peri__deaths *s, int64_t i, const peri__row *row, int64_t k, peri__parting *parting) {
     const int64_t j = row->ids[k];
     if (!(s->body->dying[i * s->body->model->words + k / 32] >> (k % 32) & 1)) return 0;
-    if (i < j) s->body->ops->part(s->operands, i, row, k, moment, share);
+    if (i < j) *parting = s->body->ops->part(s->operands, i, row, k);
     else {
         peri__row other;
         peri__read_row(s->body, j, &other);
-        s->body->ops->part(s->operands, j, &other, peri__find_bond(s->body->model, j, i), moment, share);
+        *parting = s->body->ops->part(s->operands, j, &other, peri__find_bond(s->body->model, j, i));
     }
-    return s->quarter == PERI_QUARTERS - 1 || *moment * PERI_QUARTERS < s->quarter + 1;
+    return s->quarter == PERI_QUARTERS - 1 || parting->moment * PERI_QUARTERS < s->quarter + 1;
 }
 
 /* The points that lose a bond (1) and their neighbours (2); both ends of a bond lose it if one finds it over its limit. */
@@ -50,13 +50,13 @@ static void peri__mark_dying(peri__deaths *s) {
             const int64_t i = m->record_reals ? peri__nth(m, n) : n;
             peri__read_row(b, i, &row);
             for (int64_t k = 0; k < row.count; ++k) {
-                double moment, share;
-                if (!peri__parts(s, i, &row, k, &moment, &share)) continue;
+                peri__parting parting;
+                if (!peri__parts(s, i, &row, k, &parting)) continue;
                 const int64_t j = row.ids[k], back = peri__find_bond(m, j, i);
                 b->dying[j * m->words + back / 32] |= (uint32_t)1 << (back % 32);
                 s->bonds++;
-                s->moment += moment;
-                s->share += share;
+                s->late += (1.0 - parting.moment) * 0.5 * (1.0 + parting.met);
+                s->share += parting.share;
                 peri__mark(b, i, 1, &s->count);
                 peri__mark(b, j, 1, &s->count);
             }
@@ -78,8 +78,8 @@ static void peri__part_point(peri__deaths *s, int64_t i) {
     peri__read_row(b, i, &row);
     for (int64_t k = 0; k < row.count; ++k) {
         const uint32_t flag = (uint32_t)1 << (k % 32);
-        double moment, share;
-        if (!peri__parts(s, i, &row, k, &moment, &share)) continue;
+        peri__parting parting;
+        if (!peri__parts(s, i, &row, k, &parting)) continue;
         b->alive[i * m->words + k / 32] &= ~flag;
         b->now.broken++;
     }
@@ -117,7 +117,7 @@ static void peri__break_quarter(peri__deaths *s) {
     const peri__operands *o = s->operands;
     peri__mark_dying(s);
     if (s->count == 0) return;
-    const double late = 1.0 - s->moment / (double)s->bonds, time = 0.5 * o->step * s->share / (double)s->bonds;
+    const double late = s->late / (double)s->bonds, time = 0.5 * o->step * s->share / (double)s->bonds;
     double power = peri__power_at_stake(s), energy = 0.0;
     b->ops->add_point_forces(o, b->near_dying, s->count, -1, time);
     energy = peri__energy_at_stake(s);

@@ -105,22 +105,16 @@ PERI_INLINE int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri_
 
 /* ---- breaking ------------------------------------------------------------------------------------------------------- */
 
-typedef struct PERI_FN(parting) { /* how a bond breaks within a step                                                     */
-    double met;    /* the extension at which its criterion is met, over the present one                                  */
-    double moment; /* when, as a part of the step                                                                        */
-    double share;  /* what it still gives, over the present force times half a step: see below                           */
-} PERI_FN(parting);
-
 /* The extension goes from e0 to e, linearly, and meets the criterion at met e: at the part t of the step dt. Until then the bond gives
    dt (t f0 + t^2/2 (f - f0)); the half kick that opened the step has given dt/2 f0 of it; over dt/2 f that leaves (2 t - 1) q + t^2 (1 - q),
-   q = e0/e: 1 at the end of the step, below 0 in its first half. Energies of nodes are not known at the start of the step: of a bond that
-   meets its criterion while it gets shorter the moment is the middle. Both ends come to the same numbers, up to centroids. */
-PERI_INLINE PERI_FN(parting) PERI_FN(part)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+   q = e0/e: 1 at the end of the step, below 0 in its first half. A bond that is beyond its limit when the step begins breaks then. Energies
+   of nodes are not known at the start of the step: of a bond that meets its criterion while it gets shorter the moment is the middle. Both ends come to the same numbers, up to centroids. */
+PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k], stride = s->model->stride;
     const peri_r *v = (const peri_r *)s->v;
     const double length = (double)bond->length, now = (double)bond->along / (double)bond->reach;
     double along = 0.0, square = 0.0, met = 1.0;
-    PERI_FN(parting) parting = { 1.0, 1.0, 0.0 };
+    peri__parting parting = { 1.0, 1.0, 0.0 };
     if (!s->closing) return parting;
     for (int d = 0; d < PERI_D; ++d) {
         const double xi = (double)bond->xi[d], eta = (double)bond->eta[d] - s->step * ((double)v[d * stride + j] - (double)v[d * stride + i]);
@@ -137,20 +131,16 @@ PERI_INLINE PERI_FN(parting) PERI_FN(part)(const peri__operands *s, int64_t i, c
     const double before = along / (s->linear ? length : sqrt(square) + length), q = before / now;
     double t = now > before ? (met * now - before) / (now - before) : 0.5;
     if (!(t > 0.0)) t = 0.0;
-    parting.met = met;
+    parting.met = q + t * (1.0 - q);
     parting.moment = t;
     parting.share = (2.0 * t - 1.0) * q + t * t * (1.0 - q);
     return parting;
 }
 
-/* Of bond k of point i. */
-static void PERI_FN(part_of)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, double *moment, double *share) {
+static peri__parting PERI_FN(part_of)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k) {
     PERI_FN(bond) bond;
-    PERI_FN(parting) parting;
     PERI_FN(deform)(s, i, row, k, &bond);
-    parting = PERI_FN(part)(s, i, row, k, &bond);
-    *moment = parting.moment;
-    *share = parting.share;
+    return PERI_FN(part)(s, i, row, k, &bond);
 }
 
 /* ---- the force ------------------------------------------------------------------------------------------------------ */
@@ -262,7 +252,7 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
                 over++;
                 if (pairwise) {
                     const double c = PERI_FN(pair)(s, i, row->ids[k])->c, weight = (double)((const peri_b *)row->weight)[k];
-                    const PERI_FN(parting) parting = PERI_FN(part)(s, i, row, k, &bond);
+                    const peri__parting parting = PERI_FN(part)(s, i, row, k, &bond);
                     const double stretch = parting.met * (double)bond.along / ((double)bond.reach * (double)bond.length);
                     *lost += 0.25 * (double)(peri_b)c * weight * stretch * stretch * (double)bond.length * m->volume[i];
                     for (int d = 0; d < PERI_D; ++d) impulse[d] += (peri_r)(0.5 * s->step * parting.share * (double)force[d]);
