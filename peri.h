@@ -408,7 +408,7 @@ PERI_API double peri_load_factor(const peri_body *body); /* that loads act with;
 /* How bonds are worked on: "columns, AVX-512", "list, SSE2", "rows", "reference". */
 PERI_API const char *peri_kernel_text(const peri_body *body);
 
-/* Largest stable time step [T] at rest, to 4 %; of state-based bodies that can break, a bound.
+/* Largest stable time step [T], to 4 % at rest; of state-based bodies that can break, a bound.
    Takes some 50 steps once: docs/accuracy.md. 0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 

@@ -140,7 +140,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         operands.loss_old = 0.0;
         peri__kick(b, &operands, &bad);
     }
-    if (b->now.steps % PERI_LOOK == 0) peri__look_at_stretch(b);
+    peri__look_in_time(b);
     if (b->before && broke) peri__report_breaks(b);
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
     return PERI_OK;

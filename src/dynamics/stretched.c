@@ -11,13 +11,14 @@
    times that at rest; that of P = F S, as d(F S) = dF S + F C:(F^T dF) says, below f^2 + D/2 (f^2 - 1). Random displacements, whose bonds turn
    every way, add next to nothing.
 
-   The shortest bonds of each point are looked at, which see the largest differences: by who asks after a change, and every
-   PERI_LOOK steps of a run. Ordinary bodies have room in the default safety for strains of a third between two looks. */
+   The shortest bonds of each point are looked at, which see the largest differences: by who asks after a change, and now and then in a
+   run. Ordinary bodies have room in the default safety for strains of a third between two looks. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_LOOK       8    /* steps                                                                                      */
+#define PERI_LOOK       32   /* steps between two looks                                                                    */
+#define PERI_LOOK_OFTEN 8    /* where P = F S                                                                              */
 #define PERI_SHORT      1.5  /* times the shortest bond of a point, and it is looked at                                    */
 #define PERI_NO_STIFFER 1.05 /* the margin of the estimate has room for that, and small strains leave the step alone        */
 
@@ -102,4 +103,8 @@ static void peri__look_at_stretch(peri_body *b) {
     if (m->gathers & PERI__GRADIENT) stiffer = most + 0.5 * m->dim * (most - 1.0);
     else stiffer = 1.0 + 0.5 * (m->dim - 1) * (sqrt(most) - 1.0) + 0.5 * (1.0 - sqrt(least));
     if (stiffer > PERI_NO_STIFFER) b->now.stiffer = ceil(8.0 * stiffer) / 8.0;
+}
+
+static void peri__look_in_time(peri_body *b) {
+    if (b->now.steps % (b->model->gathers & PERI__GRADIENT ? PERI_LOOK_OFTEN : PERI_LOOK) == 0) peri__look_at_stretch(b);
 }
