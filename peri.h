@@ -233,8 +233,8 @@ typedef enum peri_quadrature { /* how much of a neighbour's cell counts, and fro
 } peri_quadrature;
 
 typedef enum peri_break_timing {
-    PERI_BREAK_AT_STEP_END = 601, /* a bond acts to the end of the step that breaks it */
-    PERI_BREAK_AFTER_DRIFT = 602  /* not in its second half kick [P]; ledger error O(dt) */
+    PERI_BREAK_WITHIN_STEP = 601, /* a bond acts until it meets its criterion; error O(dt^2) */
+    PERI_BREAK_AFTER_DRIFT = 602  /* until the middle of the step [P]; ledger error O(dt) */
 } peri_break_timing;
 
 /* For families cut off at surfaces, and coarse sums; measured in docs/accuracy.md. */
@@ -267,7 +267,7 @@ typedef struct peri_body_desc {
     int32_t influence;                 /* Default PERI_INFLUENCE_CONSTANT */
     int32_t quadrature;                /* Default PERI_QUADRATURE_FULL */
     int32_t correction;                /* Default PERI_CORRECTION_NONE */
-    int32_t break_timing;              /* Default PERI_BREAK_AT_STEP_END */
+    int32_t break_timing;              /* Default PERI_BREAK_WITHIN_STEP */
     int32_t kernel;                    /* Default PERI_KERNEL_BEST */
     int32_t instructions;              /* Default PERI_INSTRUCTIONS_BEST */
     int32_t threads;                   /* 0 (default): as OpenMP says; 1: serial; n: n threads */
@@ -408,8 +408,8 @@ PERI_API double peri_load_factor(const peri_body *body); /* that loads act with;
 /* How bonds are worked on: "columns, AVX-512", "list, SSE2", "rows", "reference". */
 PERI_API const char *peri_kernel_text(const peri_body *body);
 
-/* Largest stable time step [T], a bound from the bonds of each point, unstretched ([T] 2.11), and
-   the obstacles; how sharp: docs/accuracy.md. 0 before peri_build. */
+/* Largest stable time step [T], to 4 % at rest; of state-based bodies that can break, a bound.
+   Takes some 50 steps once: docs/accuracy.md. 0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
 /* Rows [first, first+count) of the families ([T] 3.11) to rows[count*width]: ascending, padded with
@@ -807,7 +807,7 @@ typedef struct peri_plan_report {
 
 PERI_API void peri_plan_desc_init(peri_plan_desc *desc);
 
-/* What a scene will cost, before it is made: about a millisecond. Refuses what peri_body_create,
+/* What a scene will cost, before it is made: some milliseconds. Refuses what peri_body_create,
    peri_add_material, peri_add_box and peri_build would refuse. error may be NULL. */
 PERI_API int32_t peri_plan(const peri_plan_desc *desc, peri_plan_report *report, peri_error *error);
 

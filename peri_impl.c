@@ -102,6 +102,8 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
 
 /* ---- dynamics -------------------------------------------------------------------------- */
+#include "src/dynamics/frequency.c" /* the highest frequency, by Lanczos's method                                  */
+#include "src/dynamics/stretched.c" /* what deformation does to it                                                  */
 #include "src/dynamics/failure.c"  /* state-based bonds that break                                                 */
 #include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
 
@@ -128,6 +130,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 /* ---- advice ---------------------------------------------------------------------------- */
 #ifndef PERI_NO_ADVICE
 #include "src/advice/estimate.c"     /* a body that is only described  -> its bonds and columns                      */
+#include "src/advice/plan_step.c"    /* its stable step                                                             */
 #include "src/advice/plan.c"       /* what a scene would cost                                                      */
 #include "src/advice/choose.c"     /* the knobs for an accuracy or a budget                                        */
 #endif

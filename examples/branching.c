@@ -10,7 +10,7 @@
 
 static int32_t watch(void *user, peri_body *body) {
     (void)user;
-    progress("branching", body, 642 * 67e-9);
+    progress("branching", body, 43e-6);
     must(body, peri_export_history(body, "out/branching.csv", 1));
     return 0; /* go on */
 }
@@ -49,8 +49,7 @@ int main(void) {
     must(pane, peri_set_no_fail(pane, near_lower, 1));
 
     peri_advance_desc_init(&run);
-    run.time_step = 67e-9; /* [s], 642 steps: 43 us */
-    run.steps = 642;
+    run.duration = 43e-6; /* [s], in steps that are stable */
     run.frame_steps = 20;
     run.on_frame = watch;
     must(pane, peri_export_history(pane, "out/branching.csv", 0));

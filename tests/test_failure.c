@@ -89,9 +89,10 @@ static torn tear(const tearing *how, int64_t n) {
     return t;
 }
 
-/* SOURCE OF TRUTH: the first law, and that breaking at a step's end takes just the difference of two elastic energies: the scheme
+/* SOURCE OF TRUTH: the first law, and that breaking takes the difference of two elastic energies at the moment of the break: the scheme
    stays of second order, a quarter of the step has a sixteenth of the error. Bonds break on other steps, and fragments that part
-   go their own ways, so the order is asked to be above 1.7 (a first-order leak has 1). In absolute terms: Verlet keeps the energy E
+   go their own ways, so the order is asked to be above 1.7 (a first-order leak has 1); or, where the long steps happen to close better than
+   that, the short ones to a thirtieth of the 1e-3 that a first-order leak leaves of them (below). In absolute terms: Verlet keeps the energy E
    of a mode of frequency w to E (w dt/2)^2, and w <= 2/stable step. */
 static void closes(tearing how, const char *note) {
     const int64_t n = (int64_t)(56 * how.time);
@@ -101,11 +102,11 @@ static void closes(tearing how, const char *note) {
            dim_of(how.what.space), law_name[how.what.law % 100], criterion_name[how.what.criterion % 100], note, (int)coarse.broken,
            (int)fine.broken, fine.fracture / fine.external, coarse.error / coarse.external, fine.error / fine.external, order);
     CHECK(coarse.broken > 50 && fine.broken > 50 && fabs(fine.fracture) > 0.005 * fine.external);
-    CHECK(order >= 1.7);
+    CHECK(order >= 1.7 || fine.error <= 3e-5 * fine.external);
     CHECK(coarse.error <= ratio * ratio * coarse.total);
 }
 static tearing small_plate(int32_t law, int32_t criterion) {
-    tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_AT_STEP_END, 1, 24, 12, 1, 0.012, 3};
+    tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_WITHIN_STEP, 1, 24, 12, 1, 0.012, 3};
     how.what = kind_of(criterion == PERI_CRITERION_NODE_ENERGY ? PERI_SPACE_PLANE_STRAIN : PERI_SPACE_PLANE_STRESS, law, criterion, 0.2);
     if (criterion == PERI_CRITERION_NODE_ENERGY) how.time = 3.5; /* begins later */
     return how;
@@ -139,7 +140,7 @@ static void fracture_closes_in_3d(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
         for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
-            tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_AT_STEP_END, 1, 16, 4, 3, 0.012, 4};
+            tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_WITHIN_STEP, 1, 16, 4, 3, 0.012, 4};
             how.what = kind_of(PERI_SPACE_SOLID, law, criterion, 0.2);
             closes(how, "");
         }
@@ -157,7 +158,7 @@ static void fracture_closes_on_a_large_plate(void) {
 }
 
 /* SOURCE OF TRUTH: after the drift the second half kick of the broken bonds is missing: an error of the first order per bond. Eight
-   times the steps: 8 times less (accepted 4 to 20), and more than what AT_STEP_END leaves. */
+   times the steps: 8 times less (accepted 4 to 20), and more than what WITHIN_STEP leaves. */
 static void break_after_drift_is_of_first_order(void) {
     int32_t law;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law) {
@@ -166,7 +167,7 @@ static void break_after_drift_is_of_first_order(void) {
         how.timing = PERI_BREAK_AFTER_DRIFT;
         coarse = tear(&how, 168);
         fine = tear(&how, 1344);
-        printf("    %-10s |error|/external %.1e, %.1e; at the step's end %.1e\n", law_name[law % 100], coarse.error / coarse.external,
+        printf("    %-10s |error|/external %.1e, %.1e; within the step %.1e\n", law_name[law % 100], coarse.error / coarse.external,
                fine.error / fine.external, end.error / end.external);
         CHECK(coarse.error > 4 * fine.error && coarse.error < 20 * fine.error && fine.error > 2 * end.error);
     }

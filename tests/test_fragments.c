@@ -343,20 +343,21 @@ static void the_step_follows(void) {
             shears s, fine;
             peri_body *b = shaken(law, &r, &s);
             peri_error error;
-            const double before = peri_stable_step(b);
+            const double before = peri_stable_step(b), part = 0.65;
             double after, chosen, steps;
             r.integrator = integrator;
+            r.safety = part; /* stable is not yet exact: the error of the ledger goes with the square of the step */
             r.duration = 3; /* the step is the library's: it goes on with shorter ones and ends on the dot */
             (void)MUST(b, peri_advance(b, &r));
             after = peri_stable_step(b);
-            CHECK(after < 0.9 * before && peri_time(b) == 3);
+            CHECK(after < part * before && peri_time(b) == 3); /* so the step has to follow */
             steps = (double)peri_step_count(b);
-            CHECK(steps > 3 / (0.9 * before) + 1 && steps <= 10 + 3 / (0.9 * after) + 1);
+            CHECK(steps > 3 / (part * before) + 1 && steps <= 10 + 3 / (part * after) + 1);
             peri_body_destroy(b);
             b = shaken(law, &r, &fine); /* a quarter of the step: the ledger's error is of second order */
             r.duration = 3;
             r.integrator = integrator;
-            r.safety = 0.225;
+            r.safety = part / 4;
             r.frame_steps = 40;
             (void)MUST(b, peri_advance(b, &r));
             if (integrator == PERI_INTEGRATOR_VELOCITY_VERLET)
@@ -374,7 +375,7 @@ static void the_step_follows(void) {
             CHECK(peri_get_error(b, &error) == PERI_OK && error.code == PERI_ERROR_STEP && strcmp(error.field, "time_step") == 0);
             CHECK_NEAR(error.value, peri_stable_step(b), 1e-12, 0);
             CHECK(peri_advance(b, &r) == PERI_ERROR_STEP && peri_step_count(b) == 10);
-            r.time_step = error.value;
+            r.time_step = (law == PERI_LAW_CORRESPONDENCE ? 0.8 : 1) * error.value; /* P = F S gets stiffer as it is stretched */
             (void)MUST(b, peri_advance(b, &r));
             CHECK(peri_step_count(b) == 60);
             all_finite(b);

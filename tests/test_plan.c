@@ -86,7 +86,11 @@ static void build(scene *s) {
     (void)MUST(s->body, peri_build(s->body));
 }
 
-/* Plans without a single call of the allocator, then builds and compares. Tolerances are those of peri.h. */
+/* Can its bonds break? */
+static int breakable(const scene *s) { return s->material.critical_stretch > 0 || s->material.fracture_energy > 0; }
+
+/* Plans without a single call of the allocator, then builds and compares. Tolerances are those of peri.h: the step of a box to 5 %. Where
+   state-based bonds can break it is the bound, of points that see the same faces: exact. */
 static void compare(scene *s, const char *what, int exact) {
     peri_plan_report r;
     peri_error error;
@@ -103,7 +107,9 @@ static void compare(scene *s, const char *what, int exact) {
     if (exact) CHECK(r.width == peri_family_width(s->body));
     CHECK_NEAR(r.bytes, s->memory.live, exact ? 0 : 0.05, 0);
     CHECK_NEAR(r.peak, s->memory.most, exact ? 0.03 : 0.05, exact ? 0 : 5e5);
-    if (exact) CHECK_NEAR(r.stable_step, peri_stable_step(s->body), s->desc.precision == PERI_PRECISION_SINGLE ? 1e-4 : 1e-8, 0);
+    if (exact && s->material.law != PERI_LAW_BOND_BASED && breakable(s))
+        CHECK_NEAR(r.stable_step, peri_stable_step(s->body), s->desc.precision == PERI_PRECISION_SINGLE ? 1e-4 : 1e-8, 0);
+    else if (exact) CHECK_NEAR(r.stable_step, peri_stable_step(s->body), 0.05, 0);
     if (test_bad != bad)
         printf("    %s, space %d, m %g, law %d, precision %d, quadrature %d: bytes %+.2f %%, peak %+.2f %%\n", what, s->desc.space,
                s->desc.horizon, s->material.law, s->desc.precision, s->desc.quadrature,
@@ -379,23 +385,45 @@ static void huge_bodies_are_counted_or_refused(void) {
 
 /* ---- the stable step and the time of a step ----------------------------------------------------------------------- */
 
-/* Of bond-based points with whole families: 2/sqrt(lambda), lambda = 2 sum c V/|xi|/rho over the 28 neighbours within 3 spacings. */
+/* Bond-based points with whole families, 28 neighbours within 3 spacings. SOURCE OF TRUTH: plane waves u = U exp(i k.xi) in a body without
+   end, whose frequencies are those of the matrix sum c V/|xi| n n (1 - cos k.xi)/rho, n = xi/|xi|: the largest over a fine grid of k, those
+   of a zone. The step is 2/sqrt(lambda), less 10 % at most. Twice the sum of c V/|xi|/rho bounds lambda by row sums ([T] 2.11): the step is
+   no less than that gives, and no more than 2.1 times it. */
 static void step_is_that_of_the_formula(void) {
+    enum { WAVES = 120 };
     scene s;
     peri_plan_report r;
     const double spacing = 1e-3, young = 72e9, density = 2440, h = 3 * spacing;
-    double sum = 0;
-    int x, y;
+    const double c = micromodulus(PERI_SPACE_PLANE_STRESS, young, h);
+    double sum = 0, lambda = 0, classic, sharp;
+    int x, y, p, q;
     for (x = -3; x <= 3; ++x)
         for (y = -3; y <= 3; ++y)
-            if (x * x + y * y <= 9 && (x || y)) sum += micromodulus(PERI_SPACE_PLANE_STRESS, young, h) * spacing / sqrt(x * x + y * y);
+            if (x * x + y * y <= 9 && (x || y)) sum += c * spacing / sqrt(x * x + y * y);
+    for (p = 0; p <= WAVES; ++p)
+        for (q = 0; q <= WAVES; ++q) {
+            const double kx = acos(-1.0) * p / WAVES, ky = acos(-1.0) * q / WAVES;
+            double xx = 0, yy = 0, xy = 0;
+            for (x = -3; x <= 3; ++x)
+                for (y = -3; y <= 3; ++y) {
+                    const double square = x * x + y * y;
+                    const double a = square > 0 && square <= 9 ? c * spacing / pow(square, 1.5) * (1 - cos(kx * x + ky * y)) : 0;
+                    xx += a * x * x;
+                    yy += a * y * y;
+                    xy += a * x * y;
+                }
+            lambda = fmax(lambda, (0.5 * (xx + yy) + hypot(0.5 * (xx - yy), xy)) / density);
+        }
     set_scene(&s, PERI_SPACE_PLANE_STRESS, h, PERI_LAW_BOND_BASED, 1, 1, 1, 1);
     s.material.young = young;
     s.material.density = density;
     s.plan.hi[0] = s.plan.hi[1] = 0.1;
     s.plan.spacing = spacing;
     CHECK(peri_plan(&s.plan, &r, NULL) == PERI_OK && r.points == 10000);
-    CHECK_NEAR(r.stable_step, 2 / sqrt(2 * sum / density), 1e-12, 0);
+    classic = 2 / sqrt(2 * sum / density);
+    sharp = 2 / sqrt(lambda);
+    CHECK(r.stable_step <= sharp && r.stable_step >= sharp / 1.1);
+    CHECK(r.stable_step >= classic * (1 - 1e-12) && r.stable_step <= 2.1 * classic);
 }
 
 static void measuring_builds_and_frees_a_small_body(void) {

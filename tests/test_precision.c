@@ -62,7 +62,7 @@ static void fracture_as_in_double(void) {
                 MUST(b, peri_add_velocity(b, slab(b, 0, -1, 9.99), push));
                 peri_advance_desc_init(&run);
                 run.steps = 60;
-                run.safety = 0.5;
+                run.safety = 0.3; /* it is the precisions that are compared: where steps err much, a rounding decides on a bond */
                 MUST(b, peri_get_momentum(b, before, NULL));
                 MUST(b, peri_advance(b, &run));
                 broken[k] = peri_broken_count(b);

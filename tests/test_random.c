@@ -72,7 +72,7 @@ static peri_body *shape_of(int32_t kernel, double *lo, double *hi, uint64_t seed
     d.influence = PERI_INFLUENCE_CONSTANT + whole_below(6);
     d.quadrature = PERI_QUADRATURE_FULL + whole_below(d.space == PERI_SPACE_SOLID ? 3 : 5);
     d.horizon = real_in(1.2, 3.2);
-    d.break_timing = PERI_BREAK_AT_STEP_END + whole_below(2);
+    d.break_timing = PERI_BREAK_WITHIN_STEP + whole_below(2);
     *rounded = d.precision != PERI_PRECISION_DOUBLE;
     *after_drift = d.break_timing == PERI_BREAK_AFTER_DRIFT;
     d.thickness = real_in(0.1, 1.1);

@@ -5,7 +5,6 @@
 #endif
 
 #define PERI_COOKIE_PLAN (UINT64_C(0x7065726900050000) + sizeof(peri_plan_desc))
-#define PERI_CLASS_LIMIT 256        /* kinds of places in a body whose stiffness is worked out                            */
 #define PERI_BYTES_PER_BOND 128     /* more than any body takes                                                           */
 #define PERI_MEASURED_BONDS 400000  /* of the small body: beyond the first cache, quick to build                          */
 #define PERI_MEASURED_SECONDS 0.004 /* of one measurement: long beside a tick of the clock                                */
@@ -237,153 +236,85 @@ static void peri__plan_bytes(peri__estimate *s, const peri_plan_desc *plan, peri
 
 /* ---- the stable step ---------------------------------------------------------------------------------------------- */
 
-/* Lengths and weights of the bonds of a whole family. */
-static int32_t peri__weigh_estimate(peri__estimate *s) {
-    const int32_t dim = s->model.dim;
-    double total = 0.0, stiff = 0.0;
-    for (int64_t k = 0; k < s->vector_count; ++k) {
-        peri__bond bond;
-        for (int32_t d = 0; d < dim; ++d) s->x[dim + d] = s->vector[k][d] * (s->piece.cell[d] / s->model.length);
-        if (!peri__weigh_bond(&s->cloud, &s->parts, 0, 1, &bond)) return peri__fail(&s->body, PERI_ERROR_INFLUENCE, "influence", 0, 0.0);
-        s->length[k] = bond.length;
-        s->weight[k] = bond.weight;
-        total += fabs(bond.weight);
-        stiff += bond.weight * bond.length * bond.length;
-    }
-    const int32_t status = peri__check_weight(&s->body, total, stiff, s->model.pairwise);
-    return status < 0 ? peri__fail(&s->body, status, "influence", 0, 0.0) : PERI_OK;
-}
-
-/* The point that bond k of p leads to. 0 where that is outside. */
-static int peri__leads(const peri__estimate *s, const int64_t *p, int64_t k, int64_t *to) {
-    for (int d = 0; d < 3; ++d) {
-        to[d] = p[d] + s->vector[k][d];
-        if (to[d] < 0 || to[d] >= s->n[d]) return 0;
-    }
-    return 1;
-}
-
-static void peri__vector_of_bond(const peri__estimate *s, int64_t k, double *xi) {
-    for (int d = 0; d < 3; ++d) xi[d] = d < s->model.dim ? s->vector[k][d] * (s->piece.cell[d] / s->model.length) : 0.0;
-}
-
-/* The row sum of the stiffness over rho of the bond-based point in the middle, as peri__row_sum_block has it. */
-static double peri__middle_row_sum(const peri__estimate *s) {
-    const int64_t middle[3] = { (s->n[0] - 1) / 2, (s->n[1] - 1) / 2, (s->n[2] - 1) / 2 };
-    int64_t to[3];
-    double row_sum = 0.0;
-    for (int64_t k = 0; k < s->vector_count; ++k)
-        if (peri__leads(s, middle, k, to)) row_sum += 2.0 * s->pair.c * fabs(s->weight[k]) / s->length[k];
-    return row_sum;
-}
-
-typedef struct peri__sample { /* points that see the same faces, mirrored or not                                         */
-    peri__calibration r;
-    double         gather_diagonal, sum, gather_row_sum; /* see stiffness.c */
-} peri__sample;
-
-static double peri__gather_weight_of(const peri__estimate *s, const peri__sample *a, const double *xi, double bond) {
-    const int32_t dim = s->model.dim;
-    double square = 0.0;
-    if (!(s->model.laws[0].gather & PERI__GRADIENT)) return a->r.theta_factor * peri__law_gauge(&s->model.laws[0], bond);
-    for (int32_t p = 0; p < dim; ++p) {
-        double sum = 0.0;
-        for (int32_t q = 0; q < dim; ++q) sum += a->r.shape_inverse[peri__packed(dim, p, q)] * xi[q];
-        square += sum * sum;
-    }
-    return sqrt(square);
-}
-
-/* As peri__set_constants and peri__set_gather_row_sum of the whole family of p. */
-static void peri__fill_sample(const peri__estimate *s, const int64_t *p, peri__sample *a) {
-    const peri__law *law = &s->model.laws[0];
-    const int tensor = (law->gather & PERI__GRADIENT) != 0;
-    double gather_diagonal[3] = { 0.0, 0.0, 0.0 }, xi[3], stiff = 0.0;
-    int64_t to[3];
-    peri__moments sum;
-    memset(&sum, 0, sizeof sum);
-    for (int64_t k = 0; k < s->vector_count; ++k) {
-        if (!peri__leads(s, p, k, to)) continue;
-        peri__vector_of_bond(s, k, xi);
-        peri__add_moments(&sum, s->model.dim, xi, s->length[k], s->weight[k]);
-    }
-    if (!peri__calibrate(law, s->model.dim, &sum, &a->r)) a->r.spring = sum.m > 0.0 ? law->b / sum.m : 0.0;
-    a->sum = 0.0;
-    for (int64_t k = 0; k < s->vector_count; ++k) {
-        if (!peri__leads(s, p, k, to)) continue;
-        peri__vector_of_bond(s, k, xi);
-        const double gauge = peri__gather_weight_of(s, a, xi, s->length[k]);
-        a->sum += fabs(s->weight[k]) * gauge;
-        for (int d = 0; d < 3; ++d) gather_diagonal[d] += s->weight[k] * (tensor ? xi[d] : gauge * xi[d] / s->length[k]);
-    }
-    a->gather_diagonal = tensor ? peri__gather_weight_of(s, a, gather_diagonal, 1.0) : sqrt(peri__dot(gather_diagonal, gather_diagonal, 3));
-    if (tensor) stiff = law->lambda > 0.0 ? s->model.dim * law->lambda + 2.0 * law->mu : 2.0 * law->mu;
-    else if (a->r.theta_factor > 0.0) stiff = a->r.pressure_factor / a->r.theta_factor;
-    a->gather_row_sum = stiff > 0.0 ? stiff * (a->gather_diagonal + a->sum) : 0.0;
-}
-
-/* The largest row_sum of a state-based body, as peri__set_row_sum has it. Points within a horizon of faces are the stiffest; mirrored ones
-   are alike, so one corner is enough. */
-static double peri__corner_row_sum(const peri__estimate *s) {
-    peri__sample sample[PERI_CLASS_LIMIT];
-    int64_t kinds[3], p[3], to[3], all = 1;
-    double largest = 0.0, xi[3];
-    for (int d = 0; d < 3; ++d) all *= kinds[d] = 1 + peri__min(s->span[d], (s->n[d] - 1) / 2);
-    for (int64_t k = 0; k < all; ++k) {
-        p[0] = k % kinds[0];
-        p[1] = k / kinds[0] % kinds[1];
-        p[2] = k / kinds[0] / kinds[1];
-        peri__fill_sample(s, p, &sample[k]);
-    }
-    for (int64_t k = 0; k < all; ++k) {
-        const peri__sample *a = &sample[k];
-        double row_sum = a->gather_diagonal * a->gather_row_sum;
-        p[0] = k % kinds[0];
-        p[1] = k / kinds[0] % kinds[1];
-        p[2] = k / kinds[0] / kinds[1];
-        for (int64_t v = 0; v < s->vector_count; ++v) {
-            if (!peri__leads(s, p, v, to)) continue;
-            peri__vector_of_bond(s, v, xi);
-            int64_t at = 0;
-            for (int d = 2; d >= 0; --d) {
-                const int64_t back = s->n[d] - 1 - to[d];
-                if (back < to[d]) xi[d] = -xi[d]; /* mirrored, as its sample is */
-                at = at * kinds[d] + peri__min(kinds[d] - 1, peri__min(to[d], back));
-            }
-            const peri__sample *c = &sample[at];
-            row_sum += 2.0 * fabs(s->weight[v]) * (a->r.spring + a->r.stabilization + c->r.spring + c->r.stabilization);
-            if (c->gather_row_sum > 0.0) row_sum += fabs(s->weight[v]) * peri__gather_weight_of(s, c, xi, s->length[v]) * c->gather_row_sum;
+/* Cuts the longest axes down until the points are so many. */
+static void peri__shrink_piece(peri__estimate *s, int64_t points) {
+    int64_t most = INT64_MAX, all = 0;
+    for (;;) {
+        int64_t longest = 1;
+        all = 1;
+        for (int32_t d = 0; d < s->body.dim; ++d) {
+            const int64_t n = peri__min(s->piece.cells[d], most);
+            all *= n;
+            if (n > longest) longest = n;
         }
-        if (row_sum > largest) largest = row_sum;
+        if (all <= points) break;
+        most = most == INT64_MAX && longest > 4 * points ? points : longest - 1;
     }
-    return largest;
+    for (int32_t d = 0; d < s->body.dim; ++d) s->piece.cells[d] = peri__min(s->piece.cells[d], most);
 }
 
-/* The stable step [T]. With many bonds to a family this hardly depends on how many: coarser cells then stand for them. */
+/* Lays the scene out anew, in at most `most` cells to the horizon and `points` in all. */
+static int32_t peri__coarsen_estimate(peri__estimate *s, double most, int64_t points) {
+    const double coarser = s->model.horizon / s->model.spacing / most;
+    for (int32_t d = 0; d < s->body.dim; ++d) {
+        const double extent = s->piece.cell[d] * (double)s->piece.cells[d], edge = s->body.desc.horizon / most;
+        const int64_t least = peri__min(2, s->piece.cells[d]);
+        const int64_t fit = coarser > 1.0 ? (extent > edge ? (int64_t)(extent / edge + 0.5) : 1) : s->piece.cells[d];
+        const int64_t kept = fit > least ? fit : least;
+        s->piece.cell[d] = extent / (double)kept;
+        s->piece.cells[d] = kept;
+    }
+    peri__shrink_piece(s, points);
+    int32_t status = peri__lay_out_estimate(s);
+    if (status < 0) return status;
+    peri__count_bonds(s);
+    peri__list_vectors(s);
+    return peri__weigh_estimate(s);
+}
+
+/* Will the body have an estimate? As in frequency.c. */
+static int peri__plans_sharply(const peri__estimate *s) {
+    int softens = s->model.pairwise;
+    for (int64_t k = 0; k < s->vector_count; ++k) softens = softens && s->weight[k] >= 0.0;
+    return s->body.desc.quadrature != PERI_QUADRATURE_PARTIAL_CENTROID && (softens || !s->model.breakable);
+}
+
+/* Are some families nowhere whole? */
+static int peri__is_thin(const peri__estimate *s) {
+    for (int32_t d = 0; d < s->body.dim; ++d)
+        if (s->n[d] < 2 * s->span[d] + 2) return 1;
+    return 0;
+}
+
+/* The highest frequency, squared, of a small body: as far below its bound as it is, the scene's is below row_sum. Below 0 where that cannot
+   be laid out. */
+static double peri__small_estimate(peri__estimate *s, double row_sum) {
+    if (peri__coarsen_estimate(s, 3.0, PERI_SMALL_POINTS) < 0) return -1.0;
+    const double bound = s->model.pairwise ? peri__middle_row_sum(s) : peri__corner_row_sum(s);
+    return row_sum * peri__small_frequency(s) / bound;
+}
+
+/* The stable step [T]. With many bonds to a family this hardly depends on how many: coarser cells then stand for them. The frequency of
+   bodies that are not pairwise is that of a small one in so far as it exceeds its bound. */
 static int32_t peri__plan_step(peri__estimate *s, double *step) {
-    const double most = s->body.dim == 3 ? 5.0 : 15.0;
     int64_t all = 1;
     s->jitter = 0.0;
     for (int d = 0; d < 3; ++d) all *= 1 + s->span[d];
-    if (s->vector_count == 0 || (!s->model.pairwise && all > PERI_CLASS_LIMIT)) {
-        const double coarser = s->model.horizon / s->model.spacing / most;
-        for (int32_t d = 0; d < s->body.dim; ++d) {
-            const double extent = s->piece.cell[d] * (double)s->piece.cells[d], edge = s->body.desc.horizon / most;
-            const int64_t least = peri__min(2, s->piece.cells[d]);
-            const int64_t fit = coarser > 1.0 && extent > edge ? (int64_t)(extent / edge + 0.5) : 1;
-            s->piece.cells[d] = fit > least ? fit : least;
-            s->piece.cell[d] = extent / (double)s->piece.cells[d];
-        }
-        int32_t status = peri__lay_out_estimate(s);
-        if (status < 0) return status;
-        peri__count_bonds(s);
-        peri__list_vectors(s);
-    }
-    int32_t status = peri__weigh_estimate(s);
+    const int coarsen = s->vector_count == 0 || (!s->model.pairwise && all > PERI_CLASS_LIMIT);
+    int32_t status = coarsen ? peri__coarsen_estimate(s, s->body.dim == 3 ? 5.0 : 15.0, INT64_MAX) : peri__weigh_estimate(s);
     if (status < 0) return status;
-    const double row_sum = !s->model.pairwise ? peri__corner_row_sum(s) : peri__middle_row_sum(s);
+    double row_sum = !s->model.pairwise ? peri__corner_row_sum(s) : peri__middle_row_sum(s);
     if (!(row_sum > 1e-30 && row_sum < 1e30)) return peri__fail(&s->body, PERI_ERROR_RANGE, "horizon", -1, s->body.desc.horizon);
-    *step = 2.0 / sqrt(row_sum) * s->model.time;
+    const double time = s->model.time;
+    if (peri__plans_sharply(s)) {
+        const double symbol = s->model.pairwise ? peri__symbol_frequency(s) : 0.0;
+        const int thin = peri__is_thin(s), whole = s->model.points <= PERI_SMALL_POINTS;
+        double sharp = s->model.pairwise && !thin ? symbol : peri__small_estimate(s, row_sum);
+        if (sharp < 0.0) return s->body.error.code;
+        if (s->model.pairwise && thin && !whole) sharp = sqrt(symbol * sharp); /* one is too high, the other too low */
+        if (PERI_LANCZOS_SLACK * sharp < row_sum) row_sum = PERI_LANCZOS_SLACK * sharp;
+    }
+    *step = 2.0 / sqrt(row_sum) * time;
     return PERI_OK;
 }
 

@@ -322,7 +322,8 @@ typedef struct peri__operands {
     int32_t            linear;  /* the geometry                                                                          */
     int32_t            working; /* the work on bonds is counted                                                          */
     int32_t            breaking; /* bonds may break                                                                      */
-    double             impulse; /* time that a bond still acts after it broke: half a step, or 0                         */
+    double             step;    /* how long the drift took                                                               */
+    void              *closing; /* real [dim][stride]: impulse per volume of the bonds that broke; NULL: it is let go     */
     double             keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                       */
     double             loss_old, loss_new; /* damping work: (loss_old v_old + loss_new v_new).(v_old + v_new)/2 rho V     */
     double            *out;     /* energy density per point, or NULL                                                     */
@@ -330,6 +331,12 @@ typedef struct peri__operands {
     void              *q;       /* real [dim][stride]: the change that the tangent makes of the force density            */
     void              *change;  /* as response: of p and Q                                                               */
 } peri__operands;
+
+typedef struct peri__parting { /* how a bond breaks within a step: PERI_FN(part)                                         */
+    double met;    /* the extension at which it breaks, over that at the end of the step                                 */
+    double moment; /* when, as a part of the step                                                                        */
+    double share;  /* what it still gives, over the force at the end of the step times half a step                       */
+} peri__parting;
 
 typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                        */
     peri_body  *body;
@@ -411,7 +418,9 @@ typedef enum peri__stale {
     PERI__STALE_CONSTANTS = 2, /* body->constant, gather_row_sum, row_sum, largest_row_sum, central: likewise, where laws are state-based */
     PERI__STALE_FORCE = 4,     /* body->f and all that comes with it: push, response, reactions, places of obstacles     */
     PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
-    PERI__STALE_BALANCE = 16   /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
+    PERI__STALE_BALANCE = 16,  /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
+    PERI__STALE_SHARP = 32,    /* body->sharp: bonds of which it was made have been cut or mended since; or never asked for */
+    PERI__STALE_STRETCH = 64   /* now.stiffer: displacements were changed since, not by a run                            */
 } peri__stale;
 
 /* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. */
@@ -422,6 +431,7 @@ typedef struct peri__progress {
     double       load_factor;        /* of constant loads and supports; the time of callbacks where `still`              */
     int32_t      still;              /* 1: the last motion was a static one                                              */
     int32_t      torn;               /* 1: a run is under way; and where no call is, a callback left it by a jump        */
+    double       stiffer;            /* what the deformation makes of the square of the highest frequency: stretched.c   */
     uint32_t     stale;              /* bits of peri__stale                                                              */
     peri__ledger ledger;
 } peri__progress;
@@ -440,7 +450,8 @@ struct peri__ops { /* kernels of one precision, dimension and instruction set; a
     void (*gather)(void *, int64_t, int64_t, peri__sums *);  /* what each point makes of its family, then                */
     void (*gather_rows)(void *, int64_t, int64_t, peri__sums *);
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
-    void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign);
+    void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign, double time);
+    peri__parting (*part)(const peri__operands *, int64_t i, const peri__row *row, int64_t k);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
@@ -488,11 +499,15 @@ struct peri_body {
     void     *response;      /* bond [1 + dim*dim][stride]: p, and Q where there are tensors; with margins               */
     double   *row_sum, *gather_row_sum; /* [points] row sum of the stiffness over rho; kappa_i R_i, see stiffness.c */
     double    largest_row_sum; /* largest row_sum                                                                        */
+    double    sharp;         /* the square of the highest frequency, estimated: frequency.c; HUGE_VAL where it is not     */
+    int32_t   softens;       /* 1: found to get no stiffer whatever bonds it loses, so that `sharp` outlasts that         */
     uint8_t  *central;       /* [groups of PERI_GROUP] 1: points there or beside it act by central bonds instead of a gradient; NULL without
                                 gradients                                                                                */
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
     uint8_t  *marked;        /* [points] scratch: 1 loses a bond, 2 is next to one that does                             */
+    void     *closing;       /* real [dim][stride] impulse per volume that bonds still give in the step that breaks them; 0 between
+                                steps; NULL where none break, or not so                                                  */
     void     *work;          /* real work done on bonds, by peri__bond_slot; NULL, like the next, without that criterion */
     void     *pull;          /* real force density of bonds when last worked out: on the list [entries][dim], on columns [columns][dim]
                                 [PERI_GROUP]                                                                             */

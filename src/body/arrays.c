@@ -35,7 +35,7 @@ typedef struct peri__array {
     int           wanted;
     peri__purpose purpose;
 } peri__array;
-#define PERI_ARRAYS 25       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 26       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
 #define PERI_MODEL_ARRAYS 18 /* with all others                                                                           */
 
@@ -125,6 +125,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE),
         PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE),
+        PERI_ARRAY_(closing, vector, real, m->breakable && b->desc.break_timing == PERI_BREAK_WITHIN_STEP, PERI__DAMAGE),
         PERI_ARRAY_(work, bonds, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
         PERI_ARRAY_(pull, bonds * m->dim, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
         PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),

@@ -14,7 +14,7 @@ PERI_API void peri_body_desc_init(peri_body_desc *d) {
     d->geometry = PERI_GEOMETRY_NONLINEAR;
     d->influence = PERI_INFLUENCE_CONSTANT;
     d->quadrature = PERI_QUADRATURE_FULL;
-    d->break_timing = PERI_BREAK_AT_STEP_END;
+    d->break_timing = PERI_BREAK_WITHIN_STEP;
     d->correction = PERI_CORRECTION_NONE;
     d->kernel = PERI_KERNEL_BEST;
     d->instructions = PERI_INSTRUCTIONS_BEST;
@@ -103,8 +103,8 @@ static peri__progress peri__at_start(int64_t cut) {
     peri__progress now;
     memset(&now, 0, sizeof now);
     now.cut = cut;
-    now.load_factor = 1.0;
-    now.stale = PERI__STALE_FORCE;
+    now.load_factor = now.stiffer = 1.0;
+    now.stale = PERI__STALE_FORCE | PERI__STALE_SHARP;
     return now;
 }
 

@@ -79,6 +79,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
         peri__set_flags(m, b->alive);
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
     }
+    if (b->closing) memset(b->closing, 0, vector);
     if (b->work) {
         memset(b->work, 0, (size_t)peri__bond_slots(m) * peri__real(b));
         memset(b->pull, 0, (size_t)(peri__bond_slots(m) * m->dim) * peri__real(b));
@@ -87,7 +88,10 @@ PERI_API int32_t peri_reset(peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         memcpy(b->obstacles[k].position, b->obstacles[k].position0, sizeof b->obstacles[k].position);
     for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
+    const uint32_t sharp = b->now.stale & PERI__STALE_SHARP, healed = b->now.broken > 0;
     b->now = peri__at_start(b->now.cut);
+    b->now.stale = PERI__STALE_FORCE | sharp;
     if (b->alive) peri__changed(b, PERI__BONDS);
+    if (!healed) b->now.stale &= ~(uint32_t)PERI__STALE_SHARP | sharp;
     return PERI_OK;
 }

@@ -29,7 +29,10 @@ static void peri__changed(peri_body *b, peri__change what) {
     if (what == PERI__MOTION || what == PERI__CUTS) peri__note_energy(b);
     if (what == PERI__CUTS || what == PERI__BONDS) b->now.stale |= PERI__STALE_MASKS;
     if ((what == PERI__CUTS || what == PERI__BONDS) && !b->model->pairwise) b->now.stale |= PERI__STALE_CONSTANTS;
+    if ((what == PERI__CUTS && b->now.steps == 0) || ((what == PERI__CUTS || what == PERI__BONDS) && !b->softens))
+        b->now.stale |= PERI__STALE_SHARP; /* initial cracks, of which a body that softens knows, come before the first step */
     b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
+    if (what == PERI__MOTION) b->now.stale |= PERI__STALE_STRETCH;
 }
 
 /* f of u, loads and bonds as they are, without breaking anything. */

@@ -25,6 +25,7 @@ static peri__operands peri__operands_of(const peri_body *b) {
     s.pairs = b->pairs;
     s.classes = b->classes;
     s.central = b->central;
+    s.closing = b->closing;
     s.work = b->work;
     s.pull = b->pull;
     if (b->worked) s.worked = (const char *)b->worked + (size_t)m->margin * peri__real(b);

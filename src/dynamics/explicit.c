@@ -10,9 +10,8 @@
      kick      v = (v + dt/2 f/rho)/(1+h)      |  none: v stays at the half step until the run ends or a frame is shown
    Both are the same motion; the second makes one kick of two.
 
-   A bond that breaks at n+1 is not in f, but under PERI_BREAK_AT_STEP_END it still gives its half kick that closes the step. The state
-   after the step is then what the unbroken body would have reached, so breaking takes exactly the bond's energy at that state from the
-   elastic energy and the ledger closes as without fracture. */
+   A bond that breaks at n+1 is not in f. Under PERI_BREAK_WITHIN_STEP the closing kick still has what the bond gives until it meets its
+   criterion, within the step, and fracture is the energy that it has then: motion and ledger are off by O(dt^2). */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -28,11 +27,13 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
     r->load_factor = (double)NAN;
 }
 
-/* Inner units. 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice, once on the
-   diagonal and once off it; obstacles once, taken as if all touched the lightest point. */
-static double peri__stable(const peri_body *b) {
+/* The stable step, inner units: 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice,
+   once on the diagonal and once off it; `sharp`: or what is closer; obstacles once, taken as if all touched the lightest point. */
+static double peri__step_of(const peri_body *b, double sharp) {
     const peri__model *m = b->model;
     double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum, lightest = m->rho[0];
+    if (m->gathers & PERI__GRADIENT) lambda *= b->now.stiffer; /* of springs, the bound holds however they are stretched */
+    if (sharp * b->now.stiffer < lambda) lambda = sharp * b->now.stiffer;
     for (int32_t k = 1; k < m->materials; ++k)
         if (m->rho[k] < lightest) lightest = m->rho[k];
     for (int64_t k = 0; k < b->obstacle_count; ++k)
@@ -40,9 +41,18 @@ static double peri__stable(const peri_body *b) {
     return 2.0 / sqrt(lambda);
 }
 
+/* By the bound, which costs nothing; and by the estimate too, where there is one that holds. */
+static double peri__bounded(const peri_body *b) { return peri__step_of(b, HUGE_VAL); }
+
+static double peri__stable(const peri_body *b) { return peri__step_of(b, b->now.stale & PERI__STALE_SHARP ? HUGE_VAL : b->sharp); }
+
 PERI_API double peri_stable_step(const peri_body *b) {
     if (!b || !b->model) return 0.0;
     (void)peri__ensure((peri_body *)b, PERI__STALE_CONSTANTS);
+    if (b->running <= PERI__IN_FRAME) {
+        if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch((peri_body *)b);
+        (void)peri__sharpen((peri_body *)b);
+    }
     return peri__stable(b) * b->model->time;
 }
 
@@ -107,7 +117,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
     operands.breaking = b->alive != NULL && m->breakable;
     operands.working = m->seen_by & PERI__BY_WORK;
-    operands.impulse = b->desc.break_timing == PERI_BREAK_AT_STEP_END ? 0.5 * dt : 0.0;
+    operands.step = dt;
     peri__bond_forces(b, &operands);
     if (operands.breaking) {
         peri__sums total = peri__total(b->sums, m->points);
@@ -118,6 +128,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
             b->now.broken += total.n;
         }
         broke = total.n > 0;
+        if (broke && b->closing) peri__close_step(b);
     }
     peri__hold_supports(b, dt, damping);
 
@@ -129,6 +140,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         operands.loss_old = 0.0;
         peri__kick(b, &operands, &bad);
     }
+    peri__look_in_time(b);
     if (b->before && broke) peri__report_breaks(b);
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
     return PERI_OK;
@@ -148,7 +160,10 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED(b, r->steps >= 0, "steps");
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "duration", -1, r->duration);
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
+    if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch(b);
     const double unit = b->model->time;
+    if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */
+        return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
     double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
     /* in the unit of time both may vanish */
     if (!(peri__stored(step / unit) > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
@@ -199,7 +214,7 @@ static int32_t peri__plan_steps(peri_body *b, const peri_advance_desc *r, double
 
 static double peri__next_size(const peri__plan *plan) { return plan->done < plan->full ? plan->dt : plan->last; }
 
-/* Is a step of `size` too large by now? State-based bonds that broke, or an obstacle that on_frame added, can have made it so. */
+/* Is a step of `size` too large by now? State-based bonds that broke, or what on_frame cut or added, can have made it so. */
 static int peri__outrun(const peri_body *b, const peri_advance_desc *r, double size) {
     return !(r->force_step && r->time_step > 0.0) && size > peri__stable(b) * (1.0 + 1e-12);
 }
@@ -238,7 +253,9 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
             status = peri__show_frame(b, r);
         }
         if (status == PERI_OK) status = peri__heed_callbacks(b);
-        if (status == PERI_OK && plan.done < plan.steps && peri__outrun(b, r, peri__next_size(&plan))) {
+        if (status != PERI_OK || plan.done == plan.steps || !peri__outrun(b, r, peri__next_size(&plan))) continue;
+        if (!peri__sharpen(b)) return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
+        if (peri__outrun(b, r, peri__next_size(&plan))) {
             if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
             plan.dt = r->safety * peri__stable(b);
             status = peri__plan_steps(b, r, plan.end - b->now.time, &plan);

@@ -1,23 +1,48 @@
 /* SPDX-License-Identifier: MIT */
-/* failure.c - state-based bonds that meet their criterion are taken out.
+/* failure.c - bonds that meet their criterion are taken out; those of pairwise bodies by the force pass itself.
 
    A bond of a state-based body is in the sums of both its ends, so when it breaks the constants of both change, and with them the force of
-   every bond that they have. Only the points that lose a bond, and those next to them, are done again. As with bond-based bonds the
-   step is closed with the old force (PERI_BREAK_AT_STEP_END), so that breaking takes just the difference of two elastic energies, at
-   one displacement, out of the ledger. */
+   every bond that they have. Only the points that lose a bond, and those next to them, are done again.
+   Under PERI_BREAK_WITHIN_STEP the difference D of the force before and after acts until the moment t of the break, a part of the step: what
+   that leaves after the half kick that opened the step goes to `closing` (see PERI_FN(part)). Breaking takes the difference of two elastic
+   energies as it is at that moment: that at the end of the step and what D, which has grown from met D, has done from t on, sum V D.v
+   (1 - t) dt (1 + met)/2, below 0. The bonds of a step are taken by the quarter in which they break; those of a quarter share its means. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
+
+#define PERI_QUARTERS 4
+
+typedef struct peri__deaths { /* the bonds in `dying` that break up to the end of a quarter                              */
+    peri_body            *body;
+    const peri__operands *operands;
+    int                   quarter;
+    int64_t               bonds, count;  /* directed; points that lose one, then their neighbours too                    */
+    double                late, share;   /* sums over the bonds: (1 - t) (1 + met)/2, share                              */
+} peri__deaths;
 
 static void peri__mark(peri_body *b, int64_t i, uint8_t mark, int64_t *count) {
     if (!b->marked[i]) b->near_dying[(*count)++] = (int32_t)i;
     if (!b->marked[i] || mark == 1) b->marked[i] = mark;
 }
 
+/* Is bond k of row i in the quarter? As its lower end sees it: with centroids the ends differ. */
+static int peri__parts(const peri__deaths *s, int64_t i, const peri__row *row, int64_t k, peri__parting *parting) {
+    const int64_t j = row->ids[k];
+    if (!(s->body->dying[i * s->body->model->words + k / 32] >> (k % 32) & 1)) return 0;
+    if (i < j) *parting = s->body->ops->part(s->operands, i, row, k);
+    else {
+        peri__row other;
+        peri__read_row(s->body, j, &other);
+        *parting = s->body->ops->part(s->operands, j, &other, peri__find_bond(s->body->model, j, i));
+    }
+    return s->quarter == PERI_QUARTERS - 1 || parting->moment * PERI_QUARTERS < s->quarter + 1;
+}
+
 /* The points that lose a bond (1) and their neighbours (2); both ends of a bond lose it if one finds it over its limit. */
-static int64_t peri__mark_dying(peri_body *b) {
+static void peri__mark_dying(peri__deaths *s) {
+    peri_body *b = s->body;
     const peri__model *m = b->model;
-    int64_t count = 0;
     peri__row row;
     for (int64_t block = 0; block < m->blocks; ++block) {
         if (b->sums[block].n == 0) continue;
@@ -25,65 +50,116 @@ static int64_t peri__mark_dying(peri_body *b) {
             const int64_t i = m->record_reals ? peri__nth(m, n) : n;
             peri__read_row(b, i, &row);
             for (int64_t k = 0; k < row.count; ++k) {
-                if (!(b->dying[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-                int64_t j = row.ids[k], back = peri__find_bond(m, j, i);
+                peri__parting parting;
+                if (!peri__parts(s, i, &row, k, &parting)) continue;
+                const int64_t j = row.ids[k], back = peri__find_bond(m, j, i);
                 b->dying[j * m->words + back / 32] |= (uint32_t)1 << (back % 32);
-                peri__mark(b, i, 1, &count);
-                peri__mark(b, j, 1, &count);
+                s->bonds++;
+                s->late += (1.0 - parting.moment) * 0.5 * (1.0 + parting.met);
+                s->share += parting.share;
+                peri__mark(b, i, 1, &s->count);
+                peri__mark(b, j, 1, &s->count);
             }
         }
     }
-    for (int64_t n = 0, losing = count; n < losing; ++n) {
+    for (int64_t n = 0, losing = s->count; n < losing; ++n) {
         int64_t i = b->near_dying[n];
         peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k)
-            if (peri__is_alive(b, i, k)) peri__mark(b, row.ids[k], 2, &count);
+            if (peri__is_alive(b, i, k)) peri__mark(b, row.ids[k], 2, &s->count);
     }
-    return count;
+}
+
+/* Takes the bonds of point i that part out, and makes its constants anew. */
+static void peri__part_point(peri__deaths *s, int64_t i) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    peri__row row;
+    peri__read_row(b, i, &row);
+    for (int64_t k = 0; k < row.count; ++k) {
+        const uint32_t flag = (uint32_t)1 << (k % 32);
+        peri__parting parting;
+        if (!peri__parts(s, i, &row, k, &parting)) continue;
+        b->alive[i * m->words + k / 32] &= ~flag;
+        b->now.broken++;
+    }
+    if (b->masks) peri__group_masks(m, i / PERI_GROUP, (uint32_t)1 << (i % PERI_GROUP), b->alive, b->masks);
+    peri__set_constants(b, i, &row);
+    peri__set_gather_row_sum(b, i, &row);
 }
 
 /* Energy of the points that lose a bond. */
-static double peri__energy_at_stake(peri_body *b, peri__operands *operands, int64_t count) {
+static double peri__energy_at_stake(const peri__deaths *s) {
+    const peri_body *b = s->body;
     peri__sums sums;
     memset(&sums, 0, sizeof sums);
-    for (int64_t n = 0; n < count; ++n)
-        if (b->marked[b->near_dying[n]] == 1) b->ops->energy(operands, b->near_dying[n], b->near_dying[n] + 1, &sums);
+    for (int64_t n = 0; n < s->count; ++n)
+        if (b->marked[b->near_dying[n]] == 1) b->ops->energy((void *)s->operands, b->near_dying[n], b->near_dying[n] + 1, &sums);
     return sums.a;
 }
 
-/* Breaks the bonds in `dying`. Serial: few points lose a bond in a step, and their order is fixed. */
-static void peri__break_states(peri_body *b, const peri__operands *at) {
+/* sum V f.v of the points whose force changes. */
+static double peri__power_at_stake(const peri__deaths *s) {
+    const peri_body *b = s->body;
     const peri__model *m = b->model;
-    peri__operands operands = *at;
-    int64_t count = peri__mark_dying(b);
-    operands.breaking = 0;
-    operands.out = NULL;
-    b->ops->add_point_forces(&operands, b->near_dying, count, -1);
-    double energy = peri__energy_at_stake(b, &operands, count);
-    for (int64_t n = 0; n < count; ++n) {
-        int64_t i = b->near_dying[n];
-        for (int64_t k = 0; k < m->count[i]; ++k) {
-            uint32_t flag = (uint32_t)1 << (k % 32), *alive = &b->alive[i * m->words + k / 32];
-            if (b->marked[i] != 1 || !(b->dying[i * m->words + k / 32] & flag)) continue;
-            *alive &= ~flag;
-            b->dying[i * m->words + k / 32] &= ~flag;
-            b->now.broken++;
+    double power = 0.0;
+    for (int64_t n = 0; n < s->count; ++n)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            const int64_t i = b->near_dying[n], at = d * m->stride + i;
+            power += m->volume[i] * peri__get_real(b->f, b->f32, at) * peri__get_real(b->v, b->f32, at);
         }
-        if (b->marked[i] == 1) {
-            if (b->masks) peri__group_masks(m, i / PERI_GROUP, (uint32_t)1 << (i % PERI_GROUP), b->alive, b->masks);
-            peri__row row;
-            peri__read_row(b, i, &row);
-            peri__set_constants(b, i, &row);
-            peri__set_gather_row_sum(b, i, &row);
-        }
+    return power;
+}
+
+/* Serial: few points lose a bond in a step, and their order is fixed. */
+static void peri__break_quarter(peri__deaths *s) {
+    peri_body *b = s->body;
+    const peri__operands *o = s->operands;
+    peri__mark_dying(s);
+    if (s->count == 0) return;
+    const double late = s->late / (double)s->bonds, time = 0.5 * o->step * s->share / (double)s->bonds;
+    double power = peri__power_at_stake(s), energy = 0.0;
+    b->ops->add_point_forces(o, b->near_dying, s->count, -1, time);
+    energy = peri__energy_at_stake(s);
+    for (int64_t n = 0; n < s->count; ++n)
+        if (b->marked[b->near_dying[n]] == 1) peri__part_point(s, b->near_dying[n]);
+    for (int64_t n = 0; n < s->count; ++n) {
+        const int64_t i = b->near_dying[n];
+        for (int32_t word = 0; b->marked[i] == 1 && word < b->model->words; ++word)
+            b->dying[i * b->model->words + word] &= b->alive[i * b->model->words + word];
+        if (b->marked[i] == 1) b->ops->gather_rows((void *)o, i, i + 1, NULL);
     }
-    for (int64_t n = 0; n < count; ++n)
-        if (b->marked[b->near_dying[n]] == 1) b->ops->gather_rows(&operands, b->near_dying[n], b->near_dying[n] + 1, NULL);
-    b->now.ledger.fracture += energy - peri__energy_at_stake(b, &operands, count);
-    b->ops->add_point_forces(&operands, b->near_dying, count, 1);
-    for (int64_t n = 0; n < count; ++n) {
+    energy -= peri__energy_at_stake(s);
+    b->ops->add_point_forces(o, b->near_dying, s->count, 1, time);
+    power -= peri__power_at_stake(s);
+    b->now.ledger.fracture += energy + late * o->step * power;
+    for (int64_t n = 0; n < s->count; ++n) {
         peri__set_row_sum(b, b->near_dying[n]);
         b->marked[b->near_dying[n]] = 0;
     }
+}
+
+/* Breaks the bonds in `dying`. */
+static void peri__break_states(peri_body *b, const peri__operands *at) {
+    peri__operands operands = *at;
+    operands.breaking = 0;
+    operands.out = NULL;
+    for (int quarter = 0; quarter < PERI_QUARTERS; ++quarter) {
+        peri__deaths deaths = { b, &operands, quarter, 0, 0, 0.0, 0.0 };
+        peri__break_quarter(&deaths);
+    }
     peri__find_largest_row_sum(b);
+}
+
+/* v takes what the bonds that broke in the step still give. */
+static void peri__close_step(peri_body *b) {
+    const peri__model *m = b->model;
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            const int64_t at = d * m->stride + i;
+            const double impulse = peri__get_real(b->closing, b->f32, at);
+            if (impulse == 0.0) continue;
+            peri__put_real(b->v, b->f32, at, peri__get_real(b->v, b->f32, at) + impulse / m->rho[m->material[i]]);
+            peri__put_real(b->closing, b->f32, at, 0.0);
+        }
 }

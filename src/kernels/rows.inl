@@ -103,6 +103,46 @@ PERI_INLINE int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri_
     return over;
 }
 
+/* ---- breaking ------------------------------------------------------------------------------------------------------- */
+
+/* The extension goes from e0 to e, linearly, and meets the criterion at met e: at the part t of the step dt. Until then the bond gives
+   dt (t f0 + t^2/2 (f - f0)); the half kick that opened the step has given dt/2 f0 of it; over dt/2 f that leaves (2 t - 1) q + t^2 (1 - q),
+   q = e0/e: 1 at the end of the step, below 0 in its first half. A bond that is beyond its limit when the step begins breaks then. Energies
+   of nodes are not known at the start of the step: of a bond that meets its criterion while it gets shorter the moment is the middle. Both ends come to the same numbers, up to centroids. */
+PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const int64_t j = row->ids[k], stride = s->model->stride;
+    const peri_r *v = (const peri_r *)s->v;
+    const double length = (double)bond->length, now = (double)bond->along / (double)bond->reach;
+    double along = 0.0, square = 0.0, met = 1.0;
+    peri__parting parting = { 1.0, 1.0, 0.0 };
+    if (!s->closing) return parting;
+    for (int d = 0; d < PERI_D; ++d) {
+        const double xi = (double)bond->xi[d], eta = (double)bond->eta[d] - s->step * ((double)v[d * stride + j] - (double)v[d * stride + i]);
+        along += (s->linear ? xi : 2.0 * xi + eta) * eta;
+        square += (xi + eta) * (xi + eta);
+    }
+#define PERI_CASE(name, number)                                             \
+    {                                                                       \
+        const double at = PERI_FN(met_##name)(s, i, row, k, bond);          \
+        if (at < met) met = at;                                             \
+    }
+    PERI_CRITERION_LIST(PERI_CASE)
+#undef PERI_CASE
+    const double before = along / (s->linear ? length : sqrt(square) + length), q = before / now;
+    double t = now > before ? (met * now - before) / (now - before) : 0.5;
+    if (!(t > 0.0)) t = 0.0;
+    parting.met = q + t * (1.0 - q);
+    parting.moment = t;
+    parting.share = (2.0 * t - 1.0) * q + t * t * (1.0 - q);
+    return parting;
+}
+
+static peri__parting PERI_FN(part_of)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k) {
+    PERI_FN(bond) bond;
+    PERI_FN(deform)(s, i, row, k, &bond);
+    return PERI_FN(part)(s, i, row, k, &bond);
+}
+
 /* ---- the force ------------------------------------------------------------------------------------------------------ */
 
 /* Both halves of a bond of laws that differ: adds the tensor parts to t and returns the force along y over |y|. */
@@ -178,8 +218,9 @@ static void PERI_FN(count_work)(const peri__operands *s, int64_t i, const peri__
     }
 }
 
-/* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, their force going to
-   `impulse` and their energy to *lost (per volume of the body); else they are noted in `dying`, and still act. Returns their number.
+/* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, what they still give going to
+   `impulse` and the energy that they break with to *lost (per volume of the body); else they are noted in `dying`, and still act. Returns
+   their number.
    `pairwise`, `mixed` and `plain` (neither linear nor centred, only critical stretches) are constants where this is inlined. */
 PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse, double *lost,
                                        const int pairwise, const int mixed, const int plain) {
@@ -211,9 +252,10 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
                 over++;
                 if (pairwise) {
                     const double c = PERI_FN(pair)(s, i, row->ids[k])->c, weight = (double)((const peri_b *)row->weight)[k];
-                    const double stretch = (double)bond.along / ((double)bond.reach * (double)bond.length);
+                    const peri__parting parting = PERI_FN(part)(s, i, row, k, &bond);
+                    const double stretch = parting.met * (double)bond.along / ((double)bond.reach * (double)bond.length);
                     *lost += 0.25 * (double)(peri_b)c * weight * stretch * stretch * (double)bond.length * m->volume[i];
-                    for (int d = 0; d < PERI_D; ++d) impulse[d] += force[d];
+                    for (int d = 0; d < PERI_D; ++d) impulse[d] += (peri_r)(0.5 * s->step * parting.share * (double)force[d]);
                     continue;
                 }
             }
@@ -242,11 +284,8 @@ static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, 
     }
     const int32_t broke = plain ? PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0, 1)
                                 : PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0, 0);
-    if (broke) {
-        const peri_r kick = (peri_r)(s->impulse / m->rho[m->material[i]]);
-        for (int d = 0; d < PERI_D; ++d) ((peri_r *)s->v)[d * m->stride + i] += kick * impulse[d];
-        sums->n += broke;
-    }
+    for (int d = 0; broke && s->closing && d < PERI_D; ++d) ((peri_r *)s->closing)[d * m->stride + i] = impulse[d];
+    sums->n += broke;
 }
 
 /* Points [begin, end), one by one. */
@@ -261,19 +300,18 @@ static void PERI_FN(force_rows)(const peri__operands *s, int64_t begin, int64_t 
     }
 }
 
-/* For the points of a list: takes the force that their bonds give out of f (sign -1), or puts it in (1), and gives the opposite of it for
-   the time s->impulse to v. */
-static void PERI_FN(add_point_forces)(const peri__operands *s, const int32_t *points, int64_t count, int sign) {
+/* For the points of a list: takes the force that their bonds give out of f (sign -1), or puts it in (1), and adds the opposite of it for
+   some time to `closing`. */
+static void PERI_FN(add_point_forces)(const peri__operands *s, const int32_t *points, int64_t count, int sign, double time) {
     const peri__model *m = s->model;
     for (int64_t k = 0; k < count; ++k) {
         const int64_t i = points[k];
-        const peri_r kick = (peri_r)(s->impulse / m->rho[m->material[i]]);
         peri_r f[PERI_D] = { 0 };
         peri__sums sums = { 0.0, 0.0, 0, -1 };
         PERI_FN(point_force)(s, i, f, &sums);
         for (int d = 0; d < PERI_D; ++d) {
             ((peri_r *)s->f)[d * m->stride + i] += (peri_r)sign * f[d];
-            ((peri_r *)s->v)[d * m->stride + i] -= (peri_r)sign * kick * f[d];
+            if (s->closing) ((peri_r *)s->closing)[d * m->stride + i] -= (peri_r)(sign * time) * f[d];
         }
     }
 }

@@ -20,6 +20,11 @@ PERI_INLINE int PERI_FN(over_stretch)(const peri__operands *s, int64_t i, const 
     if (s->model->centroid && j < i) return PERI_FN(is_over_for_other)(s, i, j, s0);
     return bond->along > s0 * bond->length * bond->reach;
 }
+
+PERI_INLINE double PERI_FN(met_stretch)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const double s0 = PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_STRETCH - peri__first_criterion];
+    return (double)(peri_b)s0 * (double)bond->length * (double)bond->reach / (double)bond->along;
+}
 #endif
 
 #ifdef PERI_CRITERION_ROLE_EXCESS

@@ -38,7 +38,7 @@ static int peri__relax_step(peri__solver *s, double unit, int64_t k) {
 
 static int32_t peri__relax(peri__solver *s) {
     peri_body *b = s->body;
-    double unit = 1.1 / peri__square(peri__stable(b));
+    double unit = 1.1 / peri__square(peri__bounded(b));
     double loads, residual;
     s->floor = peri__rounding(b) * s->top;
     if (peri__gap(s)) {

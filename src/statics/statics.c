@@ -336,6 +336,7 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_
         peri__changed(b, PERI__ACTION);
     }
     if (status != PERI_OK && s.from && s.begun) peri__count_stray(&s);
+    b->now.stale |= PERI__STALE_STRETCH;
     peri__free_solver(&s);
     if (report) *report = s.report;
     return status;

@@ -33,7 +33,7 @@ typedef struct setting {
 } setting;
 
 static setting plain(double limit) {
-    setting c = {PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, PERI_BREAK_AT_STEP_END, 0, 0};
+    setting c = {PERI_GEOMETRY_NONLINEAR, PERI_CRITERION_STRETCH, PERI_BREAK_WITHIN_STEP, 0, 0};
     c.limit = limit;
     return c;
 }
@@ -232,7 +232,7 @@ static double limit_probe(scene *s) {
     expand(s, s->row->other);
     if (extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     stored = e.elastic;
-    (void)advance(s, 1, 0.9, 1e-9 * peri_stable_step(s->body));
+    (void)advance(s, 1, 0.9, 1e-10 * peri_stable_step(s->body)); /* no energy moves */
     if (s->o->status < 0 || extreme_fails(s->o, s->body, peri_get_energy(s->body, &e))) return NAN;
     broken = (double)peri_broken_count(s->body);
     if (broken != (s->row->choice ? bonds_of(s) : 0)) return 1;
@@ -247,7 +247,7 @@ static outcome limits_of(const extreme *row, int32_t precision, int32_t criterio
     c.criterion = criterion;
     if (criterion == PERI_CRITERION_BOND_ENERGY) c.except = PERI_LAW_OTERKUS;
     for (c.geometry = PERI_GEOMETRY_NONLINEAR; c.geometry < peri__end_geometry; ++c.geometry)
-        for (c.timing = PERI_BREAK_AT_STEP_END; c.timing < peri__end_break_timing; ++c.timing) each(&o, row, precision, &c, limit_probe);
+        for (c.timing = PERI_BREAK_WITHIN_STEP; c.timing < peri__end_break_timing; ++c.timing) each(&o, row, precision, &c, limit_probe);
     return o;
 }
 
