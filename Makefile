@@ -23,7 +23,7 @@ COMPILE = $(CC) $(STRICT) $(CFLAGS) $(OPENMP) -I.
 # peri.h states the version; before 1.0 the minor version is the interface
 VERSION := $(shell sed -n 's/^.define PERI_VERSION *"\([^"]*\)"$$/\1/p' peri.h)
 SONAME = $(if $(filter Darwin,$(shell uname)),,-Wl,-soname,libperi.so.$(basename $(VERSION)))
-NATIVE := $(shell for n in -march=native -mcpu=native; do \
+NATIVE = $(shell for n in -march=native -mcpu=native; do \
     echo 'int main(void){return 0;}' | $(CC) $$n -x c - -o /dev/null 2>/dev/null && echo $$n && break; done)
 
 # threads that wait must not spin where other work shares the machine
@@ -82,18 +82,21 @@ uninstall:
 	@$(INSTALL) --remove
 
 # The library as others compile it, for tests/checks.sh: again the kernels apart, so that an edit elsewhere leaves them alone. OTHER of a
-# target is its compiler and flags. Sanitizers triple the time to optimise kernels: those of double in the plane, which most tests run, are
-# worth it. -ffast-math is tried with gcc where there is one, on the vectors of 16 bytes that other machines have. OWN_ of a directory: the
-# kernels that are compiled so; the others are those of the library. make validate compiles all (tests/run.sh).
+# target is its compiler and flags. gcc's -Og takes the least of compiling and running together under sanitizers (clang has none such), and
+# a trap half the time of a message: SANITIZE="-g1 -Og -fsanitize=address,undefined" says what was undefined. -ffast-math is tried with gcc
+# where there is one, on the vectors of 16 bytes that other machines have; the core's arithmetic is as written by the same pragma, and what
+# it would fold is folded without optimisation, too. OWN_ of a directory: the kernels that are compiled so; the others are those of the
+# library. make validate compiles all, and the core as the kernels (tests/run.sh).
 OWN_san = d2 d3
 OWN_clang = d3 f2
 OWN_fast = f2
-SANITIZE ?= -g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
+SANITIZE ?= -g1 $(if $(findstring clang,$(CC)),-O0,-Og) -fsanitize=address,undefined -fsanitize-undefined-trap-on-error
 build/san/%.o: OTHER = $(CC) $(STRICT) $(SANITIZE) $(OPENMP)
-build/san/d3.o build/san/m%.o build/san/f%.o build/san/core.o: OTHER += -O0
 build/clang/%.o: OTHER = clang $(STRICT) -O1 -DPERI_KERNELS=1 -DPERI_NO_STDIO
 build/clang/core.o: OTHER += -O0
 build/fast/%.o: OTHER = $(shell command -v gcc || echo $(CC)) $(STRICT) -O1 -ffast-math -DPERI_KERNELS=2
+FAST_CORE ?= -O0
+build/fast/core.o: OTHER += $(FAST_CORE)
 define other
 build/$(1)/%2.o: $(KERNEL_TEXT)
 	@mkdir -p $$(@D)
@@ -116,11 +119,11 @@ $(foreach o,san clang fast,$(eval $(call other,$(o))))
 .SECONDARY:
 build/examples/%.o: examples/%.c peri.h $(wildcard examples/*.h)
 	@mkdir -p $(@D)
-	$(COMPILE) -c $< -o $@
+	$(COMPILE) $(UNOPTIMISED) -c $< -o $@
 
-
-# To optimise a test takes longer than it saves, save where the test itself computes much.
-build/tests/%.o build/extremes/%.o: UNOPTIMISED = -O0
+# To optimise a program takes longer than it saves, save where the program itself computes much.
+build/tests/%.o build/extremes/%.o build/examples/%.o: UNOPTIMISED = -O0
+build/examples/bending.o build/examples/branching.o: UNOPTIMISED =
 build/tests/test_bending.o build/tests/test_branching.o build/tests/test_fragments.o build/tests/test_search.o: UNOPTIMISED =
 build/tests/%.o: tests/%.c peri.h $(wildcard tests/*.h)
 	@mkdir -p $(@D)
