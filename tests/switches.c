@@ -159,7 +159,7 @@ static void try_advice(const peri_body_desc *d, const peri_material_desc *m, con
 /* A box that is pulled apart, then at rest under its grips. */
 static void scene(int32_t law, int p, int dim) {
     const double lo[3] = { 0, 0, 0 }, hi[3] = { 12, 6, 4 }, half[3] = { 6, 6, 4 }, left[3] = { 1, 6, 4 }, right[3] = { 11, 0, 0 };
-    const double pull[3] = { 0.2, 0.01, 0 }, way[3] = { 0.01, 0, 0 };
+    const double pull[3] = { 0.4, 0.02, 0 }, way[3] = { 0.01, 0, 0 };
     const char *without = without_space(dim) ? without_space(dim) : without_precision(p);
     peri_body_desc d;
     peri_material_desc m;
@@ -185,7 +185,7 @@ static void scene(int32_t law, int p, int dim) {
     MUST(b, peri_build(b));
     MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, half)), pull));
     peri_advance_desc_init(&run);
-    run.steps = 20;
+    run.steps = 10;
     MUST(b, peri_advance(b, &run));
     CHECK(peri_broken_count(b) > 10);
     show_field(law == PERI_LAW_BOND_BASED ? "bond-based" : "correspondence", p, dim, b, PERI_FIELD_DISPLACEMENT);

@@ -267,7 +267,7 @@ static void a_fragment_flies_free(void) {
                 for (d = 0; d < dim; ++d) was[d] += v[dim * i + d];
             }
             put(b, PERI_FIELD_VELOCITY, v);
-            (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 100, 0, 0);
+            (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 40, 0, 0);
             w = get(b, PERI_FIELD_VELOCITY);
             for (i = 0; i < n; ++i)
                 for (d = 0; d < dim; ++d)

@@ -202,7 +202,7 @@ static int64_t live(life *l, int step) {
     case 19: return peri_apply_body_force(l->body, PERI_ALL, v, NULL, NULL);
     case 20: return peri_add_plane_obstacle(l->body, lo, up, 0, NULL, NULL);
     case 21: return peri_add_ball_obstacle(l->body, far, l->dim == 2 ? 1.07 : 1.5, 0, NULL, NULL);
-    case 22: return advance(l, l->body, 40, 0);
+    case 22: return advance(l, l->body, 20, 0);
     case 23: return readings(l);
     case 24: return all_views(l);
     case 25: return peri_export_vtu_to(l->body, keep, l);
@@ -210,10 +210,10 @@ static int64_t live(life *l, int step) {
     case 27: return families(l);
     case 28: return peri_body_clone(l->body, &l->copy, NULL);
     case 29: return l->dim == 2 ? peri_cut_segment(l->body, PERI_CUT_NOW, z, top) : peri_cut_triangle(l->body, PERI_CUT_NOW, z, top, far);
-    case 30: return advance(l, l->copy, 30, 1);
-    case 31: return advance(l, l->body, 20, 0);
+    case 30: return advance(l, l->copy, 15, 1);
+    case 31: return advance(l, l->body, 8, 0);
     case 32: return peri_reset(l->body);
-    case 33: return advance(l, l->body, 25, 0);
+    case 33: return advance(l, l->body, 10, 0);
     default: return PERI_OK;
     }
 }

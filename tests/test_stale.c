@@ -471,7 +471,7 @@ static void as_built(kind k) {
     k.moving = 0;
     for (int past = 0; past < PASTS; ++past)
         for (int what = 0; what < CHANGES; ++what) {
-            if (!is_plain(what) || (past == CRACKED && (what == FACE || what == PRESS))) continue;
+            if (!is_plain(what) || (past == CRACKED && (what == FACE || what == PRESS)) || is_spared(k, past, what)) continue;
             peri_body *b = body_of(k, past), *fresh;
             look_at_all(b);
             (void)apply(b, (change)what);
