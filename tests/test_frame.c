@@ -107,7 +107,7 @@ static int32_t hump(void *user, double q, double *w) {
     return 0;
 }
 
-enum { SHOWN = 7 };
+enum { SHOWN_STEP = 5, SHOWN = 7 };
 static const char *const shown_name[SHOWN] = {"force", "energy density", "dilatation", "strain", "stress", "stable step",
                                               "energy"};
 
@@ -194,14 +194,17 @@ static void compare(const scene *s, int kind, const cloud *c, const answer *a, c
     CHECK(a->status == b->status);
     if (a->status < 0) return;
     CHECK(fabs(a->elastic) > 0 && a->step > 0);
-    for (k = 0; k < SHOWN; ++k)
-        if (!(off[k] < bound_of(s))) {
-            CHECK(off[k] < bound_of(s));
+    for (k = 0; k < SHOWN; ++k) {
+        /* the stable step is estimated from one start, which does not turn: within the 3 % of its margin, in twelve bits */
+        const double bound = k == SHOWN_STEP ? 0.01 : bound_of(s);
+        if (!(off[k] < bound)) {
+            CHECK(off[k] < bound);
             if (test_bad <= 10)
                 printf("      %s, %s, %s, quadrature %d, influence %d, m %.2f, cloud %d: %s off by %.2g\n", law_name[s->law % 100],
                        space_name[s->space % 100], correction_name[s->correction % 100], (int)s->quadrature, (int)s->influence, s->reach,
                        kind, shown_name[k], off[k]);
         }
+    }
 }
 
 /* What the library takes (theory.md): bond-based laws no weights without moments; others no corrections of volume, and by energy the same
