@@ -194,4 +194,4 @@ outcome run_branching(const knobs *k) {
     return o;
 }
 
-double work_branching(const knobs *k) { return family_of(k) * 4000 * k->m * k->m * (20 + 43e-6 / (67e-9 * 3.33 / k->m * k->safety)); }
+double work_branching(const knobs *k) { return family_of(k) * 4000 * k->m * k->m * (20 + 43e-6 / (110e-9 * 3.33 / k->m * k->safety)); }

@@ -261,7 +261,7 @@ static outcome grow(const knobs *k, int edges) {
         peri_energy ledger;
         for (int side = -1; side <= 1; side += 2) {
             const double from[2] = { edges ? side * 2 * b : 0, 0 }, to[2] = { edges ? side * (b - end) : side * end, 0 };
-            if (trial_fine(&t)) trial_note(&t, peri_cut_segment(t.body, PERI_CUT_INITIAL, from, to));
+            if (trial_fine(&t)) trial_note(&t, peri_cut_segment(t.body, longer ? PERI_CUT_NOW : PERI_CUT_INITIAL, from, to));
         }
         if (longer == 0) {
             const int32_t top = trial_box(&t, -b, 2 * b - deep, b, 2 * b), bottom = trial_box(&t, -b, -2 * b, b, deep - 2 * b);
