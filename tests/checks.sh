@@ -12,6 +12,7 @@ else
     skip sanitized "no sanitizers on this machine"
 fi
 queue_program extremes "build/tests/extremes --some"
+. tests/sanitizers.sh
 if command -v clang > /dev/null; then
     queue strict_clang "make --no-print-directory build/clang/peri.o"
     others="build/clang/peri.o"

@@ -105,7 +105,7 @@ mkdir -p build/queue build/checks build/san out
 sanitized="test_memory test_callbacks test_programs test_loose test_breaking test_cracks test_criteria test_edges test_errors \
     test_families test_fields test_fragments test_loads test_loadsteps test_misuse test_output test_plan test_quadrature test_random \
     test_search test_solvers"
-longest="extremes test_kernels test_programs test_choose test_direction test_failure test_branching test_random test_callbacks test_bending \
+longest="extremes test_oracles test_kernels test_programs test_choose test_direction test_failure test_branching test_random test_callbacks test_bending \
     test_stale"
 shorter=$(basename -s .c tests/test_*.c)
 for name in $longest; do shorter=$(printf '%s\n' $shorter | grep -v -x "$name"); done
@@ -113,7 +113,10 @@ for name in $longest; do shorter=$(printf '%s\n' $shorter | grep -v -x "$name");
 if [ -z "$long" ]; then
     . tests/checks.sh
 else
-    queue_programs $longest $shorter
+    for part in 1-50000 50001-100000 100001-150000 150001-200000; do # scenes, longer than all else
+        queue_program "test_oracles_$part" "build/tests/test_oracles $part"
+    done
+    queue_programs $(for name in $longest $shorter; do [ "$name" = test_oracles ] || echo "$name"; done)
     run_queue
     . tests/bits.sh
     check dist sh tests/check_dist.sh
@@ -131,12 +134,13 @@ else
         check sanitized_extremes_build $CC $STRICT $SANITIZE -DLONGEST=200.0 -I. tests/extremes/*.c build/san/serial.o \
             -o build/san/extremes -lm
         program sanitized_extremes build/san/extremes
-        for name in $sanitized; do
+        for name in $sanitized test_oracles test_soak; do
             check "build_sanitized_$name" $CC $STRICT $SANITIZE $OPENMP -I. "tests/$name.c" build/san/serial.o -o "build/san/$name" -lm
             case $name in test_callbacks | test_memory | test_plan) whole=--long ;; *) whole= ;; esac
             program "sanitized_$name" "build/san/$name" $whole
         done
     fi
+    . tests/sanitizers.sh
 fi
 
 for name in $all; do cat "build/queue/$name.sum" 2> /dev/null || echo "0 1 0 $name"; done > build/sums
