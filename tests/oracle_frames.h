@@ -157,7 +157,8 @@ static void add_acts(const scene *s, peri_body *b, const frame *f, acting *a) {
     fill_shares(s, f, &a->own);
     a->load = add_load(s, b, f, &a->own);
     placed(s, f, s->ball, place);
-    if (s->has_ball) a->ball = (int32_t)MUST(b, peri_add_ball_obstacle(b, place, s->ball_radius * s->spacing * f->length, hard, NULL, NULL));
+    if (s->has_ball)
+        a->ball = (int32_t)MUST(b, peri_add_ball_obstacle(b, place, s->ball_radius * s->spacing * f->length, hard, NULL, NULL));
     placed(s, f, s->plane, place);
     turned(f, s->dim, 1, s->plane_normal, normal);
     if (s->has_plane) a->plane = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, hard, NULL, NULL));
@@ -197,8 +198,9 @@ static void field_agrees(const pair *t, int32_t field, int rank, double unit, do
                     for (int e = 0; rank == 2 && e < s->dim; ++e)
                         sum += t->f.turn[3 * k + c] * t->f.turn[3 * l + e] * own[packed(s->dim, c, e)];
                 for (int c = 0; rank == 1 && c < s->dim; ++c) sum += t->f.turn[3 * k + c] * own[c];
-                const double off = fabs((rank == 0 ? own[0] : sum) * unit - (rank == 0 ? other[0] : rank == 1 ? other[k] : other[packed(s->dim, k, l)]));
-                if (!(off / unit <= worst)) worst = off / unit;
+                const double want = (rank == 0 ? own[0] : sum) * unit;
+                const double off = fabs(want - other[rank == 0 ? 0 : rank == 1 ? k : packed(s->dim, k, l)]) / unit;
+                if (!(off <= worst)) worst = off;
             }
     }
     within(t->v, worst, bound, what);
@@ -295,7 +297,8 @@ static void fields_agree(const pair *t) {
 
 static void constants_agree(const pair *t) {
     const frame *f = &t->f;
-    const double all = 1e-12 /* moments by quadrature follow the spacing, which is a root */, third = t->s->dim == 3 ? f->length : f->thickness;
+    const double third = t->s->dim == 3 ? f->length : f->thickness;
+    const double all = 1e-12; /* moments by quadrature follow the spacing, which is a root */
     for (int i = 1; i <= t->s->materials; ++i)
         for (int j = 1; j <= t->s->materials; ++j) {
             double c[2] = {0, 0}, s0[2];
@@ -316,14 +319,14 @@ static double lightest(const scene *s) {
     return least;
 }
 
-/* What t->size needs to be for what acts: obstacles are up to 8 spacings deep; a pressure is a sum over families by K^-1, which in the bulk
-   cancels. */
-static double size_of_acts(const pair *t) {
-    const scene *s = t->s;
-    const double pull = 0.01 * young_of(s) / (lightest(s) * t->stiff);
+/* What the size of displacements needs to be for what acts: obstacles are up to 8 spacings deep; a pressure is a sum over families by K^-1,
+   which in the bulk cancels. */
+static double size_of_acts_in(const scene *s, double stiff) {
+    const double pull = 0.01 * young_of(s) / (lightest(s) * stiff);
     const double pressed = s->act == ACT_PRESSURE || s->act == ACT_BOND_PRESSURE ? 400 : 4;
     return s->size + 0.02 * s->spacing + pressed * pull / s->shortest + (s->has_ball || s->has_plane ? 8 * s->spacing : 0);
 }
+static double size_of_acts(const pair *t) { return size_of_acts_in(t->s, t->stiff); }
 
 static void set_motion(const pair *t, peri_body *b, const frame *f) {
     const scene *s = t->s;
@@ -368,7 +371,8 @@ static void compare_runs(pair *t) {
     all_agree(t);
     run_steps(t, t->body, dt);
     run_steps(t, t->other, dt * unit);
-    /* errors of forces of each step grow no faster than its cube, 8 for dt^2 stiff and two bodies; bonds that broke may have made it stiffer */
+    /* errors of forces grow no faster than the cube of the steps, 8 for dt^2 stiff and two bodies; bonds that broke may have made it
+       stiffer */
     double *u = get(t->body, PERI_FIELD_DISPLACEMENT);
     t->stiff = fmax(t->stiff, stiffness(t->body));
     t->size = size_of_acts(t) + largest(u, s->dofs);
@@ -395,7 +399,8 @@ static void seen_from(verdict *v, const frame *f) {
     set_motion(&t, t.body, &own);
     add_acts(v->s, t.body, &own, &t.acts);
     add_acts(v->s, t.other, f, &t.other_acts);
-    within(v, fabs((double)((t.acts.load < 0 ? t.acts.load : 0) - (t.other_acts.load < 0 ? t.other_acts.load : 0))), 0.5, "status of a load");
+    const double own_refused = t.acts.load < 0 ? t.acts.load : 0, other_refused = t.other_acts.load < 0 ? t.other_acts.load : 0;
+    within(v, fabs(own_refused - other_refused), 0.5, "status of a load");
     t.stiff = stiffness(t.body);
     t.bound = moving(v->s, largest(f->shift, v->s->dim));
     constants_agree(&t);

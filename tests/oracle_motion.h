@@ -70,8 +70,8 @@ static void never_break(march *m) {
 /* Weights below 0 may make the energy indefinite: motion then grows without bound, and rounding with it (theory.md). */
 static int is_stable(const scene *s) { return s->desc.influence != PERI_INFLUENCE_POLE_HALF; }
 
-/* Bound of what rounding in so many steps does to displacements: of forces over their scale, and of bonds that are far from where they were;
-   it grows no faster than the cube of the steps. Obstacles are up to 8 spacings deep. */
+/* Bound of what rounding in so many steps does to displacements: of forces over their scale, and of bonds that are far from where they
+   were; it grows no faster than the cube of the steps. Obstacles are up to 8 spacings deep. */
 static double drift_of(const march *m, int steps, double far) {
     const scene *s = m->s;
     const double deep = s->has_ball || s->has_plane ? 8 * s->spacing : 0, size = s->size + m->size + deep;
@@ -176,6 +176,62 @@ static void free_body(verdict *v) {
     within(v, largest(p[1], 3), unit * momentum_unit(s) * scale, "momentum");
     if (s->damping == 0 && !falls && is_objective(s))
         within(v, largest(l[1], 3), (unit * bond_unit(s) + 4 * MARCH * ends_of(s, 0)) * scale * (s->reach + m.size), "angular momentum");
+    peri_body_destroy(m.body);
+}
+
+/* What supports, loads and obstacles give to the body now; of supports the mean of the last step. */
+static void force_from_outside(const march *m, const acting *a, double *loads, double *obstacles) {
+    double push[3];
+    for (int d = 0; d < 3; ++d) loads[d] = obstacles[d] = 0;
+    if (a->load > 0) MUST(m->body, peri_get_reaction(m->body, a->load, loads));
+    for (int k = 0; k < 2; ++k) {
+        const int32_t id = k ? a->plane : a->ball;
+        if (!id) continue;
+        MUST(m->body, peri_get_obstacle_force(m->body, id, push));
+        for (int d = 0; d < m->s->dim; ++d) obstacles[d] += push[d];
+    }
+}
+
+/* Each step gives the body the momentum that supports, loads and obstacles have sent into it: the mean of both ends of the step times dt,
+   of supports the mean that is told. */
+static void impulse(verdict *v) {
+    scene *s = v->s;
+    const frame f = same_frame();
+    march m;
+    acting a = {0, 0, 0, {{0}, 0}};
+    peri_advance_desc r;
+    double p[2][3], l[3], loads[2][3], obstacles[2][3];
+    const int supported = s->act == ACT_DISPLACEMENT || s->act == ACT_VELOCITY;
+    set_out(&m, s, NULL, 0);
+    add_acts(s, m.body, &f, &a);
+    memcpy(m.u, s->u, sizeof m.u);
+    m.stiff = stiffness(m.body);
+    peri_advance_desc_init(&r);
+    r.integrator = s->integrator;
+    r.steps = 1;
+    r.force_step = 1;
+    r.time_step = 1.4 / sqrt(m.stiff);
+    for (int step = 0; step < 3; ++step) {
+        const double fast = largest(m.v, s->dofs);
+        momenta(&m, p[0], l);
+        force_from_outside(&m, &a, loads[0], obstacles[0]);
+        MUST(m.body, peri_advance(m.body, &r));
+        MUST(m.body, peri_get_field(m.body, PERI_FIELD_DISPLACEMENT, m.u, s->dofs));
+        MUST(m.body, peri_get_field(m.body, PERI_FIELD_VELOCITY, m.v, s->dofs));
+        force_from_outside(&m, &a, loads[1], obstacles[1]);
+        momenta(&m, p[1], l);
+        m.stiff = fmax(m.stiff, stiffness(m.body));
+        double scale = 0, off = 0;
+        for (int64_t i = 0; i < s->count; ++i) {
+            const double own = m.stiff * (size_of_acts_in(s, m.stiff) + largest(m.u, s->dofs)) * r.time_step;
+            scale += cell_of(s, i) * s->rho[i] * (own + fast + largest(m.v, s->dofs));
+        }
+        for (int d = 0; d < s->dim; ++d) {
+            const double load = supported ? loads[1][d] : 0.5 * (loads[0][d] + loads[1][d]);
+            off = fmax(off, fabs(p[1][d] - p[0][d] - r.time_step * (load + 0.5 * (obstacles[0][d] + obstacles[1][d]))));
+        }
+        within(v, off, roundings(s) * momentum_unit(s) * scale, "momentum less impulse");
+    }
     peri_body_destroy(m.body);
 }
 

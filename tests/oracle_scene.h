@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* oracle_scene.h - random scenes for the laws of physics: a scene is all choices that a seed makes, and its body, built from them.
 
-   A scene is small, some 40 to 150 points, and of any size in the caller's units. Bounds of rounding follow from what stands here:
-     stiffness  4/dt^2 of the stable step is the largest row sum of |K| over rho (theory.md), so that |u| over it bounds the sum of the sizes
+   A scene is small, some 30 to 130 points, and of any size in the caller's units. Bounds of rounding follow from what stands here:
+     stiffness  4/dt^2 of the stable step is the largest row sum of |K| over rho (theory.md): rho |u| times it bounds the sum of the sizes
                 of all terms that make a force
      rounding   a force is two sums over a family (what it gathers, then the bonds), and the constants of a law are a third: 4 width + 64
                 roundings of such terms; where K^-1 of a family enters (eigenvalues up to 50 apart), up to 50 times as many
-     moved      a bond vector whose ends were rounded anew is off by the rounding of its ends over its length; weights follow by the
+     moving     a bond vector whose ends were rounded anew is off by the rounding of its ends over its length; weights follow by the
                 slope of w */
 #ifndef ORACLE_SCENE_H
 #define ORACLE_SCENE_H
@@ -135,21 +135,22 @@ static void choose_materials(scene *s) {
         s->gradient |= law == PERI_LAW_CORRESPONDENCE;
         if (s->mixed && !only_bonds) law = peri__first_law + only_states + below(s, peri__count_law - only_states);
     }
-    s->interfaced = s->materials > 1 && below(s, 2) && s->material[0].law == PERI_LAW_BOND_BASED && s->material[1].law == PERI_LAW_BOND_BASED;
+    s->interfaced = s->materials > 1 && below(s, 2);
+    for (int k = 0; k < 2; ++k) s->interfaced = s->interfaced && s->material[k].law == PERI_LAW_BOND_BASED;
     if (s->interfaced) s->interface_ = choose_material(s, PERI_LAW_BOND_BASED);
 }
 
-/* Lattices of 42 to 144 points in the plane, 36 to 125 in space, whose horizon is now and then a whole number of spacings. */
+/* Lattices of up to 100 points in the plane, 125 in space, whose horizon is now and then a whole number of spacings. */
 static void choose_shape(scene *s) {
-    const int whole = below(s, 3) == 0;
+    const int whole = below(s, 3) == 0, small = is_exact(s->desc.quadrature);
     const double reach = s->dim == 2 ? (whole ? 2 + below(s, 2) : between(s, 1.3, 3.1)) : (whole ? 1 + below(s, 2) : between(s, 1.2, 2.1));
     s->origin = (origin)below(s, ORIGINS);
-    s->desc.horizon = (is_exact(s->desc.quadrature) ? 1 + 0.5 * (reach - 1) : reach) * s->spacing;
+    s->desc.horizon = (small ? 1 + 0.5 * (reach - 1) : reach) * s->spacing;
     s->scatter = between(s, 0.2, 1);
     s->scattered = below(s, 2);
     for (int d = 0; d < s->dim; ++d) {
         s->lo[d] = below(s, 2) ? 0 : between(s, -30, 30);
-        s->cells[d] = s->dim == 3 ? 3 + below(s, is_exact(s->desc.quadrature) ? 2 : 3) : is_exact(s->desc.quadrature) ? 5 + below(s, 4) : 6 + below(s, 5);
+        s->cells[d] = s->dim == 3 ? 3 + below(s, small ? 2 : 3) : small ? 5 + below(s, 4) : 6 + below(s, 5);
         s->cell[d] = s->origin == ORIGIN_LONG_CELLS ? between(s, 0.9, 1.04) : 1;
     }
     if (is_scattered(s) || s->origin == ORIGIN_LONG_CELLS) /* no point may be lonely */
