@@ -302,7 +302,7 @@ static void equilibria(verdict *v) {
         settle(s, b, &r[n]);
     }
     if (r[0].found && r[1].found && r[2].found) {
-        double sum[3 * MOST], product_[3 * MOST], missed = 0, size = 0;
+        double sum[3 * MOST], resisted[3 * MOST], missed = 0, size = 0;
         for (int n = 0; n < 3; ++n) {
             const double far = norm_of(s, r[n].u, 0);
             const double noise = 4 * rounding(s) * energy_scale(s, largest(r[n].u, s->dofs));
@@ -311,10 +311,10 @@ static void equilibria(verdict *v) {
             size = fmax(size, largest(r[n].u, s->dofs));
         }
         for (int64_t k = 0; k < s->dofs; ++k) sum[k] = r[2].u[k] - r[0].u[k] - r[1].u[k];
-        product(s, sum, product_);
-        for (int64_t k = 0; k < s->dofs; ++k) product_[k] = is_held(s, k) ? 0 : product_[k];
+        product(s, sum, resisted);
+        for (int64_t k = 0; k < s->dofs; ++k) resisted[k] = is_held(s, k) ? 0 : resisted[k];
         const double noise = 8 * rounding(s) * energy_scale(s, size) / size;
-        within(v, norm_of(s, product_, 0), missed + noise, "loads of the sum");
+        within(v, norm_of(s, resisted, 0), missed + noise, "loads of the sum");
         const double crossed = r[0].missed * norm_of(s, r[1].u, 0) + r[1].missed * norm_of(s, r[0].u, 0);
         within(v, fabs(work_of(s, r[0].load, r[1].u) - work_of(s, r[1].load, r[0].u)), crossed + noise * size, "f.u' - f'.u");
     }

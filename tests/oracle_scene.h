@@ -34,7 +34,7 @@ typedef struct crack { /* a segment, or a disc; in spacings                     
 typedef struct scene {
     uint64_t           seed, dice;
     peri_body_desc     desc;
-    peri_material_desc material[MATERIALS], interface_;
+    peri_material_desc material[MATERIALS], joint;
     int                materials, interfaced, mixed, breakable, gradient, dim, scattered;
     origin             origin;
     double             spacing, stress, density; /* the units of the scene                                               */
@@ -137,7 +137,7 @@ static void choose_materials(scene *s) {
     }
     s->interfaced = s->materials > 1 && below(s, 2);
     for (int k = 0; k < 2; ++k) s->interfaced = s->interfaced && s->material[k].law == PERI_LAW_BOND_BASED;
-    if (s->interfaced) s->interface_ = choose_material(s, PERI_LAW_BOND_BASED);
+    if (s->interfaced) s->joint = choose_material(s, PERI_LAW_BOND_BASED);
 }
 
 /* Lattices of up to 100 points in the plane, 125 in space, whose horizon is now and then a whole number of spacings. */
@@ -311,7 +311,7 @@ static peri_body *body_in(const scene *s, const frame *f, int32_t *status) {
     *status = peri_body_create(&d, &b, NULL); /* builds may leave out spaces and precisions                              */
     if (*status != PERI_OK) return NULL;
     for (int k = 0; k <= MATERIALS; ++k) {
-        m[k] = k < MATERIALS ? s->material[k] : s->interface_;
+        m[k] = k < MATERIALS ? s->material[k] : s->joint;
         m[k].young *= f->stress;
         m[k].density *= f->density;
         m[k].fracture_energy *= f->stress * f->length;
