@@ -272,6 +272,7 @@ static void settle(scene *s, peri_body *b, rest *r) {
     peri_solve_desc_init(&d);
     d.tolerance = TOLERANCE;
     d.fracture = 0;
+    d.iterations = 2000;
     const int32_t status = peri_solve(b, &d, NULL);
     r->found = status == PERI_OK;
     if (!r->found) CHECK(status == PERI_ERROR_LOOSE || status == PERI_ERROR_INDEFINITE || status == PERI_ERROR_CONVERGENCE);
