@@ -33,11 +33,16 @@ static int can_fit(const scene *s) {
 static int has_cubes(const scene *s) {
     return !is_exact(s->desc.quadrature) || (s->origin != ORIGIN_PERTURBED && s->origin != ORIGIN_LONG_CELLS);
 }
-static int can_renumber(const scene *s) { return has_cubes(s) && can_fit(s); }
+static int can_move(const scene *s) { return has_cubes(s) && can_fit(s); }
+
+/* By the rule of centroids the two ends of a bond differ in its stretch, and that of lower number decides (theory.md). */
+static int can_renumber(const scene *s) {
+    return can_move(s) && !(s->breakable && s->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID);
+}
 
 /* Those cubes have their edges along the axes (docs/theory.md): cells are not turned. */
 static int can_turn(const scene *s) {
-    return can_renumber(s) && !is_exact(s->desc.quadrature) && (ORACLE_AXES_OTERKUS || !has_law(s, PERI_LAW_OTERKUS))
+    return can_move(s) && !is_exact(s->desc.quadrature) && (ORACLE_AXES_OTERKUS || !has_law(s, PERI_LAW_OTERKUS))
         && (ORACLE_AXES_MOMENT || s->desc.correction != PERI_CORRECTION_MOMENT);
 }
 
@@ -343,15 +348,18 @@ static void set_motion(const pair *t, peri_body *b, const frame *f) {
         MUST(b, peri_set_no_fail(b, PERI_ALL, 1));
 }
 
-static void run_steps(const pair *t, peri_body *b, double dt) {
+/* Families that lose bonds get stiffer, at times so much that the step which is forced bursts them. */
+static int32_t run_steps(const pair *t, peri_body *b, double dt) {
     peri_advance_desc r;
     peri_advance_desc_init(&r);
     r.integrator = t->s->integrator;
     r.steps = RUN_STEPS;
     r.time_step = dt;
-    r.force_step = 1; /* families that lose bonds get stiffer                                                            */
+    r.force_step = 1;
     r.damping = t->s->damping / dt;
-    MUST(b, peri_advance(b, &r));
+    const int32_t status = peri_advance(b, &r);
+    CHECK(status == PERI_OK || (status == PERI_ERROR_UNSTABLE && t->s->breakable));
+    return status;
 }
 
 static void all_agree(const pair *t) {
@@ -369,8 +377,9 @@ static void compare_runs(pair *t) {
     t->size = size_of_acts(t);
     t->apart = 16 * state_unit(s) * s->size;
     all_agree(t);
-    run_steps(t, t->body, dt);
-    run_steps(t, t->other, dt * unit);
+    const int32_t status = run_steps(t, t->body, dt), other_status = run_steps(t, t->other, dt * unit);
+    within(t->v, fabs((double)(status - other_status)), 0.5, "status of peri_advance");
+    if (status != PERI_OK) return;
     /* errors of forces grow no faster than the cube of the steps, 8 for dt^2 stiff and two bodies; bonds that broke may have made it
        stiffer */
     double *u = get(t->body, PERI_FIELD_DISPLACEMENT);

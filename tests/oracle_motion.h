@@ -23,6 +23,7 @@ typedef struct march { /* a body under way                                      
     peri_body *body;
     double     dt, speed, stiff; /* speed: 1/2 of spacing in a step, about, times 1/50; stiff: with obstacles             */
     double     u[3 * MOST], v[3 * MOST], size;
+    int        burst; /* families that lose bonds get stiffer, at times too stiff for the step that is forced             */
     place      ball, plane;
 } march;
 
@@ -48,6 +49,14 @@ static void set_out(march *m, scene *s, const double *velocity, int obstacles) {
     put(m->body, PERI_FIELD_VELOCITY, m->v);
 }
 
+static void march_on(march *m, const peri_advance_desc *r) {
+    const int32_t status = peri_advance(m->body, r);
+    CHECK(status == PERI_OK || (status == PERI_ERROR_UNSTABLE && m->s->breakable));
+    m->burst |= status != PERI_OK;
+    MUST(m->body, peri_get_field(m->body, PERI_FIELD_DISPLACEMENT, m->u, m->s->dofs));
+    MUST(m->body, peri_get_field(m->body, PERI_FIELD_VELOCITY, m->v, m->s->dofs));
+}
+
 static void go_on(march *m, double damping) {
     peri_advance_desc r;
     peri_advance_desc_init(&r);
@@ -56,9 +65,7 @@ static void go_on(march *m, double damping) {
     r.time_step = m->dt;
     r.force_step = 1;
     r.damping = damping;
-    MUST(m->body, peri_advance(m->body, &r));
-    MUST(m->body, peri_get_field(m->body, PERI_FIELD_DISPLACEMENT, m->u, m->s->dofs));
-    MUST(m->body, peri_get_field(m->body, PERI_FIELD_VELOCITY, m->v, m->s->dofs));
+    march_on(m, &r);
     m->size = fmax(m->size, largest(m->u, m->s->dofs));
     m->stiff = fmax(m->stiff, stiffness(m->body));
 }
@@ -124,8 +131,11 @@ static void moving_observer(verdict *v) {
         far = fmax(far, fabs(way));
     }
     const double bound = drift_of(&rest, MARCH, far);
-    within(v, apart(ride_along.u, u, 1, s->dofs), bound, "displacements of a body that moves along");
-    within(v, apart(ride_along.v, w, 1, s->dofs), bound * sqrt(rest.stiff), "velocities of a body that moves along");
+    within(v, abs(rest.burst - ride_along.burst), 0.5, "status of peri_advance");
+    if (!rest.burst) {
+        within(v, apart(ride_along.u, u, 1, s->dofs), bound, "displacements of a body that moves along");
+        within(v, apart(ride_along.v, w, 1, s->dofs), bound * sqrt(rest.stiff), "velocities of a body that moves along");
+    }
     within(v, fabs((double)(peri_broken_count(rest.body) - peri_broken_count(ride_along.body))), 0.5, "broken bonds");
     peri_body_destroy(rest.body);
     peri_body_destroy(ride_along.body);
@@ -167,14 +177,15 @@ static void free_body(verdict *v) {
         scale += cell_of(s, i) * (own * m.dt + s->rho[i] * (fastest + largest(m.v, s->dofs)));
         volume += cell_of(s, i);
     }
+    v->idle = m.burst;
     const double kept = pow((1 - k) / (1 + k), MARCH), unit = roundings(s) * MARCH;
     for (int d = 0; d < 3; ++d) {
         const double given = d < s->dim ? force[d] * volume * MARCH * m.dt : 0;
         p[1][d] -= kept * p[0][d] + given;
         l[1][d] -= l[0][d];
     }
-    within(v, largest(p[1], 3), unit * momentum_unit(s) * scale, "momentum");
-    if (s->damping == 0 && !falls && is_objective(s))
+    if (!m.burst) within(v, largest(p[1], 3), unit * momentum_unit(s) * scale, "momentum");
+    if (!m.burst && s->damping == 0 && !falls && is_objective(s))
         within(v, largest(l[1], 3), (unit * bond_unit(s) + 4 * MARCH * ends_of(s, 0)) * scale * (s->reach + m.size), "angular momentum");
     peri_body_destroy(m.body);
 }
@@ -215,9 +226,8 @@ static void impulse(verdict *v) {
         const double fast = largest(m.v, s->dofs);
         momenta(&m, p[0], l);
         force_from_outside(&m, &a, loads[0], obstacles[0]);
-        MUST(m.body, peri_advance(m.body, &r));
-        MUST(m.body, peri_get_field(m.body, PERI_FIELD_DISPLACEMENT, m.u, s->dofs));
-        MUST(m.body, peri_get_field(m.body, PERI_FIELD_VELOCITY, m.v, s->dofs));
+        march_on(&m, &r);
+        if (m.burst) break;
         force_from_outside(&m, &a, loads[1], obstacles[1]);
         momenta(&m, p[1], l);
         m.stiff = fmax(m.stiff, stiffness(m.body));
