@@ -94,13 +94,13 @@ static void choose_desc(scene *s) {
     d->influence = below(s, 3) ? peri__first_influence + below(s, peri__count_influence) : PERI_INFLUENCE_CONSTANT;
     d->influence_fn = falling;
     d->quadrature = peri__first_quadrature + below(s, s->dim == 3 ? 3 : peri__count_quadrature);
-    if (is_exact(d->quadrature) && below(s, s->dim == 3 ? 6 : 3)) d->quadrature = PERI_QUADRATURE_FULL; /* parts of cells take long */
+    if (is_exact(d->quadrature) && below(s, s->dim == 3 ? 10 : 4)) d->quadrature = PERI_QUADRATURE_FULL; /* parts of cells take long */
     d->correction = is_planar(d->quadrature) ? PERI_CORRECTION_NONE : peri__first_correction + below(s, peri__count_correction);
     if (d->correction == PERI_CORRECTION_MOMENT && below(s, s->dim == 3 ? 4 : 2)) d->correction = PERI_CORRECTION_NONE; /* so do fits */
     d->break_timing = peri__first_break_timing + below(s, peri__count_break_timing);
     d->kernel = peri__first_kernel + below(s, peri__count_kernel);
     d->instructions = peri__first_instructions + below(s, peri__count_instructions);
-    d->threads = below(s, 16) ? 1 : 2;
+    d->threads = below(s, 64) ? 1 : 2;
     d->ledger = below(s, 8) > 0;
     d->number = 1 + below(s, 127);
     d->thickness = between(s, 0.3, 3) * s->spacing;
@@ -140,12 +140,12 @@ static void choose_materials(scene *s) {
     if (s->interfaced) s->joint = choose_material(s, PERI_LAW_BOND_BASED);
 }
 
-/* Lattices of up to 100 points in the plane, 125 in space, whose horizon is now and then a whole number of spacings. */
+/* Lattices, mostly of some 40 points, of up to 100 in the plane, 125 in space, whose horizon is now and then a whole number of spacings. */
 static void choose_shape(scene *s) {
-    const int whole = below(s, 3) == 0, small = is_exact(s->desc.quadrature);
+    const int whole = below(s, 3) == 0, exact = is_exact(s->desc.quadrature), small = exact || below(s, 3);
     const double reach = s->dim == 2 ? (whole ? 2 + below(s, 2) : between(s, 1.3, 3.1)) : (whole ? 1 + below(s, 2) : between(s, 1.2, 2.1));
     s->origin = (origin)below(s, ORIGINS);
-    s->desc.horizon = (small ? 1 + 0.5 * (reach - 1) : reach) * s->spacing;
+    s->desc.horizon = (exact ? 1 + 0.5 * (reach - 1) : reach) * s->spacing;
     s->scatter = between(s, 0.2, 1);
     s->scattered = below(s, 2);
     for (int d = 0; d < s->dim; ++d) {
