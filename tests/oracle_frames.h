@@ -8,43 +8,19 @@
 
 #define RUN_STEPS 4
 
-/* Off while Oterkus's law and the moment correction calibrate on sums by coordinates: then they depend on the axes. */
-#ifndef ORACLE_AXES_OTERKUS
-#define ORACLE_AXES_OTERKUS 0 /* 1: bodies of Oterkus's law may be turned                                                */
-#endif
-#ifndef ORACLE_AXES_MOMENT
-#define ORACLE_AXES_MOMENT 0  /* 1: bodies with the moment correction may be                                             */
-#endif
-
 /* ---- frames -------------------------------------------------------------------------------------------------------- */
-
-static int has_law(const scene *s, int32_t law) {
-    int has = 0;
-    for (int k = 0; k < s->materials; ++k) has |= s->material[k].law == law;
-    return has;
-}
-
-/* Whether a family near a surface has isotropic weights, or gets the compromise, may hang on weights rounded to float. */
-static int can_fit(const scene *s) {
-    return ORACLE_AXES_MOMENT || s->desc.correction != PERI_CORRECTION_MOMENT || s->desc.precision == PERI_PRECISION_DOUBLE;
-}
 
 /* The caller's points have cubes, or squares, for cells: of partial cells only such lattices can be laid again point by point. */
 static int has_cubes(const scene *s) {
     return !is_exact(s->desc.quadrature) || (s->origin != ORIGIN_PERTURBED && s->origin != ORIGIN_LONG_CELLS);
 }
-static int can_move(const scene *s) { return has_cubes(s) && can_fit(s); }
-
 /* By the rule of centroids the two ends of a bond differ in its stretch, and that of lower number decides (theory.md). */
 static int can_renumber(const scene *s) {
-    return can_move(s) && !(s->breakable && s->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID);
+    return has_cubes(s) && !(s->breakable && s->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID);
 }
 
 /* Those cubes have their edges along the axes (docs/theory.md): cells are not turned. */
-static int can_turn(const scene *s) {
-    return can_move(s) && !is_exact(s->desc.quadrature) && (ORACLE_AXES_OTERKUS || !has_law(s, PERI_LAW_OTERKUS))
-        && (ORACLE_AXES_MOMENT || s->desc.correction != PERI_CORRECTION_MOMENT);
-}
+static int can_turn(const scene *s) { return !is_exact(s->desc.quadrature); }
 
 static frame turned_frame(scene *s) {
     frame f = same_frame();
@@ -143,7 +119,7 @@ static int32_t add_load(const scene *s, peri_body *b, const frame *f, shares *ow
     for (int d = 0; d < s->dim; ++d)
         value[d] *= s->act == ACT_BODY_FORCE ? pull / (s->spacing * f->length)
                   : s->act == ACT_LAYER ? pull
-                  : s->act == ACT_VELOCITY ? far * sqrt(s->stiff) / time_factor(f)
+                  : s->act == ACT_VELOCITY ? far * s->rate / time_factor(f)
                                            : far;
     switch (s->act) {
     case ACT_BODY_FORCE: return peri_apply_body_force(b, part, value, share_out, own);
@@ -336,7 +312,7 @@ static double size_of_acts(const pair *t) { return size_of_acts_in(t->s, t->stif
 static void set_motion(const pair *t, peri_body *b, const frame *f) {
     const scene *s = t->s;
     double u[3 * MOST], v[3 * MOST];
-    const double fast = 0.2 * sqrt(s->stiff) * f->length / time_factor(f);
+    const double fast = 0.2 * s->rate * f->length / time_factor(f);
     for (int64_t i = 0; i < s->count; ++i) {
         const int64_t from = i * s->dim, to = f->order[i] * s->dim;
         turned(f, s->dim, f->length, &s->u[from], &u[to]);
@@ -373,7 +349,8 @@ static void all_agree(const pair *t) {
 static void compare_runs(pair *t) {
     const scene *s = t->s;
     const double dt = 0.4 * peri_stable_step(t->body), unit = time_factor(&t->f);
-    number_agrees(t, peri_stable_step(t->body), peri_stable_step(t->other), unit, 4 * t->bound * dt, "stable step");
+    /* an estimate has a margin, up to 4 % (accuracy.md), and starts from one vector, which does not turn */
+    number_agrees(t, peri_stable_step(t->body), peri_stable_step(t->other), unit, (4 * t->bound + 0.1) * dt, "stable step");
     t->size = size_of_acts(t);
     t->apart = 16 * state_unit(s) * s->size;
     all_agree(t);

@@ -34,7 +34,7 @@ static void set_out(march *m, scene *s, const double *velocity, int obstacles) {
     m->s = s;
     MUST(s->fresh, peri_body_clone(s->fresh, &m->body, NULL));
     m->dt = 0.7 * peri_stable_step(m->body);
-    m->speed = 0.2 * sqrt(s->stiff);
+    m->speed = 0.2 * s->rate;
     m->ball.dim = m->plane.dim = s->dim;
     placed(s, &f, s->ball, m->ball.at);
     placed(s, &f, s->plane, m->plane.at);
@@ -83,7 +83,7 @@ static double drift_of(const march *m, int steps, double far) {
     const scene *s = m->s;
     const double deep = s->has_ball || s->has_plane ? 8 * s->spacing : 0, size = s->size + m->size + deep;
     const double cells = 16 * (state_unit(s) * (far + s->reach) + bond_unit(s) * 2 * s->desc.horizon) * (s->gradient ? 50 : 1);
-    return 8.0 * steps * steps * steps * (2 * rounding(s) * size + cells);
+    return 20.0 * steps * steps * steps * (2 * rounding(s) * size + cells);
 }
 
 static double apart(const double *a, const double *b, double sign, int64_t n) {
@@ -118,7 +118,7 @@ static void moving_observer(verdict *v) {
     scene *s = v->s;
     march rest, ride_along;
     double velocity[3] = {0, 0, 0}, far = 0, u[3 * MOST], w[3 * MOST];
-    for (int d = 0; d < s->dim; ++d) velocity[d] = 0.1 * s->spacing * s->value[d] * sqrt(s->stiff);
+    for (int d = 0; d < s->dim; ++d) velocity[d] = 0.1 * s->spacing * s->value[d] * s->rate;
     set_out(&rest, s, NULL, 1);
     set_out(&ride_along, s, velocity, 1);
     if (s->desc.precision != PERI_PRECISION_DOUBLE) never_break(&rest), never_break(&ride_along);
@@ -221,7 +221,7 @@ static void impulse(verdict *v) {
     r.integrator = s->integrator;
     r.steps = 1;
     r.force_step = 1;
-    r.time_step = 1.4 / sqrt(m.stiff);
+    r.time_step = 0.7 * peri_stable_step(m.body);
     for (int step = 0; step < 3; ++step) {
         const double fast = largest(m.v, s->dofs);
         momenta(&m, p[0], l);

@@ -2,8 +2,8 @@
 /* oracle_scene.h - random scenes for the laws of physics: a scene is all choices that a seed makes, and its body, built from them.
 
    A scene is small, some 30 to 130 points, and of any size in the caller's units. Bounds of rounding follow from what stands here:
-     stiffness  4/dt^2 of the stable step is the largest row sum of |K| over rho (theory.md): rho |u| times it bounds the sum of the sizes
-                of all terms that make a force
+     stiffness  4/dt^2 of the stable step is the largest eigenvalue of K over rho, or a bound of it; row sums of |K|, which bound the sum
+                of the sizes of all terms that make a force over |u|, are up to 4.4 times that (accuracy.md, Stable step): 5 are taken
      rounding   a force is two sums over a family (what it gathers, then the bonds), and the constants of a law are a third: 4 width + 64
                 roundings of such terms; where K^-1 of a family enters (eigenvalues up to 50 apart), up to 50 times as many
      moving     a bond vector whose ends were rounded anew is off by the rounding of its ends over its length; weights follow by the
@@ -54,7 +54,8 @@ typedef struct scene {
     int32_t    kind[MOST];              /* of the material of each point                                                  */
     double     u[3 * MOST], p[3 * MOST], q[3 * MOST], v[3 * MOST], load[3 * MOST];
     double     size;                    /* largest displacement in u, p and q                                             */
-    double     stiff, reach;    /* see stiffness(), with the bonds that are live; largest distance of two coordinates       */
+    double     stiff, rate;     /* see stiffness(), with the bonds that are live; 2 over the stable step [T^-1]            */
+    double     reach;           /* largest distance of two coordinates                                                    */
     double     extent, shortest, slope, cancel; /* of the body about the origin; of a bond; see measure_bonds               */
 } scene;
 
@@ -358,7 +359,7 @@ static double weight_of(int32_t influence, double q, double edge) {
     case PERI_INFLUENCE_INVERSE: return 1 / q;
     case PERI_INFLUENCE_INVERSE_4: return 1 / (q * q * q * q);
     case PERI_INFLUENCE_POLE_EDGE: return 1 / (1 + edge - q);
-    case PERI_INFLUENCE_POLE_HALF: return 1 / (2 * q - 1);
+    case PERI_INFLUENCE_POLE_HALF: return 1 / fabs(2 * q - 1);
     case PERI_INFLUENCE_POLE_QUARTER: return exp(1 / (q - 0.25));
     case PERI_INFLUENCE_USER: return 1 / (1 + q * q);
     default: return 1;
@@ -412,8 +413,8 @@ static double moving(const scene *s, double shift) {
     return (rounding(s) + (8 + 2 * s->slope) * ends_of(s, shift) + parts) * s->cancel * (s->gradient ? 50 : 1);
 }
 
-/* Largest row sum of the stiffness over rho [T^-2]; no obstacles may be there. */
-static double stiffness(const peri_body *b) { return 4 / pow(peri_stable_step(b), 2); }
+/* Bound of the row sums of the stiffness over rho [T^-2], obstacles included. */
+static double stiffness(const peri_body *b) { return 5 * 4 / pow(peri_stable_step(b), 2); }
 
 /* ---- the scene of a seed ------------------------------------------------------------------------------------------ */
 
@@ -478,6 +479,7 @@ static int32_t scene_make(scene *s, uint64_t seed) {
     cut_cracks(s, s->body, &f, 1);
     measure_bonds(s);
     s->stiff = stiffness(s->body);
+    s->rate = 2 / peri_stable_step(s->body);
     MUST(s->body, peri_body_clone(s->body, &s->fresh, NULL));
     return PERI_OK;
 }

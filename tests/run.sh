@@ -102,8 +102,9 @@ can_sanitize() { echo 'int main(void){return 0;}' | $CC $SANITIZE -x c - -o buil
 rm -rf build/queue
 mkdir -p build/queue build/checks build/san out
 # under sanitizers, the tests of what handles memory: "NAME -CASE..." leaves out the cases that take longest there
-sanitized="test_breaking test_callbacks test_cracks test_criteria test_edges test_errors test_families test_fields test_fragments test_loads \
-    test_loadsteps test_loose test_memory test_misuse test_output test_plan test_programs test_quadrature test_random test_search test_solvers"
+sanitized="test_memory test_callbacks test_programs test_loose test_breaking test_cracks test_criteria test_edges test_errors \
+    test_families test_fields test_fragments test_loads test_loadsteps test_misuse test_output test_plan test_quadrature test_random \
+    test_search test_solvers"
 longest="extremes test_oracles test_kernels test_programs test_choose test_direction test_failure test_branching test_random \
     test_callbacks test_bending test_stale"
 shorter=$(basename -s .c tests/test_*.c)
