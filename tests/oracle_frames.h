@@ -14,6 +14,7 @@
 static int has_cubes(const scene *s) {
     return !is_exact(s->desc.quadrature) || (s->origin != ORIGIN_PERTURBED && s->origin != ORIGIN_LONG_CELLS);
 }
+
 /* By the rule of centroids the two ends of a bond differ in its stretch, and that of lower number decides (theory.md). */
 static int can_renumber(const scene *s) {
     return has_cubes(s) && !(s->breakable && s->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID);

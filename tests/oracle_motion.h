@@ -74,9 +74,6 @@ static void never_break(march *m) {
     if (m->s->breakable) MUST(m->body, peri_set_no_fail(m->body, PERI_ALL, 1));
 }
 
-/* Weights below 0 may make the energy indefinite: motion then grows without bound, and rounding with it (theory.md). */
-static int is_stable(const scene *s) { return s->desc.influence != PERI_INFLUENCE_POLE_HALF; }
-
 /* Bound of what rounding in so many steps does to displacements: of forces over their scale, and of bonds that are far from where they
    were; it grows no faster than the cube of the steps. Obstacles are up to 8 spacings deep. */
 static double drift_of(const march *m, int steps, double far) {
@@ -272,7 +269,7 @@ static double norm_of(const scene *s, const double *f, int forces) {
     return sqrt(sum);
 }
 
-/* Parts that nothing holds, and a tangent that negative weights have made indefinite, have none. */
+/* Parts that nothing holds have none. */
 static void settle(scene *s, peri_body *b, rest *r) {
     peri_solve_desc d;
     peri_energy e;
