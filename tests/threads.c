@@ -164,7 +164,8 @@ static void pool_of_the_caller(void) {
         pool p;
         memset(&p, 0, sizeof p);
         CHECK(pthread_mutex_init(&p.lock, NULL) == 0);
-        CHECK(big_job(law, &p) == big_job(law, NULL));
+        const uint64_t bits = big_job(law, &p);
+        if (test_long) CHECK(bits == big_job(law, NULL)); /* test_failure compares them without a sanitizer              */
         CHECK(p.loops > 4);
         (void)pthread_mutex_destroy(&p.lock);
     }
