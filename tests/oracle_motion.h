@@ -127,7 +127,7 @@ static void moving_observer(verdict *v) {
         w[k] = rest.v[k] + velocity[k % s->dim];
         far = fmax(far, fabs(way));
     }
-    const double bound = drift_of(&rest, MARCH, far);
+    const double bound = drift_of(&rest, MARCH, far) * flatness(rest.body);
     within(v, abs(rest.burst - ride_along.burst), 0.5, "status of peri_advance");
     if (!rest.burst) {
         within(v, apart(ride_along.u, u, 1, s->dofs), bound, "displacements of a body that moves along");

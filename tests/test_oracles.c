@@ -92,8 +92,8 @@ static oracle oracles[] = {
     LAW("turned scene", can_turn, turned_scene, 10),
     LAW("mirrored scene", has_cubes, mirrored_scene, 10),
     LAW("renumbered scene", can_renumber, renumbered_scene, 10),
-    LAW("shifted scene", always, shifted_scene, 10),
-    LAW("other units", always, rescaled_scene, 10),
+    LAW("shifted scene", can_fit, shifted_scene, 10),
+    LAW("other units", can_fit, rescaled_scene, 10),
 };
 enum { ORACLES = sizeof oracles / sizeof *oracles };
 
