@@ -247,7 +247,8 @@ static void shake(peri_body *body) {
 }
 
 /* Truths: the ledger's fracture energy is the sum of 1/2 c w s^2 |xi| V V h^2 over the events (c of the pair's materials), s the critical
-   stretch where bonds break within the step, else that at its end; the events are the broken bonds, each once, each past its s0; time is that of a whole step. 1e-12: rounding of some 100 terms.
+   stretch where bonds break within the step, else that at its end; the events are the broken bonds, each once, each past its s0; time is
+   that of a whole step. 1e-12: rounding of some 100 terms.
    In float the stretch is good to some 1e-6 (displacements of ~1 and differences of ~0.1). */
 static void fracture_energy(void) {
     int n;
@@ -426,8 +427,8 @@ static peri_body *free_pair(int32_t law, int32_t timing, double stretch, double 
     return b;
 }
 
-/* The largest error of the kinetic energy after the break over the energy of the bond, over steps of about this part of the stable one; *ledger: of what the
-   ledger has for the fracture. */
+/* The largest error of the kinetic energy after the break over the energy of the bond, over steps of about this part of the stable one;
+   *ledger: of what the ledger has for the fracture. */
 static double parted(int32_t law, int32_t timing, int32_t integrator, double step, double *ledger) {
     double worst = 0;
     *ledger = 0;
@@ -456,7 +457,7 @@ static double parted(int32_t law, int32_t timing, int32_t integrator, double ste
 
 /* SOURCE OF TRUTH: the first law: two points that have torn their bond keep the kinetic energy that they had less the energy of the bond at
    its critical stretch, wherever in a step they tear it. Within the step: to second order; a quarter of the step has a sixteenth of the
-   error (accepted: a tenth), and the ledger has just the energy of the bond. After the drift: to first order, which it would pass for 2.5 to 7. */
+   error (accepted: a tenth), and the ledger has just the energy of the bond. After the drift: to first order, 2.5 to 7 times. */
 static void two_points_part_in_time(void) {
     int32_t law, integrator;
     for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)

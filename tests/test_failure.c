@@ -92,8 +92,8 @@ static torn tear(const tearing *how, int64_t n) {
 /* SOURCE OF TRUTH: the first law, and that breaking takes the difference of two elastic energies at the moment of the break: the scheme
    stays of second order, a quarter of the step has a sixteenth of the error. Bonds break on other steps, and fragments that part
    go their own ways, so the order is asked to be above 1.7 (a first-order leak has 1); or, where the long steps happen to close better than
-   that, the short ones to a thirtieth of the 1e-3 that a first-order leak leaves of them (below). In absolute terms: Verlet keeps the energy E
-   of a mode of frequency w to E (w dt/2)^2, and w <= 2/stable step. */
+   that, the short ones to a thirtieth of the 1e-3 that a first-order leak leaves of them (below). In absolute terms: Verlet keeps
+   the energy E of a mode of frequency w to E (w dt/2)^2, and w <= 2/stable step. */
 static void closes(tearing how, const char *note) {
     const int64_t n = (int64_t)(56 * how.time);
     torn coarse = tear(&how, n), fine = tear(&how, 4 * n);

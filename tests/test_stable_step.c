@@ -413,9 +413,9 @@ static void in_any_shape(void) {
             }
 }
 
-/* SOURCE OF TRUTH: the contract of peri_advance, and the conservation of energy: a free body that is torn apart at 0.3 of the speed of sound
-   and swings back keeps its energy: to a tenth where lengths make the forces, to a half where P = F S does, whose waves are steep. What is
-   unstable for eight steps is off by a hundred times all of it. */
+/* SOURCE OF TRUTH: the contract of peri_advance, and the conservation of energy: a free body that is torn apart at 0.3 of the speed
+   of sound and swings back keeps its energy: to a tenth where lengths make the forces, to a half where P = F S does, whose waves are
+   steep. What is unstable for eight steps is off by a hundred times all of it. */
 static void in_large_motion(void) {
     int32_t law, space;
     for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)

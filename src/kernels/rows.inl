@@ -117,7 +117,8 @@ PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, cons
     peri__parting parting = { 1.0, 1.0, 0.0 };
     if (!s->closing) return parting;
     for (int d = 0; d < PERI_D; ++d) {
-        const double xi = (double)bond->xi[d], eta = (double)bond->eta[d] - s->step * ((double)v[d * stride + j] - (double)v[d * stride + i]);
+        const double apace = (double)v[d * stride + j] - (double)v[d * stride + i];
+        const double xi = (double)bond->xi[d], eta = (double)bond->eta[d] - s->step * apace;
         along += (s->linear ? xi : 2.0 * xi + eta) * eta;
         square += (xi + eta) * (xi + eta);
     }
@@ -218,10 +219,10 @@ static void PERI_FN(count_work)(const peri__operands *s, int64_t i, const peri__
     }
 }
 
-/* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, what they still give going to
-   `impulse` and the energy that they break with to *lost (per volume of the body); else they are noted in `dying`, and still act. Returns
-   their number.
-   `pairwise`, `mixed` and `plain` (neither linear nor centred, only critical stretches) are constants where this is inlined. */
+/* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, what they still give
+   going to `impulse` and the energy that they break with to *lost (per volume of the body); else they are noted in `dying`, and still act.
+   Returns their number. `pairwise`, `mixed` and `plain` (neither linear nor centred, only critical stretches) are constants where this is
+   inlined. */
 PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const peri__row *row, peri_r *f, peri_r *impulse, double *lost,
                                        const int pairwise, const int mixed, const int plain) {
     const peri__model *m = s->model;

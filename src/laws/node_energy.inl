@@ -17,7 +17,8 @@ PERI_INLINE int PERI_FN(over_node_energy)(const peri__operands *s, int64_t i, co
     return s->node && bond->along > 0 && 0.5 * (s->node[i] + s->node[j]) > PERI_FN(pair)(s, i, j)->limit[at];
 }
 
-PERI_INLINE double PERI_FN(met_node_energy)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+PERI_INLINE double PERI_FN(met_node_energy)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k,
+                                           const PERI_FN(bond) *bond) {
     const double limit = PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_NODE_ENERGY - peri__first_criterion];
     const double energy = s->node ? 0.5 * (s->node[i] + s->node[row->ids[k]]) : 0.0;
     (void)bond;

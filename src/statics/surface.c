@@ -111,7 +111,7 @@ static int32_t peri__fill_traction(peri_body *b, peri__surface *f, const peri__l
     for (int c = 0; c < 2 && status == PERI_OK; ++c) {
         double *share = NULL;
         if (c == 1 && dim == 3) {
-            share = (double *)peri__new(&b->memory, count, sizeof *share);
+            share = (double *)peri__new(&b->scratch, count, sizeof *share);
             if (!share) return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
         }
         total = peri__feel(b, f, law, frame, c, share);
@@ -119,7 +119,7 @@ static int32_t peri__fill_traction(peri_body *b, peri__surface *f, const peri__l
         status = peri__check_area(b, f, law, total);
         if (status == PERI_OK)
             peri__add_shares(b, f, frame, c, share ? 2 : c, share, (share ? 0.5 : 1.0) * (exact ? -1.0 : -f->area / total));
-        peri__delete(&b->memory, share, count, sizeof *share);
+        peri__delete(&b->scratch, share, count, sizeof *share);
     }
     return status;
 }
