@@ -210,6 +210,7 @@ static void peri__plan_bytes(peri__estimate *s, const peri_plan_desc *plan, peri
     const int64_t given = peri__body_bytes(s), search = peri__search_bytes(s, listed) + sums;
     m->width = (int32_t)s->width;
     m->x = there;
+    m->portion = s->body.b32 && plan->source != PERI_SOURCE_BOX ? there : NULL;
     m->count = (int32_t *)there;
     m->pairs = &s->pair;
     if (stencil > 0) peri__mark_stencil(s, there);

@@ -15,5 +15,10 @@ PERI_INLINE int peri__packed(int32_t dim, int a, int b) {
 /* The point at place k: the k-th in passes over the list. */
 PERI_INLINE int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
 
+/* What sums with the weights of point i are too large by. In single precision w V_j and w V_i are rounded each for itself, and the forces
+   on the two ends of a bond differ by that. Where volumes differ both ends therefore have the weight w V_i V_j, rounded once, and each
+   divides its sums, in the precision of the state, by its own volume. */
+PERI_INLINE double peri__share(const peri__model *m, int64_t i) { return m->mutual ? m->volume[i] : 1.0; }
+
 /* The neighbour of entry `at` of the list. */
 PERI_INLINE int64_t peri__entry_id(const peri__model *m, int64_t at) { return m->order ? m->order[m->ids[at]] : m->ids[at]; }

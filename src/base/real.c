@@ -26,3 +26,8 @@ static void peri__put_real(void *array, int32_t f32, int64_t at, double value) {
 PERI_INLINE double peri__get_real(const void *array, int32_t f32, int64_t at) {
     return PERI_SINGLE(f32) ? (double)((const float *)array)[at] : ((const double *)array)[at];
 }
+
+/* w beta V_j of entry `at` of weights of point i. */
+PERI_INLINE double peri__weight_of(const peri__model *m, int64_t i, const void *weights, int64_t at) {
+    return peri__get_real(weights, m->b32, at) / peri__share(m, i);
+}

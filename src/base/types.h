@@ -28,7 +28,8 @@
      mask      of a column: a bit per point of the group whose bond carries force; `member`: whose bond exists
      block     PERI_BLOCK points, the unit of parallel work; of a matrix: the dim x dim entries of a pair of points
      plane     one component of an array for all points, `stride` reals long; `margin` reals lie before and after
-     partial volume   beta V_j, what counts of cell j in the family of i; weight: w times that
+     partial volume   beta V_j, what counts of cell j in the family of i; weight: w times that; mutual: and times V_i, of which sums take
+               a portion, 1/V_i
      pair      constants of bonds between two classes; a point's class is its material, apart where bonds are not to fail
      piece     points that were added by one call; cloud: the points while families are sought
      builder   what the building of the stencil needs and drops; quantum: the unit in which it compares reals
@@ -153,7 +154,7 @@ typedef struct peri__interface {
 typedef struct peri__ops peri__ops;
 
 typedef struct peri__stencil_bond { /* what bonds along one lattice vector between two materials share, rounded as bond  */
-    double xi[3], length, weight, partial_volume, inverse; /* weight: w beta V_j; partial_volume: beta V_j; inverse: 1/|xi| */
+    double xi[3], length, weight, partial_volume, inverse; /* weight: as the model's; partial_volume: beta V_j; inverse: 1/|xi| */
     double c, s0;                                 /* of the pair                                                         */
 } peri__stencil_bond;
 
@@ -201,6 +202,7 @@ typedef struct peri__model {
 
     void      *x;        /* real [dim][stride] reference positions                                                       */
     double    *volume;   /* [points]                                                                                     */
+    void      *portion;  /* real [stride] 1/V_i: what of its sums a point takes where weights are `mutual`; else NULL    */
     uint8_t   *material; /* [points]                                                                                     */
     int32_t   *count;    /* [points] family sizes                                                                        */
     peri__stencil stencil;   /* families by columns, where they come from a lattice. Rows are then not kept: the next are NULL */
@@ -210,12 +212,13 @@ typedef struct peri__model {
     int64_t   *start;    /* [points] row i is entries start[i] to start[i] + count[i] of the list                        */
     int64_t    entries;  /* bonds, and PERI_GROUP more that kernels may read                                             */
     int32_t   *ids;      /* [entries] Ibond without its padding: places of the neighbours, ascending; see peri__entry_id */
-    void      *weight;   /* bond [entries] w(|xi|) beta V_j                                                              */
-    void      *back;     /* bond [entries] w_ji beta V_j: what j's half of the bond weighs; `weight` itself where equal  */
+    void      *weight;   /* bond [entries] w(|xi|) beta V_j; where `mutual` times V_i                                    */
+    void      *back;     /* bond [entries] w_ji beta V_j: what j's half of the bond weighs, likewise; `weight` itself where equal */
     void      *bond;     /* bond [entries] |xi|; NULL where x tells: not with the centroid rule, for families larger than the
                             room of peri__row, and where single precision blurs it                                       */
     void      *centroid; /* bond [entries][dim] bond to the centroid of the part; NULL but for that rule                 */
     float     *partial_volume;     /* [entries] beta V_j; NULL for whole cells                                           */
+    int32_t    mutual;   /* 1: weights are w beta V_i V_j and sums with them are divided by V_i, see peri__share       */
     int32_t    record_reals;    /* reals per record of body->records: 4, 8, 12 or 16; 0 where list.inl does not serve    */
     int64_t    margin;   /* of a state vector before and after: kernels on columns read beyond the ends, and discard     */
 

@@ -37,7 +37,7 @@ typedef struct peri__array {
 } peri__array;
 #define PERI_ARRAYS 26       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
-#define PERI_MODEL_ARRAYS 18 /* with all others                                                                           */
+#define PERI_MODEL_ARRAYS 19 /* with all others                                                                           */
 
 static void *peri__pointer_at(const void *owner, size_t place) {
     void *pointer;
@@ -74,6 +74,7 @@ static void peri__list_model(const peri_body *b, const peri__model *m, peri__arr
         PERI_ARRAY_(stencil.ends, m->stencil.vectors, sizeof(peri__stencil_ends), PERI__FAMILIES),
         PERI_ARRAY_(x, m->stride * m->dim, real, PERI__POINTS),
         PERI_ARRAY_(volume, n, sizeof(double), PERI__POINTS),
+        PERI_ARRAY_(portion, m->stride, real, PERI__POINTS),
         PERI_ARRAY_(material, n, 1, PERI__POINTS),
         PERI_ARRAY_(count, n, sizeof(int32_t), PERI__POINTS),
         PERI_ARRAY_(pairs, pairs, sizeof(peri__pair), PERI__LAWS),

@@ -278,6 +278,10 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
         if (m->volume[i] != cloud->even) cloud->even = 0.0;
         if (m->volume[i] > most) most = m->volume[i];
     }
+    m->mutual = b->b32 && !(cloud->even > 0.0);
+    if (m->mutual) m->portion = peri__new(&m->memory, m->stride, real);
+    if (m->mutual && !m->portion) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    for (int64_t i = 0; m->mutual && i < m->points; ++i) peri__put_real(m->portion, b->f32, i, 1.0 / m->volume[i]);
     if (pow(most, 1.0 / dim) > cloud->largest) cloud->largest = pow(most, 1.0 / dim);
     peri__gauss(cloud->gauss_x, cloud->gauss_w);
 

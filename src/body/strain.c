@@ -28,7 +28,7 @@ static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *r
     const peri__law *law = &m->laws[m->material[i]];
     double sum = 0.0, whole = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
-        double w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
+        double w = peri__weight_of(m, i, row->weight, k), bond = peri__get_real(row->bond, b->b32, k);
         if (!peri__is_alive(b, i, k)) continue;
         if (law->gauge) w *= bond;
         sum += w * bond * peri__stretch(b, i, row, k);
@@ -41,7 +41,7 @@ static void peri__deform(const peri_body *b, int64_t i, const peri__row *row, pe
     const peri__model *m = b->model;
     double n[3][3] = { { 0.0 } }, shape[6] = { 0.0 }, inverse[6];
     for (int64_t k = 0; k < row->count; ++k) {
-        double xi[3], eta[3], w = peri__get_real(row->weight, b->b32, k);
+        double xi[3], eta[3], w = peri__weight_of(m, i, row->weight, k);
         if (!peri__is_alive(b, i, k)) continue;
         peri__pull_of(b, i, row->ids[k], xi, eta);
         for (int a = 0; a < m->dim; ++a)
@@ -131,7 +131,7 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
     for (int64_t k = 0; k < row->count; ++k) {
         int64_t at = row->first + k;
         double xi[3], eta[3], t[3] = { 0.0, 0.0, 0.0 }, length = 0.0, central;
-        double w = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k), e;
+        double w = peri__weight_of(m, i, row->weight, k), bond = peri__get_real(row->bond, b->b32, k), e;
         if (!peri__is_alive(b, i, k)) continue;
         peri__pull_of(b, i, row->ids[k], xi, eta);
         if (m->centroid)

@@ -54,7 +54,7 @@ typedef struct peri__fitter {
 static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n) {
     const peri__model *m = f->cloud->model;
     int64_t at = m->start[i] + k, j = m->ids[at];
-    double bond = 0.0, weight = peri__get_real(m->weight, f->cloud->body->b32, at);
+    double bond = 0.0, weight = peri__weight_of(m, i, m->weight, at);
     for (int32_t d = 0; d < m->dim; ++d) {
         n[d] = f->cloud->x[j * m->dim + d] - f->cloud->x[i * m->dim + d];
         bond += n[d] * n[d];

@@ -84,7 +84,7 @@ static int32_t peri__vector_of(peri__builder *d, int64_t i, int64_t j, const per
         key[k] = peri__quanta(bond->xi[k], 1.0);
     }
     if (!(fabs(weight) < 1e6 * d->weight)) return -1;
-    key[3] = peri__quanta(weight, d->weight);
+    key[3] = peri__quanta(bond->weight, d->weight); /* rounded to float it could be of two grains */
     key[4] = peri__quanta(bond->partial_volume, d->partial_volume);
     key[5] = peri__pair_of(m, i, j);
     int32_t *slot = peri__vector_slot(d, key);
@@ -102,10 +102,20 @@ static int32_t peri__vector_of(peri__builder *d, int64_t i, int64_t j, const per
     return *slot - 1;
 }
 
+/* Have two rows the same vector or opposite ones, and the same of what else is in the first `keys` of their keys? */
+static int peri__is_along(const peri__vector *a, const peri__vector *other, int keys) {
+    int same = 1, opposite = 1;
+    for (int k = 0; k < keys; ++k) {
+        same &= a->key[k] == other->key[k];
+        opposite &= a->key[k] == (k < 3 ? -other->key[k] : other->key[k]);
+    }
+    return same || opposite;
+}
+
 /* Both directions of a bond must have exactly opposite vectors and the same length, whatever they weigh, or momentum drifts by rounding,
    and only one of them breaks: they get those of the first row that is alike. What weighs the same must to the last bit. */
 static void peri__oppose_vectors(peri__builder *d) {
-    const int32_t materials = d->cloud->model->materials;
+    const int32_t materials = d->cloud->model->materials, mutual = d->cloud->model->mutual;
     for (int32_t a = 0; a < d->count; ++a) {
         peri__vector *row = &d->row[a];
         int64_t key[PERI_VECTOR_KEY];
@@ -117,7 +127,12 @@ static void peri__oppose_vectors(peri__builder *d) {
             d->row[other].weight = row->weight;
             d->row[other].bond.partial_volume = row->bond.partial_volume;
         }
-        while (memcmp(d->row[first].key, key, 3 * sizeof *key) != 0 && memcmp(d->row[first].key, row->key, 3 * sizeof *key) != 0) ++first;
+        for (int32_t like = 0; mutual && like < a; ++like) /* beta V_j of the two ends differs, what they weigh does not */
+            if (peri__is_along(&d->row[like], row, 4)) {
+                row->weight = d->row[like].weight;
+                break;
+            }
+        while (!peri__is_along(&d->row[first], row, 3)) ++first;
         const int same = memcmp(d->row[first].key, row->key, 3 * sizeof *key) == 0;
         for (int k = 0; k < 3; ++k) row->bond.xi[k] = same ? d->row[first].bond.xi[k] : -d->row[first].bond.xi[k];
         row->length = d->row[first].length;
@@ -154,6 +169,7 @@ static int peri__build_row(peri__builder *d, int64_t i, const int32_t *ids, int6
     const peri__column *old = d->group[d->now], *old_end = old + d->group_count;
     peri__column *made = d->group[!d->now], *next = made;
     double total = 0.0, stiff = 0.0, row_sum = 0.0;
+    const double share = peri__share(m, i);
     peri__bond own;
     memset(&own, 0, sizeof own);
     for (int64_t k = 0; k < count; ++k) {
@@ -175,9 +191,9 @@ static int peri__build_row(peri__builder *d, int64_t i, const int32_t *ids, int6
             vector = peri__vector_of(d, i, j, &own);
             if (vector < 0) return 0;
         }
-        total += fabs(bond->weight);
-        stiff += bond->weight * bond->length * bond->length;
-        row_sum += m->pairs[d->row[vector].key[5]].c * fabs(peri__rounded(b32, bond->weight)) / peri__rounded(b32, bond->length);
+        total += fabs(bond->weight) / share;
+        stiff += bond->weight * bond->length * bond->length / share;
+        row_sum += m->pairs[d->row[vector].key[5]].c * fabs(peri__rounded(b32, bond->weight)) / peri__rounded(b32, bond->length) / share;
         while (old < old_end && old->offset == offset && old->vector < vector) *next++ = *old++;
         if (old < old_end && old->offset == offset && old->vector == vector) {
             *next = *old++;
@@ -236,7 +252,8 @@ static void peri__choose_units(peri__builder *d, const int32_t *ids, int64_t cou
     for (int64_t k = 0; k < count; ++k) {
         if (m->ids) peri__listed_bond(d->cloud, 0, k, &bond);
         else if (!peri__weigh_bond(d->cloud, &d->parts, 0, ids[k], &bond)) continue;
-        const double weight = fabs(bond.weight) / m->volume[ids[k]] * d->partial_volume;
+        double weight = fabs(bond.weight) / m->volume[ids[k]] * d->partial_volume;
+        if (m->mutual) weight *= d->partial_volume / m->volume[0];
         if (weight > d->weight) d->weight = weight;
     }
 }

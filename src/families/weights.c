@@ -61,7 +61,7 @@ static int peri__weigh_bond(const peri__cloud *c, peri__partial_volumes *parts, 
         w = 0.5 * (peri__moment_weight(c, i, j, length, c->edge) + peri__moment_weight(c, j, i, length, c->edge));
     else
         w = beta * peri__influence(c->body, bond->length / m->horizon, c->edge);
-    bond->weight = w * m->volume[j];
+    bond->weight = w * (m->mutual ? m->volume[i] * m->volume[j] : m->volume[j]);
     bond->partial_volume = beta * m->volume[j];
     return peri__finite(w);
 }
@@ -122,6 +122,8 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
         }
+        total /= peri__share(m, i);
+        stiff /= peri__share(m, i);
         if (status == PERI_OK) status = peri__check_weight(b, total, stiff, m->laws[m->material[i]].pairwise);
         if (status == PERI_OK || (sums->bad >= 0 && sums->bad < i)) continue;
         sums->bad = i;
@@ -210,7 +212,10 @@ PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *
     if (c->even > 0.0)
         for (int64_t k = 0; k < taken; ++k) weight[k] *= c->even;
     else
-        for (int64_t k = 0; k < taken; ++k) weight[k] *= m->volume[c->order[s->hit[k]]];
+        for (int64_t k = 0; k < taken; ++k) {
+            const double volume = m->volume[c->order[s->hit[k]]];
+            weight[k] *= m->mutual ? m->volume[i] * volume : volume;
+        }
     for (int64_t k = taken; k < whole; ++k) weight[k] = 0.0;
     if (c->body->b32) {
         float *out = (float *)m->weight + at;
@@ -236,9 +241,10 @@ PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *
 /* Is all well with the weights of row i? *row_sum: as of peri__row_sum_block. */
 static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *t, double *row_sum) {
     const peri__model *m = c->model;
-    const double own = 2.0 * t->row_sum / m->rho[m->material[i]];
+    const double share = peri__share(m, i), own = 2.0 * (t->row_sum / share) / m->rho[m->material[i]];
     if (!(own <= *row_sum)) *row_sum = own;
-    return t->blurred == 0 && peri__check_weight(c->body, t->total, t->stiff, m->laws[m->material[i]].pairwise) == PERI_OK;
+    return t->blurred == 0
+        && peri__check_weight(c->body, t->total / share, t->stiff / share, m->laws[m->material[i]].pairwise) == PERI_OK;
 }
 
 /* ---- weights of any rule, of the list ----------------------------------------------------------------------------- */
@@ -252,7 +258,7 @@ static void peri__row_sum_block(void *context, int64_t begin, int64_t end, peri_
         double row_sum = 0.0;
         for (int64_t at = m->start[i]; at < m->start[i] + m->count[i]; ++at)
             row_sum += m->pairs[m->material[i] * m->materials + m->material[peri__entry_id(m, at)]].c
-                  * fabs(peri__get_real(m->weight, c->body->b32, at)) / peri__listed_length(c, i, at);
+                  * fabs(peri__weight_of(m, i, m->weight, at)) / peri__listed_length(c, i, at);
         row_sum *= 2.0 / m->rho[m->material[i]];
         if (row_sum > sums->a) sums->a = row_sum;
     }

@@ -343,6 +343,7 @@ PERI_ISA_TARGET PERI_INLINE uint32_t PERI_ISA_FN(work)(const peri__operands *o, 
     const peri__model *m = o->model;
     const int64_t at = (m->stencil.begin[g] + column) * PERI_GROUP;
     const peri_r *worked = (const peri_r *)o->worked + g * PERI_GROUP;
+    const peri_r *portion = PERI_MUTUAL(m) ? (const peri_r *)m->portion + g * PERI_GROUP : NULL;
     peri_r *work = (peri_r *)o->work + at, *pull = (peri_r *)o->pull + at * PERI_D;
     const peri_r limit = (peri_r)(o->breaking ? PERI_ISA_FN(ends)(o, bond)->energy * (1.0 - PERI_NEAR) : PERI_NEVER);
     const peri_r *here = s->u;
@@ -352,7 +353,8 @@ PERI_ISA_TARGET PERI_INLINE uint32_t PERI_ISA_FN(work)(const peri__operands *o, 
         for (int l = 0; l < PERI_GROUP; ++l) {
             const int64_t own = d * m->stride + l, other = own + bond->offset;
             const peri_b eta = (peri_b)(here[other] - here[own]);
-            const peri_r way = (peri_r)eta - (worked[other] - worked[own]), now = force[d][l];
+            const peri_r way = (peri_r)eta - (worked[other] - worked[own]);
+            const peri_r now = PERI_MUTUAL(m) ? portion[l] * force[d][l] : force[d][l];
             done[l] += (peri_r)0.5 * (pull[d * PERI_GROUP + l] + now) * way;
             pull[d * PERI_GROUP + l] = now;
         }

@@ -28,6 +28,7 @@
 #define PERI_NEAR 1e-5
 #define PERI_TINY 1e-20f
 #endif
+#define PERI_MUTUAL(model) (PERI_T_BOND == 32 && (model)->mutual)
 #if PERI_T_BOND == 64
 #if PERI_T_DIM == 2
 #define PERI_FN(name) peri__##name##_d2
@@ -89,6 +90,7 @@ typedef struct PERI_FN(vector_ops) {
     void (*list_shape)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D]);
     int (*kick_some)(int64_t, peri_r, const peri_r *, const peri_r *, peri_r *);
     void (*drift_some)(int64_t, peri_r, const peri_r *, peri_r *);
+    void (*share_some)(const peri_r *, const peri_r *, peri_r *);
     void (*square_some)(int64_t, int, const uint8_t *, const peri_r *, double *, double *);
     void (*step_some)(int64_t, peri_r, const peri_r *, const peri_r *, peri_r *, peri_r *);
     void (*weigh_some)(int64_t, const double *, const peri_r *, peri_r *, double *, double *);
@@ -122,8 +124,8 @@ typedef struct PERI_FN(vector_ops) {
     { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(dilatation_sum_##set), \
       PERI_FN(squares_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set), PERI_FN(list_ordinary_##set),          \
       PERI_FN(list_tensor_##set), PERI_FN(list_dilatation_sum_##set), PERI_FN(list_shape_##set), PERI_FN(kick_some_##set),    \
-      PERI_FN(drift_some_##set), PERI_FN(square_some_##set), PERI_FN(step_some_##set), PERI_FN(weigh_some_##set),        \
-      PERI_FN(dot_some_##set), PERI_FN(turn_some_##set) }
+      PERI_FN(drift_some_##set), PERI_FN(share_some_##set), PERI_FN(square_some_##set), PERI_FN(step_some_##set),           \
+      PERI_FN(weigh_some_##set), PERI_FN(dot_some_##set), PERI_FN(turn_some_##set) }
 static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
     PERI_TABLE(base),
 #ifdef PERI_ISA
@@ -162,6 +164,7 @@ PERI_SHARED const peri__ops PERI_FN(ops) = {
 #undef PERI_ROOT
 #undef PERI_CHUNK
 #undef PERI_TINY
+#undef PERI_MUTUAL
 #undef PERI_SPEEDING
 #undef PERI_FN
 #undef PERI_D

@@ -53,24 +53,34 @@ PERI_INLINE void PERI_FN(fetch_ahead)(const peri__operands *o, int64_t place) {
     PERI_PREFETCH(&m->start[i]);
     PERI_PREFETCH(&m->count[i]);
     if (o->alive) PERI_PREFETCH(&o->alive[i * m->words]);
+    if (PERI_MUTUAL(m)) PERI_PREFETCH((const peri_r *)m->portion + i);
     for (int d = 0; d < PERI_D; ++d) PERI_PREFETCH((const peri_r *)o->f + d * m->stride + i);
 }
 
+/* Sums of which points take portions are kept for the block, and dealt out in the end: a product more after each row would cost time. */
 static void PERI_FN(force_list)(const peri__operands *o, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__model *m = o->model;
     const int tensors = m->gathers & PERI__GRADIENT;
+    peri_r shared[PERI_BLOCK][PERI_D];
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
-        peri_r *force = (peri_r *)o->f + i, f[PERI_D];
+        peri_r *force = (peri_r *)o->f + i, *f = shared[k - begin];
         int by_row;
         PERI_FN(fetch_ahead)(o, k);
-        for (int d = 0; d < PERI_D; ++d) f[d] = force[d * m->stride];
+        for (int d = 0; d < PERI_D; ++d) f[d] = PERI_MUTUAL(m) ? 0 : force[d * m->stride];
         if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
         else if (!tensors) by_row = PERI_BY_VECTORS(m, list_ordinary)(o, k, f);
         else by_row = o->central[i / PERI_GROUP] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
-        if (by_row) PERI_FN(force_rows)(o, i, i + 1, sums);
-        else
+        if (by_row) {
+            PERI_FN(force_rows)(o, i, i + 1, sums);
+            for (int d = 0; d < PERI_D; ++d) f[d] = 0;
+        } else if (!PERI_MUTUAL(m))
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride] = f[d];
+    }
+    for (int64_t k = begin; PERI_MUTUAL(m) && k < end; ++k) {
+        const int64_t i = peri__nth(m, k);
+        const peri_r portion = ((const peri_r *)m->portion)[i];
+        for (int d = 0; d < PERI_D; ++d) ((peri_r *)o->f)[d * m->stride + i] += portion * shared[k - begin][d];
     }
 }
 
@@ -82,10 +92,11 @@ static void PERI_FN(gather_list)(const peri__operands *o, int64_t begin, int64_t
         if (m->gathers & PERI__GRADIENT) {
             peri_r n[PERI_D][PERI_D];
             PERI_BY_VECTORS(m, list_shape)(o, k, n);
+            PERI_FN(share_out)(m, i, n);
             PERI_FN(put_tensor)(o, i, n);
         } else
             PERI_FN(put_pressure)(o, i, PERI_FN(constant)(o, PERI__PRESSURE_FACTOR, i) == 0 ? 0 :
-                                             PERI_BY_VECTORS(m, list_dilatation_sum)(o, k));
+                                             PERI_BY_VECTORS(m, list_dilatation_sum)(o, k) * PERI_FN(portion)(m, i));
     }
 }
 
@@ -135,8 +146,12 @@ static void PERI_FN(force_columns)(const peri__operands *o, int64_t g, peri__sum
     const peri__model *m = o->model;
     const int64_t first = g * PERI_GROUP;
     peri_r *force = (peri_r *)o->f + first, f[PERI_D][PERI_GROUP];
-    for (int d = 0; d < PERI_D; ++d) memcpy(f[d], &force[d * m->stride], sizeof f[d]);
+    if (PERI_MUTUAL(m)) memset(f, 0, sizeof f);
+    else
+        for (int d = 0; d < PERI_D; ++d) memcpy(f[d], &force[d * m->stride], sizeof f[d]);
     const uint32_t by_row = PERI_FN(group_force)(o, g, f);
+    for (int d = 0; PERI_MUTUAL(m) && d < PERI_D; ++d)
+        PERI_BY_VECTORS(m, share_some)((const peri_r *)m->portion + first, &force[d * m->stride], f[d]);
     if (!by_row) {
         for (int d = 0; d < PERI_D; ++d) memcpy(&force[d * m->stride], f[d], sizeof f[d]);
         return;
@@ -151,7 +166,9 @@ static void PERI_FN(group_energy)(const peri__operands *o, int64_t g, double den
     peri_r sum[PERI_GROUP] = { 0 };
     PERI_BY_VECTORS(m, squares)(o, g, density);
     if (m->gathers & PERI__DILATATION) PERI_BY_VECTORS(m, dilatation_sum)(o, g, sum);
-    for (int l = 0; l < PERI_GROUP; ++l) {
+    for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
+        density[l] /= peri__share(m, g * PERI_GROUP + l);
+        sum[l] *= PERI_FN(portion)(m, g * PERI_GROUP + l);
         if (m->pairwise) density[l] *= 0.25;
         else
             density[l] = 0.5 * (double)constant[PERI__SPRING * m->stride + l] * density[l]
@@ -176,13 +193,14 @@ static void PERI_FN(gather_columns)(const peri__operands *o, int64_t g) {
             if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) continue;
             for (int a = 0; a < PERI_D; ++a)
                 for (int d = 0; d < PERI_D; ++d) n[a][d] = shape[a][d][i - first];
+            PERI_FN(share_out)(m, i, n);
             PERI_FN(put_tensor)(o, i, n);
         }
     }
     if (!(m->gathers & PERI__DILATATION)) return;
     PERI_BY_VECTORS(m, dilatation_sum)(o, g, sum);
     for (int64_t i = first; i < end; ++i)
-        if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) PERI_FN(put_pressure)(o, i, sum[i - first]);
+        if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) PERI_FN(put_pressure)(o, i, sum[i - first] * PERI_FN(portion)(m, i));
 }
 
 static void PERI_FN(gather_nodes)(const peri__operands *o, int64_t g) {

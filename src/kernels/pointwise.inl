@@ -23,6 +23,13 @@ PERI_ISA_TARGET static void PERI_ISA_FN(drift_some)(int64_t count, peri_r drift,
     for (int64_t k = 0; k < count; ++k) u[k] += drift * v[k];
 }
 
+/* sum = f + portion sum of a group. */
+PERI_ISA_TARGET static void PERI_ISA_FN(share_some)(const peri_r *PERI_RESTRICT portion, const peri_r *PERI_RESTRICT f,
+                                                               peri_r *PERI_RESTRICT sum) {
+    PERI_NO_CONTRACTION
+    for (int k = 0; k < PERI_GROUP; ++k) sum[k] = f[k] + portion[k] * sum[k];
+}
+
 /* Adds the squares of r to free_sum where the component is free, to constrained_sum where it is constrained. */
 PERI_ISA_TARGET static void PERI_ISA_FN(square_some)(int64_t count, int d, const uint8_t *PERI_RESTRICT constrained,
                                                          const peri_r *PERI_RESTRICT r, double *PERI_RESTRICT free_sum,

@@ -4,8 +4,9 @@
 
        e = |xi+eta| - |xi|,    M = (xi+eta)/|xi+eta|,    f_i = sum_j (T_i + T_j),    T_i = w [(p_i g + q_i e) M + Q_i xi + k_i eta]
 
-   w includes beta V_j: `weight` is w_ij beta V_j, of the own half, `back` w_ji beta V_j, of that of j. Seen from j the same sum has the
-   opposite sign, term by term: momentum is conserved whatever the laws of the two ends are.
+   w includes beta V_j: `weight` is w_ij beta V_j, of the own half, `back` w_ji beta V_j, of that of j; or these times V_i, and sums are
+   then taken times 1/V_i (`portion`). Seen from j the same sum has the opposite sign, term by term: momentum is conserved whatever the laws
+   of the two ends are. Where bonds are in single precision rows round as the vectors that may serve the other end.
    The extension is taken as e = (2 xi + eta).eta/(|xi+eta| + |xi|): the difference of two lengths loses every digit at strains of 1e-7 in
    single precision, this form none. Each row adds its own bonds in the order of the list and writes only to its own point. Both ends of a
    bond compute the same e to the last bit (only signs differ), so both find it broken in the same step without telling each other. */
@@ -75,6 +76,11 @@ PERI_INLINE peri_b PERI_FN(response)(const peri__operands *s, int plane, int64_t
 
 /* g of bonds at a point of a law. */
 PERI_INLINE peri_b PERI_FN(gauge)(const peri__law *law, peri_b length) { return law->gauge ? length : 1; }
+
+/* 1/V_i where weights are times V_i, see peri__share. */
+PERI_INLINE peri_r PERI_FN(portion)(const peri__model *m, int64_t i) {
+    return PERI_MUTUAL(m) ? ((const peri_r *)m->portion)[i] : 1;
+}
 
 /* ---- criteria ------------------------------------------------------------------------------------------------------ */
 
@@ -146,6 +152,68 @@ static peri__parting PERI_FN(part_of)(const peri__operands *s, int64_t i, const 
 
 /* ---- the force ------------------------------------------------------------------------------------------------------ */
 
+/* Adds what the tensors of the two ends give, w (Q xi + k eta), to t. */
+#if PERI_T_BOND == 64
+static void PERI_FN(tensor_pull)(const peri__operands *s, const int64_t ends[2], const peri_b weights[2], const PERI_FN(bond) *bond,
+                                 peri_b *t) {
+    const peri__model *m = s->model;
+    for (int n = 0; n < 2; ++n) {
+        if (!(m->laws[m->material[ends[n]]].gather & PERI__GRADIENT)) continue;
+        for (int a = 0; a < PERI_D; ++a) {
+            peri_b half = PERI_FN(constant)(s, PERI__STABILIZATION, ends[n]) * bond->eta[a];
+            for (int d = 0; d < PERI_D; ++d) half += PERI_FN(response)(s, 1 + a * PERI_D + d, ends[n]) * bond->xi[d];
+            half = weights[n] * half;
+            t[a] += half;
+        }
+    }
+}
+#else
+/* As list.inl, or as columns.inl. */
+static void PERI_FN(tensor_pull)(const peri__operands *s, const int64_t ends[2], const peri_b weights[2], const PERI_FN(bond) *bond,
+                                 peri_b *t) {
+    const peri__model *m = s->model;
+    const int listed = m->record_reals > 0 || m->back != m->weight;
+    peri_b k[2], q[2][PERI_D * PERI_D];
+    for (int n = 0; n < 2; ++n) {
+        const int tensor = m->laws[m->material[ends[n]]].gather & PERI__GRADIENT;
+        k[n] = tensor ? PERI_FN(constant)(s, PERI__STABILIZATION, ends[n]) : 0;
+        for (int p = 0; p < PERI_D * PERI_D; ++p) q[n][p] = tensor ? PERI_FN(response)(s, 1 + p, ends[n]) : 0;
+    }
+    for (int a = 0; a < PERI_D; ++a) {
+        const peri_b *own = q[0] + a * PERI_D, *other = q[1] + a * PERI_D;
+        peri_b sum = listed ? (weights[0] * k[0] + weights[1] * k[1]) * bond->eta[a] : (k[0] + k[1]) * bond->eta[a];
+        for (int d = 0; d < PERI_D; ++d)
+            sum += listed ? (weights[0] * own[d] + weights[1] * other[d]) * bond->xi[d] : (own[d] + other[d]) * bond->xi[d];
+        t[a] += listed ? sum : weights[0] * sum;
+    }
+}
+
+/* The force of a bond along y over |y| as list.inl takes it, pairwise or ordinary. */
+static peri_b PERI_FN(listed_pull)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    const peri__model *m = s->model;
+    const int64_t j = row->ids[k];
+    const int by_length = !m->pairwise && m->gauge;
+    const peri_b weight = ((const peri_b *)row->weight)[k], back = ((const peri_b *)row->back)[k];
+    peri_b rest = 0, now = 0, scale;
+    for (int d = 0; d < PERI_D; ++d) {
+        rest += bond->xi[d] * bond->xi[d];
+        now += bond->y[d] * bond->y[d];
+    }
+    const peri_b length = by_length ? rest : PERI_SQRT(rest);
+    const peri_b product = s->linear ? rest : by_length ? PERI_SQRT(rest * now) : length * PERI_SQRT(now);
+    const peri_b reach = s->linear ? rest : product + rest;
+    if (m->pairwise) scale = (peri_b)PERI_FN(pair)(s, i, j)->c * weight * bond->along * length;
+    else {
+        const peri_b p = weight * PERI_FN(response)(s, 0, i) + back * PERI_FN(response)(s, 0, j);
+        const peri_b q = weight * PERI_FN(constant)(s, PERI__SPRING, i) + back * PERI_FN(constant)(s, PERI__SPRING, j);
+        scale = q * bond->along;
+        if (!by_length) scale = scale * length;
+        scale = length * (scale + p * reach);
+    }
+    return scale / (reach * (product + PERI_TINY));
+}
+#endif
+
 /* Both halves of a bond of laws that differ: adds the tensor parts to t and returns the force along y over |y|. */
 static peri_b PERI_FN(mixed_pull)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                   peri_b *t) {
@@ -164,15 +232,7 @@ static peri_b PERI_FN(mixed_pull)(const peri__operands *s, int64_t i, const peri
     if (m->back == m->weight) pull = weights[0] * ((q[0] + q[1]) * bond->along + (p[0] + p[1]) * bond->reach);
     else
         pull = (weights[0] * q[0] + weights[1] * q[1]) * bond->along + (weights[0] * p[0] + weights[1] * p[1]) * bond->reach;
-    for (int n = 0; n < 2; ++n) {
-        if (!(m->laws[m->material[ends[n]]].gather & PERI__GRADIENT)) continue;
-        for (int a = 0; a < PERI_D; ++a) {
-            peri_b half = PERI_FN(constant)(s, PERI__STABILIZATION, ends[n]) * bond->eta[a];
-            for (int d = 0; d < PERI_D; ++d) half += PERI_FN(response)(s, 1 + a * PERI_D + d, ends[n]) * bond->xi[d];
-            half = weights[n] * half;
-            t[a] += half;
-        }
-    }
+    if (m->gathers & PERI__GRADIENT) PERI_FN(tensor_pull)(s, ends, weights, bond, t);
     return pull / (bond->reach * (bond->now + PERI_TINY));
 }
 
@@ -206,16 +266,18 @@ PERI_INLINE peri_b PERI_FN(pairwise_pull)(const peri__operands *s, int64_t i, co
     return c * weight * bond->along / (bond->reach * bond->length * (bond->now + PERI_TINY));
 }
 
-/* The work of the force t along the way of bond k since it was last worked out, by the trapezoidal rule. */
-static void PERI_FN(count_work)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const peri_b *eta, const peri_r *t) {
+/* The work of the force t, times portion, along the way of bond k since it was last worked out, by the trapezoidal rule. */
+static void PERI_FN(count_work)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const peri_b *eta, const peri_r *t,
+                                peri_r portion) {
     const peri__model *m = s->model;
     const int64_t j = row->ids[k], at = peri__bond_slot(m, i, row, k);
     const peri_r *worked = (const peri_r *)s->worked;
     for (int d = 0; d < PERI_D; ++d) {
         const peri_r *w = worked + d * m->stride;
         peri_r *pull = (peri_r *)s->pull + peri__pull_slot(m, at, d);
-        ((peri_r *)s->work)[at] += (peri_r)0.5 * (*pull + t[d]) * (eta[d] - (w[j] - w[i]));
-        *pull = t[d];
+        const peri_r now = portion * t[d];
+        ((peri_r *)s->work)[at] += (peri_r)0.5 * (*pull + now) * (eta[d] - (w[j] - w[i]));
+        *pull = now;
     }
 }
 
@@ -228,9 +290,10 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
     const peri__model *m = s->model;
     const int breaking = s->breaking && s->alive;
     const int32_t count = (int32_t)row->count;
+    const peri_r portion = PERI_FN(portion)(m, i);
     int32_t over = 0;
     peri_r sum[PERI_D];
-    for (int d = 0; d < PERI_D; ++d) sum[d] = f[d];
+    for (int d = 0; d < PERI_D; ++d) sum[d] = PERI_MUTUAL(m) ? 0 : f[d];
     for (int32_t first = 0; first < count; first += 32) {
         const uint32_t live = s->alive ? s->alive[i * m->words + first / 32] : ~(uint32_t)0;
         const int32_t chunk = count - first < 32 ? count - first : 32;
@@ -243,11 +306,15 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
             if (!(live >> n & 1)) continue;
             if (plain) PERI_FN(deform_as)(s, i, row, k, &bond, 0, 0);
             else PERI_FN(deform)(s, i, row, k, &bond);
+#if PERI_T_BOND == 32
+            if (!mixed && m->record_reals) pull = PERI_FN(listed_pull)(s, i, row, k, &bond);
+            else
+#endif
             if (pairwise) pull = PERI_FN(pairwise_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
             else if (mixed) pull = PERI_FN(mixed_pull)(s, i, row, k, &bond, t);
             else pull = PERI_FN(ordinary_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
             for (int d = 0; d < PERI_D; ++d) force[d] = mixed ? t[d] + pull * bond.y[d] : pull * bond.y[d];
-            if (!pairwise && !plain && s->working) PERI_FN(count_work)(s, i, row, k, bond.eta, force);
+            if (!pairwise && !plain && s->working) PERI_FN(count_work)(s, i, row, k, bond.eta, force, portion);
             if (breaking && PERI_FN(is_over)(s, i, row, k, &bond, plain)) {
                 dead |= (uint32_t)1 << n;
                 over++;
@@ -255,7 +322,8 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
                     const double c = PERI_FN(pair)(s, i, row->ids[k])->c, weight = (double)((const peri_b *)row->weight)[k];
                     const peri__parting parting = PERI_FN(part)(s, i, row, k, &bond);
                     const double stretch = parting.met * (double)bond.along / ((double)bond.reach * (double)bond.length);
-                    *lost += 0.25 * (double)(peri_b)c * weight * stretch * stretch * (double)bond.length * m->volume[i];
+                    *lost += 0.25 * (double)(peri_b)c * weight * stretch * stretch * (double)bond.length
+                           * (m->volume[i] * (double)portion);
                     for (int d = 0; d < PERI_D; ++d) impulse[d] += (peri_r)(0.5 * s->step * parting.share * (double)force[d]);
                     continue;
                 }
@@ -265,7 +333,8 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
         if (pairwise && dead) s->alive[i * m->words + first / 32] = live & ~dead;
         if (!pairwise && breaking) s->dying[i * m->words + first / 32] = dead;
     }
-    for (int d = 0; d < PERI_D; ++d) f[d] = sum[d];
+    for (int d = 0; d < PERI_D; ++d) f[d] = PERI_MUTUAL(m) ? f[d] + portion * sum[d] : sum[d];
+    for (int d = 0; pairwise && d < PERI_D; ++d) impulse[d] *= portion;
     return over;
 }
 
@@ -278,7 +347,8 @@ static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, 
     peri__row_of(m, i, &row);
     const int plain = !s->linear && !m->centroid && !m->seen_by;
     if (!m->pairwise) {
-        if (m->mixed || m->gathers & PERI__GRADIENT) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1, 0);
+        const int mixed = m->mixed || m->gathers & PERI__GRADIENT || (PERI_T_BOND == 32 && m->stencil.ends);
+        if (mixed) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1, 0);
         else if (plain) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 1);
         else sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 0);
         return;
@@ -331,7 +401,13 @@ static peri_r PERI_FN(row_dilatation_sum)(const peri__operands *s, int64_t i, co
         PERI_FN(deform)(s, i, row, k, &bond);
         sum += s->linear ? gauged * bond.along : gauged * (bond.along / bond.reach);
     }
-    return sum;
+    return sum * PERI_FN(portion)(s->model, i);
+}
+
+PERI_INLINE void PERI_FN(share_out)(const peri__model *m, int64_t i, peri_r n[PERI_D][PERI_D]) {
+    const peri_r portion = PERI_FN(portion)(m, i);
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) n[a][d] *= portion;
 }
 
 /* sum w eta xi V. */
@@ -346,6 +422,7 @@ static void PERI_FN(row_shape)(const peri__operands *s, int64_t i, const peri__r
         for (int a = 0; a < PERI_D; ++a)
             for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
     }
+    PERI_FN(share_out)(s->model, i, n);
 }
 
 PERI_INLINE peri_b PERI_FN(inverse)(const peri__operands *s, int64_t i, int c, int d) {
@@ -404,8 +481,11 @@ static double PERI_FN(point_energy)(const peri__operands *s, int64_t i, const pe
         sum += weight * PERI_FN(gauge)(law, bond.length) * e;
         squares += (double)weight * (double)e * (double)e;
     }
+    const double share = peri__share(m, i);
+    density /= share;
+    squares /= share;
     if (law->pairwise) return density;
-    const double theta_factor = (double)PERI_FN(constant)(s, PERI__THETA_FACTOR, i), dilatation_sum = (double)sum;
+    const double theta_factor = (double)PERI_FN(constant)(s, PERI__THETA_FACTOR, i), dilatation_sum = (double)sum / share;
     density = 0.5 * (double)PERI_FN(constant)(s, PERI__SPRING, i) * squares;
     if (!(law->gather & PERI__GRADIENT))
         return density + 0.5 * (double)PERI_FN(constant)(s, PERI__PRESSURE_FACTOR, i) * theta_factor * dilatation_sum * dilatation_sum;
@@ -424,6 +504,7 @@ static double PERI_FN(point_energy)(const peri__operands *s, int64_t i, const pe
             apart += (double)((const peri_b *)row->weight)[k] * peri__square((double)z);
         }
     }
+    apart /= share;
     return density + PERI_FN(strain_energy)(law, PERI_D, strain) + 0.5 * (double)PERI_FN(constant)(s, PERI__STABILIZATION, i) * apart;
 }
 

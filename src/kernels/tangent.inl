@@ -44,6 +44,7 @@ static void PERI_FN(change_pressure)(const peri__operands *s, int64_t i, const p
         PERI_FN(change_bond)(s, i, row, k, &c);
         sum += (peri_r)((const peri_b *)row->weight)[k] * (by_length ? c.bond : 1) * c.de;
     }
+    sum *= PERI_FN(portion)(s->model, i);
     ((peri_b *)s->change)[i] =
         (peri_b)(PERI_FN(constant)(s, PERI__PRESSURE_FACTOR, i) * (PERI_FN(constant)(s, PERI__THETA_FACTOR, i) * sum));
 }
@@ -66,6 +67,8 @@ static void PERI_FN(change_tensor)(const peri__operands *s, int64_t i, const per
                 dn[a][d] += weight * c.delta[a] * c.xi[d];
             }
     }
+    PERI_FN(share_out)(m, i, n);
+    PERI_FN(share_out)(m, i, dn);
     PERI_FN(gradient)(s, i, n, h);
     PERI_FN(gradient)(s, i, dn, dh);
     PERI_FN(strain)(PERI_D, 0, h, e);
@@ -136,6 +139,6 @@ static void PERI_FN(tangent_force)(void *context, int64_t begin, int64_t end, pe
             PERI_FN(tangent_half)(s, j, i, ((const peri_b *)row.back)[k], &b, &c, &dc, t);
             for (int d = 0; d < PERI_D; ++d) sum[d] += t[d] + dc * b.y[d] + c / b.length * (b.delta[d] - b.y[d] * b.de);
         }
-        for (int d = 0; d < PERI_D; ++d) ((peri_r *)s->q)[d * m->stride + i] = sum[d];
+        for (int d = 0; d < PERI_D; ++d) ((peri_r *)s->q)[d * m->stride + i] = sum[d] * PERI_FN(portion)(m, i);
     }
 }

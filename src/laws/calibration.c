@@ -32,7 +32,7 @@ static peri__moments peri__family_moments(const peri_body *b, int64_t i, const p
     peri__moments sum;
     memset(&sum, 0, sizeof sum);
     for (int64_t k = 0; k < row->count; ++k) {
-        double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__get_real(row->weight, b->b32, k), bond = peri__get_real(row->bond, b->b32, k);
+        double xi[3] = { 0.0, 0.0, 0.0 }, weight = peri__weight_of(m, i, row->weight, k), bond = peri__get_real(row->bond, b->b32, k);
         if (live && !peri__is_alive(b, i, k)) continue;
         if (peri__needs_no_more(m)) {
             sum.m += weight * bond * bond;

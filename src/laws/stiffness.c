@@ -63,7 +63,7 @@ PERI_INLINE void peri__gather_diagonal(const peri_body *b, int32_t dim, int64_t 
     const peri__model *m = b->model;
     diagonal[0] = diagonal[1] = diagonal[2] = *sum = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
-        double xi[3] = { 0.0, 0.0, 0.0 }, g[3] = { 0.0, 0.0, 0.0 }, w = peri__get_real(row->weight, b->b32, k);
+        double xi[3] = { 0.0, 0.0, 0.0 }, g[3] = { 0.0, 0.0, 0.0 }, w = peri__weight_of(m, i, row->weight, k);
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, row->ids[k], xi);
         *sum += fabs(w) * peri__gather_vector(b, dim, i, xi, peri__get_real(row->bond, b->b32, k), g);
@@ -94,7 +94,7 @@ PERI_INLINE double peri__row_sum_of(const peri_body *b, int32_t dim, int64_t i) 
     for (int64_t k = 0; k < row.count; ++k) {
         int64_t j = row.ids[k];
         double xi[3] = { 0.0, 0.0, 0.0 }, bond = peri__get_real(row.bond, b->b32, k);
-        double own = fabs(peri__get_real(row.weight, b->b32, k)), back = fabs(peri__get_real(row.back, b->b32, k));
+        double own = fabs(peri__weight_of(m, i, row.weight, k)), back = fabs(peri__weight_of(m, i, row.back, k));
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, j, xi);
         if (tensors && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
@@ -175,9 +175,10 @@ PERI_INLINE void peri__group_row_sums(peri_body *b, int32_t dim, int64_t g) {
             for (int n = 0; n < PERI_GROUP; ++n) diagonal[a][n] += there[n] * (pull * entry->xi[a]);
     }
     for (int64_t n = 0; n < count; ++n) {
+        const double share = peri__share(m, first + n);
         double s[6] = { 0.0 }, own[3] = { 0.0 };
-        for (int k = 0; k < PERI_PACKED(dim); ++k) s[k] = sum[k][n];
-        for (int a = 0; a < dim; ++a) own[a] = diagonal[a][n];
+        for (int k = 0; k < PERI_PACKED(dim); ++k) s[k] = sum[k][n] / share;
+        for (int a = 0; a < dim; ++a) own[a] = diagonal[a][n] / share;
         const double size = sqrt(peri__dot(own, own, dim));
         const double gathered = size * peri__get_constant(b, first + n, PERI__THETA_FACTOR) * b->gather_row_sum[first + n];
         peri__add_stiffness(dim, gathered, 0.0, own, size, s);

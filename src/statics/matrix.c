@@ -97,7 +97,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     for (int64_t k = peri__next_bond(&row, -1); k >= 0; k = peri__next_bond(&row, row.ids[k])) {
         if (!peri__is_alive(b, o, k)) continue;
         if (row.ids[k] > o && e->self < 0) e->self = e->count++;
-        double xi[3], eta[3], n[3], length = 0.0, w = peri__get_real(row.weight, b->b32, k), bond = peri__get_real(row.bond, b->b32, k);
+        double xi[3], eta[3], n[3], length = 0.0, w = peri__weight_of(m, o, row.weight, k), bond = peri__get_real(row.bond, b->b32, k);
         double gauge = peri__law_gauge(law, bond), *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
         double extension = bond * peri__stretch(b, o, &row, k);
         peri__pull_of(b, o, row.ids[k], xi, eta);

@@ -85,7 +85,7 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     for (int64_t k = 0; k < row.count; ++k) {
         const int64_t j = row.ids[k];
         const peri__law *law = &m->laws[m->material[j]];
-        double own = peri__get_real(row.weight, b->b32, k), back = peri__get_real(row.back, b->b32, k), xi[3] = { 0.0 }, n[3] = { 0.0 };
+        double own = peri__weight_of(m, i, row.weight, k), back = peri__weight_of(m, i, row.back, k), xi[3] = { 0.0 }, n[3] = { 0.0 };
         double bond = peri__get_real(row.bond, b->b32, k), length = 0.0, spring = 0.0, round = 0.0, by = back * m->volume[i] / m->volume[j];
         if (!peri__is_alive(b, i, k)) continue;
         for (int32_t d = 0; d < dim; ++d) {
