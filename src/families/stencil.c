@@ -459,6 +459,23 @@ static int peri__is_alike(const peri__cloud *c) {
     return !c->model->ids && c->model->materials == 1 && c->even > 0.0 && (!peri__is_exact(c->body->desc.quadrature) || box);
 }
 
+/* The first point with a bond that is lost in the rounding of single precision, or -1. Forces by columns would not notice: what else asks
+   for the places of points would. */
+static int64_t peri__find_lost(const peri__cloud *c) {
+    const peri__model *m = c->model;
+    const peri__stencil *l = &m->stencil;
+    double shortest = HUGE_VAL;
+    for (int32_t k = 0; k < l->vectors; ++k) shortest = l->table[k].length < shortest ? l->table[k].length : shortest;
+    for (int64_t i = 0; c->body->f32 && shortest < PERI_LOSABLE * m->extent && i < m->points; ++i) {
+        const int64_t g = i / PERI_GROUP;
+        for (int64_t k = 0; k < l->begin[g + 1] - l->begin[g]; ++k) {
+            const peri__column *column = &l->column[l->first[g] + k];
+            if (column->member >> (i % PERI_GROUP) & 1 && peri__is_lost(c, i, i + column->offset)) return i;
+        }
+    }
+    return -1;
+}
+
 /* Makes the columns where they pay, from the list where there is one and else from the points. 1: made; 0: not; else an error. */
 static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
     peri__model *m = c->model;
@@ -484,7 +501,9 @@ static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
         peri__delete(&b->scratch, d->column, d->capacity, sizeof *d->column);
         peri__delete(&b->scratch, d, 1, sizeof *d);
     }
+    const int64_t lost = status == PERI_OK ? peri__find_lost(c) : -1;
     if (status < 0) peri__free_stencil(m);
+    if (lost >= 0) return peri__fail(b, PERI_ERROR_COINCIDENT, "precision", lost, 0.0);
     return status == PERI_OK ? 1 : status == PERI_ERROR_MEMORY ? peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0) : 0;
 }
 

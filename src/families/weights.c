@@ -78,14 +78,17 @@ static int peri__is_blurred(const peri__cloud *c, int64_t i, int64_t j, double l
     return length < PERI_BLUR || fabs(sqrt(square) - length) > PERI_BLUR * length;
 }
 
-/* Is the bond itself lost in that rounding, a tenth of it or more? */
-static int peri__is_lost(const peri__cloud *c, int64_t i, int64_t j, const peri__bond *bond) {
+/* Is the bond itself lost in that rounding, a tenth of it or more? Both ends are rounded by up to 2^-24 of the extent per axis: only
+   bonds shorter than PERI_LOSABLE extents can be. */
+#define PERI_LOSABLE (20.0 * FLT_EPSILON)
+static int peri__is_lost(const peri__cloud *c, int64_t i, int64_t j) {
     const peri__model *m = c->model;
-    double square = 0.0;
+    double xi[3], off = 0.0;
     if (!c->body->f32 || m->centroid) return 0;
+    peri__bond_vector(c, i, j, xi);
     for (int32_t d = 0; d < m->dim; ++d)
-        square += peri__square(peri__get_real(m->x, 1, d * m->stride + j) - peri__get_real(m->x, 1, d * m->stride + i) - bond->xi[d]);
-    return square > peri__square(0.1 * bond->length);
+        off += peri__square(peri__get_real(m->x, 1, d * m->stride + j) - peri__get_real(m->x, 1, d * m->stride + i) - xi[d]);
+    return off > 0.01 * peri__dot(xi, xi, m->dim);
 }
 
 /* PERI_OK, or why nothing can be reckoned with a family of this sum of |w V| and of w |xi|^2 V: cubes of the sum, as in the determinant of
@@ -118,7 +121,7 @@ static void peri__weigh_block(void *context, int64_t begin, int64_t end, peri__s
             if (m->partial_volume) m->partial_volume[at] = (float)bond.partial_volume;
             for (int32_t d = 0; m->centroid && d < m->dim; ++d) peri__put_real(m->centroid, b->b32, at * m->dim + d, bond.centre[d]);
             sums->a += peri__is_blurred(c, i, j, bond.length);
-            if (status == PERI_OK && peri__is_lost(c, i, j, &bond)) status = PERI_ERROR_COINCIDENT;
+            if (status == PERI_OK && peri__is_lost(c, i, j)) status = PERI_ERROR_COINCIDENT;
             total += fabs(bond.weight);
             stiff += bond.weight * bond.length * bond.length;
         }
@@ -222,7 +225,7 @@ PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *
         for (int64_t k = 0; k < taken; ++k) weight[k] = out[k] = (float)weight[k];
         for (int64_t k = 0; k < taken; ++k) /* the places of both ends are rounded by half a unit of the largest, per axis */
             if (length[k] < PERI_BLUR || m->extent * 4.0 * FLT_EPSILON > PERI_BLUR * length[k])
-                t->blurred += peri__is_blurred(c, i, c->order[s->hit[k]], length[k]);
+                t->blurred += peri__is_blurred(c, i, c->order[s->hit[k]], length[k]) || peri__is_lost(c, i, c->order[s->hit[k]]);
     } else {
         memcpy((double *)m->weight + at, weight, (size_t)taken * sizeof *weight);
     }
