@@ -469,8 +469,8 @@ PERI_API int64_t peri_cut_if(peri_body *body, int32_t standing, peri_pair_fn cut
    cut. */
 PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
 
-/* fn is called for every bond that breaks by its criterion; NULL removes. Costs one bit per
-   bond. */
+/* fn is called for every bond that breaks by its criterion; NULL removes. Costs two to
+   three bits per bond. */
 PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 
 /* ---- initial state, supports, loads, obstacles: ids, or an error ------------ */
