@@ -17,7 +17,8 @@ within() { awk -v a="$1" -v lo="$2" -v hi="$3" 'BEGIN {exit !(a >= lo && a <= hi
 
 # "up to a minute of gcc, once"; "What each switch saves (gcc 12, x86-64, processor time over that of the first row, of one run)".
 table() {
-    sed -n '/^| build | time | bytes of code |$/,/^$/p' docs/manual.md | grep '^| `' | tr -d '`,' > $out/rows
+    sed -n '/^| build | time | bytes of code |$/,/^$/p' docs/manual.md | grep '^|' | sed 1,2d | tr -d '`' |
+        sed 's/,\([0-9]\)/\1/g' > $out/rows
     [ "$(wc -l < $out/rows)" -eq 6 ] || { echo "the table has not six rows"; exit 1; }
     first=""
     last=""
