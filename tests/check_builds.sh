@@ -23,7 +23,7 @@ table() {
     first=""
     last=""
     while IFS='|' read -r nothing flags time bytes rest; do
-        flags=$(echo "$flags" | sed 's/ all of it//; s/:.*//')
+        flags=$(echo "$flags" | sed 's/, all of it//; s/:.*//')
         case $flags in *"the same with"*) flags="$last ${flags#*the same with }" ;; esac
         last=$flags
         took=$(seconds gcc $flags -c peri_impl.c -o $out/object.o)
