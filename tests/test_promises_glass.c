@@ -68,7 +68,7 @@ static int32_t follow(void *user, peri_body *b) {
     return 0;
 }
 /* Pulled to `duration`; the body is the caller's. */
-static pane pull(double speed, double rise, double duration) {
+static pane pull(double speed, double rise, double duration, int64_t frames) {
     grip up = {speed, rise}, down = {-speed, rise};
     pane p = {NULL, NULL, NULL, 0, 0, 0, 0};
     peri_advance_desc a;
@@ -77,8 +77,8 @@ static pane pull(double speed, double rise, double duration) {
     p.damage = get(p.b, PERI_FIELD_DAMAGE);
     peri_advance_desc_init(&a);
     a.duration = duration;
-    a.frame_steps = rise >= 0 && speed < 0.1 ? 5 : 0;
-    a.on_frame = speed < 0.1 ? follow : NULL;
+    a.frame_steps = frames;
+    a.on_frame = frames ? follow : NULL;
     a.user = &p;
     MUST(p.b, peri_advance(p.b, &a));
     return p;
@@ -162,7 +162,7 @@ static double of_table(const char *row) { /* the number of the manual in its las
    break bonds, wherever they meet". */
 static void pulled_at_once(void) {
     for (int k = 0; k < 2; ++k) {
-        pane p = pull(k ? 0.5 : 1, 0, 30e-6);
+        pane p = pull(k ? 0.5 : 1, 0, 30e-6, 0);
         int64_t damaged = 0, far_ = 0;
         (void)look(&p);
         for (int64_t i = 0; i < POINTS; ++i) damaged += p.damage[i] > 0.2, far_ += p.damage[i] > 0.2 && fabs(p.x[2 * i + 1]) > 5e-3;
@@ -177,7 +177,7 @@ static void pulled_at_once(void) {
 static double of_rise[2][2];
 static void pulled_slowly(void) {
     for (int k = 0; k < 2; ++k) {
-        pane p = pull(0.05, k ? 20e-6 : 0, 80e-6);
+        pane p = pull(0.05, k ? 20e-6 : 0, 80e-6, 20);
         const int64_t ahead = look(&p);
         int64_t far_ = 0;
         for (int64_t i = 0; i < POINTS; ++i) far_ += p.damage[i] > 0.35 && fabs(p.x[2 * i + 1]) > 5e-3;
@@ -189,13 +189,13 @@ static void pulled_slowly(void) {
         of_rise[k][1] = p.half;
         end(&p);
     }
-    CHECK_NEAR(of_rise[1][1] - of_rise[0][1], 10e-6, 0.1, 0);
+    CHECK_NEAR(of_rise[1][1] - of_rise[0][1], 10e-6, 0.12, 0); /* frames are 0.9 us apart */
 }
 /* peri_energy: "The pane, pulled with 0.05 m/s, had taken 1.5 G0 per length of its crack when [branching and damage beside the path]
    started, and 3.0 when it was across: 432 points beside the notch were then damaged by more than 0.35, where a straight crack leaves
    200." */
 static void what_the_pane_took(void) {
-    pane p = pull(0.05, 0, 80e-6);
+    pane p = pull(0.05, 0, 80e-6, 5);
     peri_energy e;
     MUST(p.b, peri_get_energy(p.b, &e));
     printf("    %.2f G0 before it widens, %.2f when it is across, %d points\n", p.ratio, e.fracture / (3.8 * 0.05), (int)look(&p));

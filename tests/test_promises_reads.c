@@ -426,7 +426,7 @@ static void columns_of_plans(void) {
         const peri_plan_report r = plan_of(&s);
         peri_body *b = specimen_make(&s);
         CHECK((r.columns > 0) == (k == 0) && (strncmp(peri_kernel_text(b), "columns", 7) == 0) == (r.columns > 0));
-        if (k == 0) CHECK(16 * r.columns >= r.entries && 16 * r.columns < 1.5 * (double)r.entries);
+        if (k == 0) CHECK(16 * r.columns >= r.entries && 10 * r.columns < r.entries);
         peri_body_destroy(b);
     }
 }
