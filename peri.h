@@ -787,7 +787,7 @@ typedef struct peri_plan_desc { /* a body that is only described: one material i
     const peri_body_desc *body;         /* Required */
     const peri_material_desc *material; /* Required */
     int32_t source;                     /* Default PERI_SOURCE_BOX */
-    int32_t measure;                    /* 1: time a small body, some 100 ms. Default 0: no clock */
+    int32_t measure;                    /* 1: time a small body, 20..100 ms. Default 0: no clock */
     double amount;                      /* [0, 1], of PERI_SOURCE_PERTURBED. Default 1 */
     double lo[3];                       /* [L] corners. Required */
     double hi[3];

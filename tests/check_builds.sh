@@ -38,7 +38,6 @@ table() {
     } END { exit bad }' $out/measured
     within "$first" 5 75 "seconds of gcc -O2"
 }
-object() { :; } # the first row of the table
 # "at -O0 some 5 seconds"
 one_file() {
     printf '#define PERI_IMPLEMENTATION\n#include "../../../peri.h"\n' > $out/one_file.c

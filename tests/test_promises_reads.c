@@ -315,6 +315,29 @@ static void pieces_of_files(void) {
     peri_matrix_destroy(m);
     peri_body_destroy(b);
 }
+static char text[400000];
+static int64_t text_size;
+static int32_t keep_text(void *user, const void *bytes, int64_t count) {
+    const char *from = (const char *)bytes;
+    (void)user;
+    for (int64_t k = 0; k < count && text_size + 1 < (int64_t)sizeof text; ++k) text[text_size++] = from[k] ? from[k] : ' ';
+    return 0;
+}
+/* peri_export_vtu: "point data `displacement`, ... (a symmetric tensor), double, appended raw", "each a cell of its own (VTK_VERTEX)"; "a
+   VTU holds no time". */
+static void words_of_a_vtu(void) {
+    const char *const words[10] = {"Name=\"displacement\"", "Name=\"velocity\"", "Name=\"damage\"", "Name=\"energy_density\"",
+                                   "Name=\"material\"", "Name=\"volume\"", "Name=\"stress\" NumberOfComponents=\"6\"",
+                                   "encoding=\"raw\"", "NumberOfCells=\"48\"", "type=\"Float64\""};
+    peri_body *b = plate(8, 6, 0);
+    text_size = 0;
+    MUST(b, run(b, 3, 0.3));
+    MUST(b, peri_export_vtu_to(b, keep_text, NULL));
+    text[text_size] = 0;
+    for (int k = 0; k < 10; ++k) CHECK(strstr(text, words[k]) != NULL);
+    CHECK(!strstr(text, "Float32") && !strstr(text, "Time"));
+    peri_body_destroy(b);
+}
 /* "Different bodies, clones included: any threads at once": clones of one body, and bodies of their own, each on a thread; the bits are
    those of one after the other. Without OpenMP there is one thread, and it is shown that they may take turns. */
 static void bodies_on_several_threads(void) {
@@ -523,6 +546,7 @@ int main(int argc, char **argv) {
     RUN(one_callback_for_breaks);
     RUN(clones_have_hooks);
     RUN(pieces_of_files);
+    RUN(words_of_a_vtu);
     RUN(bodies_on_several_threads);
     RUN(within_a_step_it_is_read_and_reset);
     RUN(plans_know_what_can_break);
