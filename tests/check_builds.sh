@@ -55,11 +55,17 @@ clang_fast_math() {
     $out/bits_fast | cmp - $out/bits.text
 }
 
+# README.md, make demo: "about half a minute, most of it compiling"
+demo() {
+    rm -f build/demo/*
+    within "$(seconds make --no-print-directory demo)" 10 60 "seconds of make demo"
+}
+
 rm -f $out/measured
-[ $# -gt 0 ] || set -- table one_file clang_fast_math
+[ $# -gt 0 ] || set -- table one_file demo clang_fast_math
 case "$(uname -m) $(gcc -dumpfullversion 2> /dev/null)" in
 "x86_64 12."*) ;;
-*) echo "skip table, one_file: no gcc 12 for x86-64"; set -- clang_fast_math ;;
+*) echo "skip table, one_file, demo: no gcc 12 for x86-64"; set -- clang_fast_math ;;
 esac
 for check; do
     $check

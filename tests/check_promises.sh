@@ -132,7 +132,15 @@ flat() {
     }' peri.h
 }
 
-[ $# -gt 0 ] || set -- symbols linkage threads vectors fork exceptions flat
+# README.md: what its program prints.
+readme() {
+    said=$(sed -n 's/^It prints `\(.*\)`.*/\1/p' README.md)
+    awk '/^```c$/ { code = 1; next } /^```$/ { if (code) exit } code' README.md > $out/readme.c
+    $cc $strict -DPERI_IMPLEMENTATION_DONE $out/readme.c build/libperi.a $openmp -lm -o $out/readme
+    same "$(cd $out && ./readme)" "$said"
+}
+
+[ $# -gt 0 ] || set -- symbols linkage threads vectors fork exceptions flat readme
 objects
 for check; do
     $check

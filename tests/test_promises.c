@@ -187,6 +187,12 @@ static void defaults(void) {
     REQUIRED(PERI_ERROR_RANGE, "hi", peri_choose(&c, &d, &m, &choice, &seen));
 }
 
+/* README.md: "four laws, three failure criteria", "15 influence functions or yours; five quadratures". */
+static void choices_are_counted(void) {
+    CHECK(peri__count_law == 4 && peri__count_criterion == 3 && peri__count_influence == 15 + 1 && peri__count_quadrature == 5);
+    CHECK(peri__count_space == 3 && peri__count_precision == 3 && peri__count_geometry == 2 && peri__count_integrator == 2);
+}
+
 /* ---- arrays -------------------------------------------------------------------------------------------------------- */
 
 /* "Vectors are interleaved: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D. lo for one place or vector has as many entries as the space has
@@ -558,6 +564,7 @@ int main(int argc, char **argv) {
     RUN(versions);
     RUN(described_bodies);
     RUN(defaults);
+    RUN(choices_are_counted);
     RUN(vectors_are_interleaved);
     RUN(arrays_are_copied);
     RUN(volumes_of_planes_are_areas);
