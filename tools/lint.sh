@@ -43,7 +43,7 @@ grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the libra
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
 awk -v laws=refuse -f tools/wings.awk peri_impl.c src/*/* || status=1
 sh tools/check_docs.sh || status=1
-sh tests/promises/check.sh || fail "what the manual promises is not proven"
+sh tests/promises/check.sh || fail "what the pages promise is not proven"
 sh tests/check_docs.sh --compile || fail "code in the docs does not compile"
 sh tools/spdx.sh --check || fail "files without a licence line"
 awk -f tools/fields.awk peri.h src/*/*.c || status=1

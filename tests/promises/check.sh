@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# What a page promises is tested: each of its sentences has an entry in tests/promises/PAGE*.txt, and what the entry names is there.
+# What a page promises is tested: each of its sentences has an entry in tests/promises/NAME*.txt (docs/NAME.md, README.md), and what the
+# entry names is there.
 #   check.sh          a part of make lint
 #   check.sh --list   sentences without an entry, as entries to be completed
 #
@@ -17,8 +18,9 @@
 # refused, returns, exact, same bits, is a promise.
 cd "$(dirname "$0")/../.." || exit 1
 status=0
-for page in manual statics; do
-    awk -f tests/promises/sentences.awk docs/$page.md |
-        awk -v page=docs/$page.md -v list="${1:+1}" -f tests/promises/check.awk - tests/promises/$page*.txt || status=1
+for page in docs/manual.md docs/statics.md README.md; do
+    name=${page##*/}
+    awk -f tests/promises/sentences.awk $page |
+        awk -v page=$page -v list="${1:+1}" -f tests/promises/check.awk - tests/promises/${name%.md}*.txt || status=1
 done
 exit $status
