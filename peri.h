@@ -409,7 +409,7 @@ PERI_API double peri_load_factor(const peri_body *body); /* that loads act with;
 PERI_API const char *peri_kernel_text(const peri_body *body);
 
 /* Largest stable time step [T], to 4 % at rest; of state-based bodies that can break, a bound.
-   Takes some 50 steps once: docs/accuracy.md. 0 before peri_build. */
+   Takes 20 to 100 steps once: docs/accuracy.md. 0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
 /* Rows [first, first+count) of the families ([T] 3.11) to rows[count*width]: ascending, padded with
@@ -801,7 +801,7 @@ typedef struct peri_plan_report {
     int64_t columns;    /* families by columns: how many; 0: a list */
     int64_t bytes;      /* peri_memory.total after peri_build: exact of a box, else to 5 % */
     int64_t peak;       /* most at a time in peri_build, to 5 % or half a megabyte */
-    double stable_step; /* [T] peri_stable_step, of a box to 5 % */
+    double stable_step; /* [T] peri_stable_step, of a box to 6 % */
     double seconds;     /* [s] of one thread per step; 0 where not measured */
 } peri_plan_report;
 

@@ -132,7 +132,7 @@ static void defaults(void) {
     memset(&c, 0x5A, sizeof c);
     peri_body_desc_init(&d);
     CHECK(d.precision == PERI_PRECISION_DOUBLE && d.geometry == PERI_GEOMETRY_NONLINEAR && d.influence == PERI_INFLUENCE_CONSTANT);
-    CHECK(d.quadrature == PERI_QUADRATURE_FULL && d.correction == PERI_CORRECTION_NONE && d.break_timing == PERI_BREAK_AT_STEP_END);
+    CHECK(d.quadrature == PERI_QUADRATURE_FULL && d.correction == PERI_CORRECTION_NONE && d.break_timing == PERI_BREAK_WITHIN_STEP);
     CHECK(d.kernel == PERI_KERNEL_BEST && d.instructions == PERI_INSTRUCTIONS_BEST && d.threads == 0 && d.ledger == 1 && d.number == 0);
     CHECK(d.thickness == 1 && !d.influence_fn && !d.influence_user && !d.allocate && !d.release && !d.memory_user);
     CHECK(!d.parallel_for && !d.parallel_user && !d.log && !d.log_user);

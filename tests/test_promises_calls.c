@@ -304,7 +304,9 @@ static void without_memory(void) {
     peri_body *b = specimen_make(&s), *t = specimen_make(&solid), *made = NULL;
     peri_matrix *m = NULL;
     peri_memory before, after;
+    peri_advance_desc one_step;
     const double corner[3] = {-1, -1, 2}, along[3] = {9, 0, 0}, across[3] = {0, 9, 0}, wall[2] = {0, -9};
+    peri_advance_desc_init(&one_step), one_step.steps = 1;
     CHECK(peri_get_memory(b, &before) == PERI_OK);
     SHORT(peri_body_create(&s.desc, &made, NULL)), SHORT(peri_body_clone(b, &made, NULL));
     SHORT(peri_select_box(b, NULL, zero3, far3)), SHORT(peri_select_ball(b, NULL, zero3, 9));
@@ -323,7 +325,7 @@ static void without_memory(void) {
     SHORT(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL));
     SHORT(peri_add_plane_obstacle(b, wall, up3, 0, NULL, NULL)), SHORT(peri_add_ball_obstacle(b, wall, 1, 0, NULL, NULL));
     SHORT(peri_multiply_stiffness(b, numbers, numbers, 240)), SHORT(peri_matrix_create(b, &m));
-    SHORT(peri_view_field(b, PERI_FIELD_DAMAGE, &view));
+    SHORT(peri_view_field(b, PERI_FIELD_DAMAGE, &view)), SHORT(peri_advance(b, &one_step));
     SHORT(peri_export_vtu_to(b, take_bytes, NULL)), SHORT(peri_export_vtu(b, "build/short.vtu"));
     CHECK(peri_get_memory(b, &after) == PERI_OK && after.state == before.state && after.fields == before.fields);
     CHECK(made == NULL && m == NULL);
