@@ -458,8 +458,9 @@ static void columns_of_plans(void) {
         peri_body_destroy(b);
     }
 }
-/* peri_plan_report.stable_step: "of a box without correction that is thicker than a horizon: to 6 %; where bonds of state-based laws can break,
-   exact up to a horizon of 5 (3D) or 15 (2D) spacings. Corrections take up to 30 % off it, of parts thinner than two horizons up to 70 %, clouds 15 %". */
+/* peri_plan_report.stable_step: "of a box without correction that is thicker than a horizon: to 6 %; where bonds of state-based
+   laws can break, exact up to a horizon of 5 (3D) or 15 (2D) spacings. Corrections take up to 30 % off it, of parts thinner
+   than two horizons up to 70 %, clouds 15 %". */
 static void steps_of_plans(void) {
     for (int k = 0; k < 8; ++k) {
         const int solid = k % 2, large = k / 2 % 2, breaks = k / 4, m = solid ? 5 + large : 15 + 2 * large, n = 2 * m + 2;

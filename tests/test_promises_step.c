@@ -11,7 +11,9 @@ static double *get(peri_body *b, int32_t field) {
     MUST(b, peri_get_field(b, field, out, n));
     return out;
 }
-static void put(peri_body *b, int32_t field, const double *value) { MUST(b, peri_set_field(b, field, value, peri_size_of_field(b, field))); }
+static void put(peri_body *b, int32_t field, const double *value) {
+    MUST(b, peri_set_field(b, field, value, peri_size_of_field(b, field)));
+}
 
 /* A field that is `rate` times the place. */
 static void spread(peri_body *b, int32_t field, double rate) {
