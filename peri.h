@@ -409,7 +409,7 @@ PERI_API double peri_load_factor(const peri_body *body); /* that loads act with;
 PERI_API const char *peri_kernel_text(const peri_body *body);
 
 /* Largest stable time step [T], to 4 % at rest; of state-based bodies that can break, a bound.
-   Takes some 50 steps once: docs/accuracy.md. 0 before peri_build. */
+   Takes 20 to 100 steps once: docs/accuracy.md. 0 before peri_build. */
 PERI_API double peri_stable_step(const peri_body *body);
 
 /* Rows [first, first+count) of the families ([T] 3.11) to rows[count*width]: ascending, padded with
@@ -469,8 +469,8 @@ PERI_API int64_t peri_cut_if(peri_body *body, int32_t standing, peri_pair_fn cut
    cut. */
 PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
 
-/* fn is called for every bond that breaks by its criterion; NULL removes. Costs one bit per
-   bond. */
+/* fn is called for every bond that breaks by its criterion; NULL removes. Costs two to
+   three bits per bond. */
 PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 
 /* ---- initial state, supports, loads, obstacles: ids, or an error ------------ */
@@ -787,7 +787,7 @@ typedef struct peri_plan_desc { /* a body that is only described: one material i
     const peri_body_desc *body;         /* Required */
     const peri_material_desc *material; /* Required */
     int32_t source;                     /* Default PERI_SOURCE_BOX */
-    int32_t measure;                    /* 1: time a small body, some 100 ms. Default 0: no clock */
+    int32_t measure;                    /* 1: time a small body, 20..100 ms. Default 0: no clock */
     double amount;                      /* [0, 1], of PERI_SOURCE_PERTURBED. Default 1 */
     double lo[3];                       /* [L] corners. Required */
     double hi[3];
@@ -801,7 +801,7 @@ typedef struct peri_plan_report {
     int64_t columns;    /* families by columns: how many; 0: a list */
     int64_t bytes;      /* peri_memory.total after peri_build: exact of a box, else to 5 % */
     int64_t peak;       /* most at a time in peri_build, to 5 % or half a megabyte */
-    double stable_step; /* [T] peri_stable_step, of a box to 5 % */
+    double stable_step; /* [T] peri_stable_step, of a box to 6 % */
     double seconds;     /* [s] of one thread per step; 0 where not measured */
 } peri_plan_report;
 

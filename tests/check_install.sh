@@ -37,6 +37,10 @@ if command -v nm > /dev/null; then
     diff "$dir/declared" "$dir/exported"
 fi
 
+for page in LICENSE README.md docs/manual.md docs/branching.png; do
+    cmp "$page" "$prefix/share/doc/peri/$page"
+done
+
 # a user's folder, which sees of the library what is installed alone
 cd "$dir/user"
 sed 's|"../peri.h"|<peri.h>|' "$root/examples/hello.c" > hello.c

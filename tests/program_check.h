@@ -56,6 +56,9 @@ static int64_t told(program *p, int s, int64_t status, int line) {
     if (p->trace && status < 0) printf("    %2d%*s %s\n", p->calls, 2 * p->level, "", peri_status_text((int32_t)status));
     o->busy--;
     p->level--;
+#ifdef PROGRAM_TOLD /* of a test that looks on: the call as text, and its status */
+    PROGRAM_TOLD(p->names[p->level], status);
+#endif
     if (!o->body) {
         if (status != PERI_ERROR_ARGUMENT) blame(p, "a call without a body is refused as an argument", line);
         return status;

@@ -512,7 +512,8 @@ static griffith energy_and_peak(const beam *b, double deflection, int steps, dou
 
 static void energies_and_peak(void) {
     beam b = beam_of(test_long ? 0.005 : 0.0075, 3, 0.5);
-    (void)energy_and_peak(&b, 62e-6, 31, 0);
+    const double resistance = energy_and_peak(&b, 62e-6, 31, 0).resistance;
+    if (test_long) CHECK_NEAR(resistance, 1.56, 0, 0.01); /* docs/manual.md, peri_energy */
     if (test_long) (void)energy_and_peak(&b, 62e-6, 31, 1);
 }
 
@@ -526,6 +527,9 @@ static void refinement(void) {
         beam b = beam_of(at[k].h, at[k].ratio, 0.5);
         g[k] = energy_and_peak(&b, at[k].deflection, at[k].steps, 0);
     }
+    /* docs/manual.md, peri_energy: 1.56, 1.29, 1.12 times G0 at a horizon of 3, 4, 6 spacings */
+    CHECK_NEAR(g[2].resistance, 1.29, 0, 0.01);
+    CHECK_NEAR(g[3].resistance, 1.12, 0, 0.01);
     CHECK(g[2].resistance - 1 < 0.6 * (g[0].resistance - 1));
     CHECK(g[3].resistance - 1 < 0.6 * (g[2].resistance - 1));
     CHECK(g[1].high / g[1].low < g[0].high / g[0].low);

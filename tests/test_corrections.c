@@ -428,6 +428,8 @@ static void beams(void) {
             ratio[1] = bent(&s, 4);
             printf("    %-14s %-6s tip deflection %.3f, curvature %.3f\n", law_name[law % 100], correction_name[correction % 100], ratio[0],
                    ratio[1]);
+            if (law == PERI_LAW_CORRESPONDENCE && correction == PERI_CORRECTION_NONE) /* docs/manual.md, stabilization: 0.93 to 1.02 */
+                for (k = 0; k < 2; ++k) CHECK(ratio[k] > 0.925 && ratio[k] < 1.025);
             if (law == PERI_LAW_BOND_BASED && correction == PERI_CORRECTION_NONE) memcpy(plain, ratio, sizeof plain);
             else if (law <= PERI_LAW_LPS) {
                 times = correction == PERI_CORRECTION_MOMENT ? 1 : 3;

@@ -31,8 +31,11 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
     PERI_NEED(b, value || fn || support, "value");
     int32_t status = peri__check_room(b, PERI_KIND_LOAD, PERI_ID_LIMIT, "load");
     if (status < 0) return status;
-    if (value && !peri__finite_vector(value, b->dim)) return peri__fail(b, PERI_ERROR_RANGE, "value", -1, peri__not_finite(value, b->dim));
     memset(&load, 0, sizeof load);
+    for (int32_t d = 0; value && d < b->dim; ++d) { /* what is not prescribed may be anything */
+        if (peri__finite(value[d])) load.constant[d] = value[d];
+        else if (axes >> d & 1) return peri__fail(b, PERI_ERROR_RANGE, "value", -1, value[d]);
+    }
     load.kind = kind;
     load.set = set;
     load.axes = axes;
@@ -40,7 +43,6 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
     load.user = user;
     load.per_value = 1.0;
     load.count = peri__set_count(b, set);
-    for (int32_t d = 0; value && d < b->dim; ++d) load.constant[d] = value[d];
     if (!peri__grow(&b->memory, &b->loads, &b->load_capacity, b->load_count + 1, sizeof *b->loads))
         return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     if (fn) load.value = (double *)peri__new(&b->memory, load.count * b->dim, sizeof(double));

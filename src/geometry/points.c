@@ -284,6 +284,7 @@ PERI_API int64_t peri_add_points(peri_body *b, int64_t count, const double *posi
     if (!materials && b->material_count != 1)
         return peri__fail(b, b->material_count ? PERI_ERROR_ID_NONE : PERI_ERROR_MATERIAL, "materials", -1, b->material_count);
     s = &b->setup;
+    if (count > PERI_POINT_LIMIT - s->point_count) return peri__fail(b, PERI_ERROR_TOO_LARGE, "count", -1, (double)count); /* not read */
     for (int64_t k = 0; k < count; ++k) {
         if (!peri__finite_vector(&positions[k * b->dim], b->dim))
             return peri__fail(b, PERI_ERROR_POINT, "positions", k, peri__not_finite(&positions[k * b->dim], b->dim));

@@ -248,7 +248,7 @@ static int32_t peri__constants(peri_body *b, const peri_material_desc *m, double
     pair->c = 0.0;
     if (!states || (stretch && m->fracture_energy > 0.0)) {
         if (!peri__moment(b, (solid ? 3 : 2) + states, edge, &ic) || !peri__moment(b, (solid ? 4 : 3) + states, edge, &is))
-            return peri__fail(b, PERI_ERROR_INFLUENCE, "influence", b->desc.influence, 0.0);
+            return peri__fail(b, PERI_ERROR_INFLUENCE, "influence", -1, 0.0);
         if (solid) {
             double bulk = modulus / 1.5; /* K = E/(3(1-2 nu)), nu = 1/4 */
             pair->c = 9.0 * bulk / (2.0 * PERI_PI * ic * h * h * h * h);
