@@ -96,7 +96,7 @@ static int can_superpose(const scene *s) { return is_linear(s) || has_stiffness(
 
 /* Off while mixed precision rounds the weights of both ends of a bond, which differ where volumes do: sums then drift by 6e-8. */
 #ifndef ORACLE_MIXED_MOMENTUM
-#define ORACLE_MIXED_MOMENTUM 0 /* 1: momentum to the rounding of the state in every precision                           */
+#define ORACLE_MIXED_MOMENTUM 1 /* 1: momentum to the rounding of the state in every precision                           */
 #endif
 static double momentum_unit(const scene *s) { return ORACLE_MIXED_MOMENTUM ? state_unit(s) : bond_unit(s); }
 
