@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/* test_survivors.c - what `make mutants` found that no other test looked at: texts and records of errors, and constants.
+
+   SOURCE OF TRUTH: peri.h and docs/manual.md, which say of each status what field, index and value name, and of each function what it does;
+   decimal numbers as they are written here. */
+#include "refusal.h"
+
+/* ---- texts of errors ----------------------------------------------------------------------------------------------- */
+
+/* What peri_format_error makes of a value. */
+static const char *said(double value) {
+    static char text[128];
+    peri_error e = {PERI_ERROR_RANGE, 0, -1, value, "x", ""};
+    char whole[160];
+    CHECK(peri_format_error(&e, whole, sizeof whole) < (int64_t)sizeof whole);
+    CHECK(strncmp(whole, ": x value ", 10) == 0);
+    strcpy(text, whole + 10);
+    return text;
+}
+
+/* Decimal text of at most 16 digits that reads back as the number. */
+static void check_number(double value) {
+    const char *text = said(value);
+    const double back = strtod(text, NULL);
+    CHECK(strlen(text) <= 26);
+    if (!(fabs(back - value) <= 1e-15 * fabs(value))) {
+        printf("    %.17g is written %s\n", value, text);
+        test_bad++;
+    }
+}
+
+static void numbers_are_written(void) {
+    int k;
+    CHECK(strcmp(said((double)NAN), "nan") == 0);
+    CHECK(strcmp(said(HUGE_VAL), "inf") == 0 && strcmp(said(-HUGE_VAL), "-inf") == 0);
+    CHECK(strcmp(said(0), "0") == 0 && strcmp(said(-2.5), "-2.5") == 0 && strcmp(said(100), "1e2") == 0);
+    CHECK(strcmp(said(0.0625), "6.25e-2") == 0 && strcmp(said(10), "1e1") == 0);
+    for (k = -300; k <= 300; ++k) { /* powers of ten and what is next to them, where digits and exponent carry over */
+        char power[16];
+        (void)snprintf(power, sizeof power, "1e%d", k);
+        const double ten = strtod(power, NULL);
+        check_number(ten);
+        check_number(nextafter(ten, 0));
+        check_number(-nextafter(ten, HUGE_VAL));
+        check_number(ten / 3);
+    }
+    for (k = 100; k < 200; ++k) { /* three digits are written as three digits: their rounding is less than half of the sixteenth */
+        CHECK(strtod(said(k / 100.0), NULL) == k / 100.0);
+        CHECK(strlen(said(k / 100.0)) <= 4);
+    }
+    check_number(1.7e308);
+    check_number(2.2250738585072014e-308);
+}
+
+static const char *text_of(const peri_body *b) {
+    static char text[256];
+    peri_error e;
+    CHECK(peri_get_error(b, &e) == PERI_OK && strcmp(e.text, peri_status_text(e.code)) == 0);
+    CHECK(peri_format_error(&e, text, sizeof text) > 0);
+    return text;
+}
+
+/* manual.md: index and value where there are any; of wrong ids what they are; of PERI_ERROR_ORDER whether peri_build was called. */
+static void errors_are_told(void) {
+    const double nowhere[4] = {(double)NAN, 0, 1, 1}, origin[3] = {0, 0, 0}, there[4] = {0, 0, 1, 1}, volumes[2] = {1, 1};
+    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 1);
+    const int32_t glass = unbreakable(b, 1, 1), pair[2] = {glass, 7};
+    char small[8];
+    memset(small, 'x', sizeof small);
+    REFUSE(b, PERI_ERROR_POINT, peri_add_points(b, 2, nowhere, volumes, NULL));
+    CHECK(strstr(text_of(b), ": positions index 0, value nan") != NULL);
+    REFUSE(b, PERI_ERROR_ID_NONE, peri_add_points(b, 2, there, volumes, pair));
+    CHECK(strstr(text_of(b), ": materials index 1 is 7") != NULL);
+    REFUSE(b, PERI_ERROR_ORDER, peri_select_ball(b, NULL, origin, 1));
+    CHECK(strstr(text_of(b), ": peri_build was not called") != NULL);
+    REFUSE(b, PERI_ERROR_CHOICE, peri_id(b, 0, 1));
+    CHECK(strstr(text_of(b), ": kind value 0") != NULL);
+    CHECK(peri_format_error(&seen, small, 7) == (int64_t)strlen(text_of(b)) && small[6] == 0 && small[7] == 'x');
+    CHECK(strncmp(small, text_of(b), 6) == 0);
+    peri_body_destroy(b);
+
+    b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    const int32_t material = peri_id(b, PERI_KIND_MATERIAL, 1);
+    char want[64];
+    REFUSE(b, PERI_ERROR_ID_KIND, peri_size_of_set(b, material));
+    (void)snprintf(want, sizeof want, "set is material 1 of body %d", (material >> 20) & 0x7F);
+    CHECK(strstr(text_of(b), want) != NULL);
+    REFUSE(b, PERI_ERROR_ID_KIND, peri_size_of_set(b, (1 << 27) + 5)); /* of no body: no id that was ever given */
+    CHECK(strstr(text_of(b), "134217733") != NULL);
+    peri_body_destroy(b);
+
+    b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 1);
+    peri_body *c = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    const int32_t ours = unbreakable(b, 1, 1), set = (int32_t)MUST(c, peri_select_ball(c, NULL, origin, 1)), mixed[2] = {ours, set};
+    REFUSE(b, PERI_ERROR_ID_KIND, peri_add_points(b, 2, there, volumes, mixed));
+    CHECK(seen.index == 1 && seen.value == set);
+    (void)snprintf(want, sizeof want, "materials index 1 is set 1 of body %d", (set >> 20) & 0x7F);
+    CHECK(strstr(text_of(b), want) != NULL);
+    peri_body_destroy(c);
+    peri_body_destroy(b);
+}
+
+/* ---- what is at fault ---------------------------------------------------------------------------------------------- */
+
+#define AT_FAULT(name, at, number) CHECK(seen.field && strcmp(seen.field, name) == 0 && seen.index == (at) && seen.value == (number))
+
+static void vectors_are_looked_at_whole(void) {
+    const double first[3] = {(double)NAN, 0, 0}, second[3] = {0, HUGE_VAL, 0}, one[3] = {1, 1, 1};
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    REFUSE(b, PERI_ERROR_RANGE, peri_select_box(b, NULL, first, one));
+    CHECK(strcmp(seen.field, "lo") == 0 && seen.value != seen.value);
+    REFUSE(b, PERI_ERROR_RANGE, peri_select_box(b, NULL, one, second));
+    AT_FAULT("hi", -1, HUGE_VAL);
+    peri_body_destroy(b);
+}
+
+static void materials_name_what_is_wrong(void) {
+    peri_material_desc m;
+    peri_body *b = empty(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 1);
+    const int32_t first = unbreakable(b, 1, 1);
+    int k;
+    peri_material_desc_init(&m, PERI_LAW_LPS);
+    m.young = m.density = 1;
+    m.poisson = 0.5; /* in (-1, 1/2) */
+    REFUSE(b, PERI_ERROR_RANGE, peri_add_material(b, &m));
+    AT_FAULT("poisson", -1, 0.5);
+    m.poisson = -1;
+    REFUSE(b, PERI_ERROR_RANGE, peri_add_material(b, &m));
+    AT_FAULT("poisson", -1, -1);
+    m.poisson = 0.3;
+    m.criterion = PERI_CRITERION_BOND_ENERGY; /* lacks its G0 */
+    REFUSE(b, PERI_ERROR_CRITERION, peri_add_material(b, &m));
+    AT_FAULT("fracture_energy", -1, PERI_CRITERION_BOND_ENERGY);
+    m.criterion = PERI_CRITERION_STRETCH;
+    const int32_t lps = (int32_t)MUST(b, peri_add_material(b, &m));
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
+    m.young = m.density = m.fracture_energy = 1;
+    m.criterion = PERI_CRITERION_BOND_ENERGY; /* cannot act on this law */
+    REFUSE(b, PERI_ERROR_CRITERION, peri_add_material(b, &m));
+    AT_FAULT("criterion", -1, PERI_CRITERION_BOND_ENERGY);
+    m.criterion = PERI_CRITERION_STRETCH;
+    m.poisson = 0.3; /* the ratio of the law is the value */
+    REFUSE(b, PERI_ERROR_POISSON, peri_add_material(b, &m));
+    AT_FAULT("poisson", -1, 0.25);
+    m.poisson = (double)NAN;
+    REFUSE(b, PERI_ERROR_LAW, peri_set_interface(b, first, lps, &m));
+    for (k = 3; k <= 120; ++k) MUST(b, peri_add_material(b, &m));
+    REFUSE(b, PERI_ERROR_TOO_LARGE, peri_add_material(b, &m));
+    CHECK(seen.value == 120);
+    peri_body_destroy(b);
+}
+
+/* manual.md: the density of an interface is not used; a second call for the same pair replaces the first. */
+static void interfaces_are_replaced(void) {
+    peri_material_desc m;
+    peri_body *b = empty(PERI_SPACE_PLANE_STRAIN, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 1);
+    const int32_t p = unbreakable(b, 1, 1), q = unbreakable(b, 3, 1);
+    double c, soft;
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
+    m.young = 1;
+    MUST(b, peri_set_interface(b, p, q, &m));
+    MUST(b, peri_get_bond_constants(b, p, q, &soft, NULL));
+    m.young = 2;
+    MUST(b, peri_set_interface(b, p, q, &m)); /* in the same order */
+    MUST(b, peri_get_bond_constants(b, p, q, &c, NULL));
+    CHECK_NEAR(c, 2 * soft, 1e-14, 0);
+    m.young = 4;
+    MUST(b, peri_set_interface(b, q, p, &m)); /* and the other way about */
+    MUST(b, peri_get_bond_constants(b, p, q, &c, NULL));
+    CHECK_NEAR(c, 4 * soft, 1e-14, 0);
+    peri_body_destroy(b);
+}
+
+/* Constants beyond the numbers of double are refused: c goes as E/h^4, w0 as G0/h^4. */
+static void constants_have_a_range(void) {
+    static const double horizons[2] = {1e-90, 1e90};
+    int k;
+    for (k = 0; k < 2; ++k) {
+        peri_material_desc m;
+        peri_body *b = empty(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, horizons[k]);
+        const int32_t bonds = unbreakable(b, 1, 1);
+        double number = 7;
+        REFUSE(b, PERI_ERROR_RANGE, peri_get_bond_constants(b, bonds, bonds, &number, NULL));
+        CHECK(strcmp(seen.field, "c") == 0 && number == 7);
+        peri_material_desc_init(&m, PERI_LAW_LPS);
+        m.young = m.density = m.fracture_energy = 1;
+        m.poisson = 0.3;
+        m.criterion = PERI_CRITERION_NODE_ENERGY;
+        const int32_t nodes = (int32_t)MUST(b, peri_add_material(b, &m));
+        REFUSE(b, PERI_ERROR_RANGE, peri_get_critical_energy(b, nodes, &number));
+        CHECK(strcmp(seen.field, "w0") == 0 && number == 7);
+        peri_body_destroy(b);
+    }
+}
+
+/* A normal has a direction, whatever its length. */
+static void tiny_normals_have_a_direction(void) {
+    static const double length[3] = {1, 1e-200, 1e200};
+    double force[3][2] = {{0, 0}, {0, 0}, {0, 0}};
+    int k;
+    for (k = 0; k < 3; ++k) {
+        const double place[3] = {0.2, 0.2, 0}, normal[3] = {3 * length[k], 4 * length[k], 0};
+        peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+        const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, 1, NULL, NULL));
+        MUST(b, peri_get_obstacle_force(b, wall, force[k]));
+        CHECK_NEAR(force[k][1] / force[k][0], 4.0 / 3, 1e-12, 0);
+        CHECK_NEAR(force[k][0], force[0][0], 1e-12, 0);
+        peri_body_destroy(b);
+    }
+    CHECK(force[0][0] > 0);
+}
+
+int main(int argc, char **argv) {
+    test_begin(argc, argv);
+    RUN(numbers_are_written);
+    RUN(errors_are_told);
+    RUN(vectors_are_looked_at_whole);
+    RUN(materials_name_what_is_wrong);
+    RUN(interfaces_are_replaced);
+    RUN(constants_have_a_range);
+    RUN(tiny_normals_have_a_direction);
+    return test_end("test_survivors");
+}
