@@ -210,6 +210,173 @@ static void tiny_normals_have_a_direction(void) {
     CHECK(force[0][0] > 0);
 }
 
+static void *give(void *user, uint64_t bytes) {
+    (void)user;
+    return malloc((size_t)bytes);
+}
+
+static void take(void *user, void *pointer, uint64_t bytes) {
+    (void)user;
+    (void)bytes;
+    free(pointer);
+}
+
+static void bodies_name_what_is_wrong(void) {
+    static const double bad[2] = {HUGE_VAL, 0};
+    peri_body_desc d;
+    peri_body *b = NULL;
+    int k;
+#define NO_BODY(setting, status, name, number)                                                                         \
+    do {                                                                                                               \
+        peri_body_desc_init(&d);                                                                                       \
+        d.space = PERI_SPACE_SOLID;                                                                                    \
+        d.horizon = 1;                                                                                                 \
+        setting;                                                                                                       \
+        CHECK(peri_body_create(&d, &b, &seen) == (status) && b == NULL);                                               \
+        AT_FAULT(name, -1, number);                                                                                    \
+    } while (0)
+    NO_BODY(d.quadrature = PERI_QUADRATURE_PARTIAL_MOMENT, PERI_ERROR_CHOICE, "quadrature", PERI_QUADRATURE_PARTIAL_MOMENT); /* 2D */
+    NO_BODY(d.quadrature = PERI_QUADRATURE_PARTIAL_CENTROID, PERI_ERROR_CHOICE, "quadrature", PERI_QUADRATURE_PARTIAL_CENTROID);
+    NO_BODY((d.space = PERI_SPACE_PLANE_STRESS, d.quadrature = PERI_QUADRATURE_PARTIAL_MOMENT, d.correction = PERI_CORRECTION_ENERGY),
+            PERI_ERROR_CHOICE, "correction", PERI_CORRECTION_ENERGY);
+    NO_BODY(d.allocate = give, PERI_ERROR_ARGUMENT, "release", 0); /* both or neither: what is missing is at fault */
+    NO_BODY(d.release = take, PERI_ERROR_ARGUMENT, "allocate", 0);
+    for (k = 0; k < 2; ++k) {
+        NO_BODY(d.thickness = bad[k], PERI_ERROR_RANGE, "thickness", bad[k]);
+        NO_BODY(d.horizon = bad[k], PERI_ERROR_RANGE, "horizon", bad[k]);
+    }
+#undef NO_BODY
+}
+
+static void sets_and_cracks_name_what_is_wrong(void) {
+    const double o[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, sliver[3] = {0.5, 1e-14, 0};
+    peri_body *b = block(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 4);
+    const int32_t all = (int32_t)MUST(b, peri_select_ball(b, "all", o, 9));
+    MUST(b, peri_select_ball(b, "others", o, 9));
+    REFUSE(b, PERI_ERROR_NAME, peri_select_ball(b, "all", o, 1)); /* taken: by the set whose id is the index */
+    AT_FAULT("name", all, 0);
+    REFUSE(b, PERI_ERROR_CRACK, peri_cut_triangle(b, PERI_CUT_NOW, o, x, x));
+    AT_FAULT("r", -1, 0);
+    REFUSE(b, PERI_ERROR_CRACK, peri_cut_triangle(b, PERI_CUT_NOW, o, x, sliver)); /* no extent beside its length */
+    AT_FAULT("r", -1, 0);
+    REFUSE(b, PERI_ERROR_CRACK, peri_cut_rectangle(b, PERI_CUT_NOW, o, x, x));
+    AT_FAULT("edge2", -1, 0);
+    CHECK(peri_broken_count(b) == 0 && peri_cut_triangle(b, PERI_CUT_NOW, o, x, y) >= 0);
+    peri_body_destroy(b);
+    b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    REFUSE(b, PERI_ERROR_CRACK, peri_cut_segment(b, PERI_CUT_NOW, o, o));
+    AT_FAULT("to", -1, 0);
+    peri_body_destroy(b);
+}
+
+/* peri.h: up to 1e15 spacings and 1e9 speeds of sound; what is added is added to what there is. */
+static void motion_has_a_range(void) {
+    const double spacing = 0.1, sound = sqrt(YOUNG / DENSITY);
+    double far[2] = {0.9e15 * spacing, 0}, fast[2] = {0, 0.9e9 * sound}, some[2] = {1, 2}, more[2] = {0.5, -4};
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    int k;
+    MUST(b, peri_add_displacement(b, PERI_ALL, far));
+    MUST(b, peri_add_velocity(b, PERI_ALL, fast));
+    far[0] = 1.1e15 * spacing;
+    REFUSE(b, PERI_ERROR_RANGE, peri_add_displacement(b, PERI_ALL, far));
+    AT_FAULT("value", 0, far[0]);
+    fast[1] = 1.1e9 * sound;
+    REFUSE(b, PERI_ERROR_RANGE, peri_add_velocity(b, PERI_ALL, fast));
+    AT_FAULT("value", 0, fast[1]);
+    MUST(b, peri_reset(b));
+    MUST(b, peri_add_displacement(b, PERI_ALL, some));
+    MUST(b, peri_add_displacement(b, PERI_ALL, more));
+    double *u = get(b, PERI_FIELD_DISPLACEMENT);
+    for (k = 0; k < 16; ++k) CHECK(fabs(u[2 * k] - 1.5) < 1e-14 && fabs(u[2 * k + 1] + 2) < 1e-14);
+    free(u);
+    peri_body_destroy(b);
+}
+
+/* manual.md: 1e11 spacings of nonlinear correspondence in mixed and single precision, which cubes displacements. */
+static void cubes_have_a_range(void) {
+    int k;
+    for (k = 0; k < 4; ++k) {
+        const double far[2] = {1e12, 0};
+        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_CORRESPONDENCE, 0.3, 1, 2, 4, 4, 1);
+        s.desc.precision = k == 0 ? PERI_PRECISION_SINGLE : k == 1 ? PERI_PRECISION_DOUBLE : PERI_PRECISION_MIXED;
+        s.desc.geometry = k == 2 ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR;
+        peri_body *b = specimen_make(&s);
+        if (k == 1 || k == 2) MUST(b, peri_add_displacement(b, PERI_ALL, far));
+        else REFUSE(b, PERI_ERROR_RANGE, peri_add_displacement(b, PERI_ALL, far));
+        peri_body_destroy(b);
+    }
+}
+
+/* Forces that the state cannot hold; the index is a point, not its place in a set. */
+static void forces_have_a_range(void) {
+    const int32_t some[2] = {7, 9};
+    const double huge[2] = {0, 1e38};
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_SINGLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    double f[32];
+    const int32_t set = (int32_t)MUST(b, peri_select_points(b, NULL, 2, some));
+    MUST(b, peri_apply_body_force(b, set, huge, NULL, NULL)); /* times the spacing, over the modulus: as the body has it */
+    CHECK(peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 32) == PERI_OK);
+    const double beyond[2] = {0, 1e42};
+    MUST(b, peri_apply_body_force(b, set, beyond, NULL, NULL));
+    REFUSE(b, PERI_ERROR_RANGE, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 32));
+    CHECK(strcmp(seen.field, "value") == 0 && seen.index == 7);
+    peri_body_destroy(b);
+}
+
+/* manual.md: the surface of a ball further than 1e15 spacings away is lost in rounding; a plane may be anywhere. */
+static void obstacles_have_a_range(void) {
+    const double away[2] = {2e15 * H, 0}, near[2] = {-9, 0}, up[2] = {1, 0}, beyond[2] = {1e308, 0};
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
+    MUST(b, peri_add_plane_obstacle(b, near, up, 1, NULL, NULL));
+    const double far_below[2] = {-2e15 * H, 0};
+    MUST(b, peri_add_plane_obstacle(b, far_below, up, 1, NULL, NULL));
+    REFUSE(b, PERI_ERROR_RANGE, peri_add_ball_obstacle(b, away, 1, 1, NULL, NULL));
+    AT_FAULT("centre", -1, away[0]);
+    REFUSE(b, PERI_ERROR_RANGE, peri_add_ball_obstacle(b, near, 2e15 * H, 1, NULL, NULL));
+    CHECK(strcmp(seen.field, "radius") == 0);
+    CHECK_NEAR(seen.value, 2e15 * H, 1e-15, 0);
+    REFUSE(b, PERI_ERROR_RANGE, peri_add_plane_obstacle(b, beyond, up, 1, NULL, NULL)); /* over the spacing it is no number */
+    AT_FAULT("place", -1, beyond[0]);
+    peri_body_destroy(b);
+}
+
+/* manual.md: materials that no point has may have any numbers; those in use are refused by their index where they differ too much. */
+static void contrasts_have_a_range(void) {
+    const double x[6] = {0, 0, 1, 0, 2, 0}, v[3] = {1, 1, 1}, odd[3] = {1e300, 1e300, 1e-300};
+    int turn;
+    for (turn = 0; turn < 2; ++turn) {
+        peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_MIXED, PERI_GEOMETRY_LINEAR, 1.5);
+        const int32_t hard = unbreakable(b, 1, 1), soft = unbreakable(b, 1e-30, 1), wild = unbreakable(b, 1e240, 1e-240);
+        const int32_t of[3] = {hard, turn ? soft : hard, hard};
+        (void)wild;
+        MUST(b, peri_add_points(b, 3, x, v, of));
+        if (!turn) MUST(b, peri_build(b));
+        else {
+            REFUSE(b, PERI_ERROR_RANGE, peri_build(b));
+            CHECK(strcmp(seen.field, "young") == 0 && seen.index == 1);
+        }
+        peri_body_destroy(b);
+    }
+    peri_body *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 1.5);
+    (void)unbreakable(b, 1, 1);
+    MUST(b, peri_add_points(b, 3, x, odd, NULL)); /* in the units of the first the last has none left */
+    REFUSE(b, PERI_ERROR_POINT, peri_build(b));
+    CHECK(strcmp(seen.field, "volumes") == 0 && seen.index == 2);
+    peri_body_destroy(b);
+}
+
+/* peri.h: "ids hold in both". */
+static void clones_have_the_ids(void) {
+    const double o[3] = {0, 0, 0};
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1), *copy = NULL;
+    const int32_t set = (int32_t)MUST(b, peri_select_ball(b, "set", o, 9));
+    MUST(b, peri_body_clone(b, &copy, NULL));
+    CHECK(peri_find_set(copy, "set") == set && peri_size_of_set(copy, set) == 16);
+    CHECK(peri_id(copy, PERI_KIND_SET, 1) == set && peri_id(copy, PERI_KIND_MATERIAL, 1) == peri_id(b, PERI_KIND_MATERIAL, 1));
+    peri_body_destroy(b);
+    peri_body_destroy(copy);
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(numbers_are_written);
@@ -219,5 +386,13 @@ int main(int argc, char **argv) {
     RUN(interfaces_are_replaced);
     RUN(constants_have_a_range);
     RUN(tiny_normals_have_a_direction);
+    RUN(bodies_name_what_is_wrong);
+    RUN(sets_and_cracks_name_what_is_wrong);
+    RUN(motion_has_a_range);
+    RUN(cubes_have_a_range);
+    RUN(forces_have_a_range);
+    RUN(obstacles_have_a_range);
+    RUN(contrasts_have_a_range);
+    RUN(clones_have_the_ids);
     return test_end("test_survivors");
 }
