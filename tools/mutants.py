@@ -87,6 +87,8 @@ def fail(text):
 def read_entries():
     folder = os.path.join(ROOT, "tests", "mutants")
     mutants, names = [], set()
+    tests = os.listdir(os.path.join(ROOT, "tests"))
+    answers = [file[:-2] for file in sorted(tests) if re.fullmatch(r"test_survivors\w*\.c", file)]  # near to all mutants
     for entry in sorted(os.listdir(folder)):
         if not entry.endswith(".txt") or entry == "equivalent.txt":
             continue
@@ -120,7 +122,7 @@ def read_entries():
                 match = re.fullmatch(r"([a-z0-9_]+)( #(\d+)/(\d+))?(:(.*))?", line)
                 if not match or not file:
                     fail("%s: not understood: %s" % (entry, line))
-                mutant = Mutant(match[1], file, entry[:-4], (match[6] or "").split() or near)
+                mutant = Mutant(match[1], file, entry[:-4], ((match[6] or "").split() or near) + answers)
                 if match[2]:
                     mutant.which, mutant.places = int(match[3]), int(match[4])
                 if mutant.name in names:
