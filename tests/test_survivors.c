@@ -48,6 +48,7 @@ static void numbers_are_written(void) {
         CHECK(strtod(said(k / 100.0), NULL) == k / 100.0);
         CHECK(strlen(said(k / 100.0)) <= 4);
     }
+    for (k = 1000; k < 1126; ++k) CHECK(strtod(said(k / 1000.0), NULL) == k / 1000.0 && strlen(said(k / 1000.0)) <= 5);
     check_number(1.7e308);
     check_number(2.2250738585072014e-308);
 }

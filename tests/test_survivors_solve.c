@@ -58,12 +58,10 @@ static void levels_save_iterations(void) {
     const int64_t blocks = iterations_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 120, 24, 1, PERI_PRECONDITIONER_BLOCK_JACOBI);
     const int64_t levels = iterations_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 120, 24, 1, PERI_PRECONDITIONER_MULTILEVEL);
     const int64_t small = iterations_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 30, 6, 1, PERI_PRECONDITIONER_MULTILEVEL);
-    printf("    iterations %d, by levels %d, of a quarter of the length %d\n", (int)blocks, (int)levels, (int)small);
     CHECK(8 * levels < blocks);
     CHECK(levels <= 2 * small);
     const int64_t solid = iterations_of(PERI_SPACE_SOLID, PERI_LAW_LPS, 40, 8, 8, PERI_PRECONDITIONER_MULTILEVEL);
     const int64_t cube = iterations_of(PERI_SPACE_SOLID, PERI_LAW_LPS, 12, 8, 8, PERI_PRECONDITIONER_MULTILEVEL);
-    printf("    solid %d, of a third of the length %d\n", (int)solid, (int)cube);
     CHECK(solid <= 2 * cube);
 }
 
