@@ -135,7 +135,7 @@ static void agree(int from, int to, int solid) {
 
 static void planes_agree(void) { agree(0, 60, 0); }
 static void more_planes_agree(void) { agree(60, 160, 0); }
-static void solids_agree(void) { agree(0, 50, 1); }
+static void solids_agree(void) { agree(0, 25, 1); }
 
 /* Whole cells: the points within the horizon, no more and no less. */
 static void families_are_the_pairs(void) {
