@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_survivors_calls.c - what `make mutants` found that no other test looked at: calls from callbacks, obstacles, supports, units.
 
-   SOURCE OF TRUTH: peri.h and docs/manual.md: what a callback may do, what an obstacle and a support do, what is told to the log; sums written
-   out over the points; identities between laws (at the Poisson ratio of central springs A is 0, and LPS couples a point with its family
-   alone). */
+   SOURCE OF TRUTH: peri.h and docs/manual.md: what a callback may do, what an obstacle and a support do, what is told to the log; sums
+   written out over the points; identities between laws (at the Poisson ratio of central springs A is 0, and LPS couples a point with its
+   family alone). */
 #include "refusal.h"
 
 /* ---- calls from callbacks ------------------------------------------------------------------------------------------ */

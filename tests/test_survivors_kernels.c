@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* test_survivors_kernels.c - small random bodies, quick: what `make mutants` found that no other quick test of families and kernels looked at.
+/* test_survivors_kernels.c - small random bodies: what `make mutants` found that no other quick test of families and kernels looked at.
 
    SOURCE OF TRUTH: families found here, pair by pair; and that the three ways to work on bonds (columns, the list, the reference, which has
-   every quantity by its formula) are one and the same, to the rounding of sums: with any mixture of laws, quadratures, corrections, sources of
-   points, precisions, and bonds that are cut. */
+   every quantity by its formula) are one and the same, to the rounding of sums: with any mixture of laws, quadratures, corrections, sources
+   of points, precisions, and bonds that are cut. */
 #include "scene.h"
 
 static int pick(uint64_t *seed, int count) {

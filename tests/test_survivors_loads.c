@@ -2,8 +2,8 @@
 /* test_survivors_loads.c - what `make mutants` found that no other quick test looked at: the ledger of solves that are changed on the way,
    contact, single points, fracture between materials.
 
-   SOURCE OF TRUTH: the first law (in linear geometry the work between two equilibria is that of the mean force, exactly); balance of forces;
-   peri.h: what breaks when, what a failure names. */
+   SOURCE OF TRUTH: the first law (in linear geometry the work between two equilibria is that of the mean force, exactly); balance of
+   forces; peri.h: what breaks when, what a failure names. */
 #include "refusal.h"
 
 static peri_body *plate_of(int32_t law, int nx, int ny, int32_t geometry) {

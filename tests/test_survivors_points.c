@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_survivors_points.c - what `make mutants` found that no other quick test looked at: given families, twins, influence functions.
 
-   SOURCE OF TRUTH: peri.h and docs/manual.md, which say of each status what index and value name; sizes of w beyond 1e100 are infinite, below
-   1e-100 nothing, and sums of w over a family have a range, too. */
+   SOURCE OF TRUTH: peri.h and docs/manual.md, which say of each status what index and value name; sizes of w beyond 1e100 are infinite,
+   below 1e-100 nothing, and sums of w over a family have a range, too. */
 #include "refusal.h"
 
 #define RECORD_IS(name, at, number) CHECK(strcmp(seen.field, name) == 0 && seen.index == (at) && seen.value == (number))
