@@ -291,6 +291,11 @@ static void motion_has_a_range(void) {
     MUST(b, peri_add_displacement(b, PERI_ALL, more));
     double *u = get(b, PERI_FIELD_DISPLACEMENT);
     for (k = 0; k < 16; ++k) CHECK(fabs(u[2 * k] - 1.5) < 1e-14 && fabs(u[2 * k + 1] + 2) < 1e-14);
+    u[7] = 0.9e15 * spacing; /* of point 3, written */
+    MUST(b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 32));
+    u[7] = 1.1e15 * spacing;
+    REFUSE(b, PERI_ERROR_RANGE, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 32));
+    AT_FAULT("in", 3, u[7]);
     free(u);
     peri_body_destroy(b);
 }
