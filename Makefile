@@ -10,6 +10,8 @@
 # make install   header, single file, libraries, pkg-config and CMake files, licence: PREFIX=/usr/local, DESTDIR=, INCLUDEDIR=, LIBDIR=
 # make uninstall the same, removed
 # make dist      build/dist/peri.h, the single-file header
+# make mutants   small mistakes put into the library, one at a time: which do the tests not see? About two hours; NEAR=1 the nearest tests
+#                alone, M=17, M=100-150 or M=part_of_a_name, LONG=1 with the long tables, too; needs python3
 # make fuzz      random programs by libFuzzer under sanitizers, FUZZ_TIME seconds long (300); needs clang
 # make lint      strict warnings under every compiler found, static analysis, house rules
 # make clean     removes build/ and out/
@@ -34,7 +36,7 @@ EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench tradeoff machines examples lib install uninstall dist fuzz lint clean
+.PHONY: all demo programs test validate bench tradeoff machines examples lib install uninstall dist mutants fuzz lint clean
 all: lib
 
 # The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
@@ -191,6 +193,13 @@ validate:
 
 machines:
 	@sh tests/machines.sh
+
+# what is known already is not run again: build/mutants/results.txt
+mutants:
+	@mkdir -p build/mutants
+	@if command -v python3 > /dev/null; then \
+	    CC="$(CC)" python3 tools/mutants.py run --jobs 2 $(if $(M),--only $(M)) $(if $(NEAR),--near) $(if $(LONG),--long); \
+	else echo "mutants: no python3 on this machine, skipped"; fi
 
 bench: build/bench/bench build/bench/statics build/bench/search
 	@mkdir -p out

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+/* test_survivors_failure.c - what `make mutants` found that no other quick test of failure looked at.
+
+   SOURCE OF TRUTH: what a step keeps up to date as bonds break must be what is made anew of the bonds that are left: cutting a bond that is
+   broken already changes nothing, but has all of it made anew. Bonds counted one by one; conservation of momentum; the first law. */
+#include "scene.h"
+
+static int64_t broken_bonds(peri_body *b) {
+    const int64_t n = peri_point_count(b);
+    const int32_t width = peri_family_width(b);
+    int32_t *rows = (int32_t *)malloc((size_t)(n * width) * sizeof *rows);
+    int64_t i, k, count = 0;
+    MUST(b, peri_get_families(b, 0, n, rows, n * width));
+    for (i = 0; i < n; ++i)
+        for (k = 0; k < width; ++k)
+            if (rows[i * width + k] > i) {
+                const int32_t whole = peri_bond_is_intact(b, (int32_t)i, rows[i * width + k]);
+                CHECK(whole == peri_bond_is_intact(b, rows[i * width + k], (int32_t)i));
+                count += !whole;
+            }
+    free(rows);
+    return count;
+}
+
+/* A broken bond, to cut it again. */
+static int find_broken(peri_body *b, int32_t *pair) {
+    const int64_t n = peri_point_count(b);
+    int32_t i, j;
+    for (i = 0; i < n; ++i)
+        for (j = i + 1; j < n; ++j)
+            if (peri_bond_is_intact(b, i, j) == 0) {
+                pair[0] = i;
+                pair[1] = j;
+                return 1;
+            }
+    return 0;
+}
+
+/* Two halves that part, one step after the other, as long as bonds break. */
+static void steps_keep_up(int32_t law, int32_t criterion, int32_t kernel, double scatter) {
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, law, 0.2, 1, 2.2, 20, 8, 1);
+    const double lo[2] = {10, -1}, hi[2] = {21, 9}, v[2] = {0.3, 0.05};
+    double start[2], now[2];
+    int step, breaking = 0;
+    s.desc.kernel = kernel;
+    s.material.criterion = criterion;
+    if (criterion == PERI_CRITERION_STRETCH) s.material.critical_stretch = 0.05;
+    else s.material.fracture_energy = 4e-3;
+    s.scatter = scatter;
+    s.seed = 3;
+    peri_body *b = specimen_make(&s);
+    MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi)), v));
+    MUST(b, peri_get_momentum(b, start, NULL));
+    for (step = 0; step < 14; ++step) {
+        const int64_t before = peri_broken_count(b);
+        int32_t pair[2];
+        MUST(b, go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 1, 0.15, 0));
+        CHECK(peri_broken_count(b) == broken_bonds(b));
+        breaking += peri_broken_count(b) > before;
+        if (!find_broken(b, pair)) continue;
+        double *kept = get(b, PERI_FIELD_FORCE_DENSITY), *damage = get(b, PERI_FIELD_DAMAGE);
+        const double stable = peri_stable_step(b), size = largest(kept, 320);
+        int k;
+        CHECK(peri_cut_pairs(b, PERI_CUT_NOW, 1, pair) == 0); /* nothing changes */
+        double *anew = get(b, PERI_FIELD_FORCE_DENSITY);
+        for (k = 0; k < 320; ++k) CHECK(fabs(kept[k] - anew[k]) <= 1e-11 * size);
+        CHECK_NEAR(peri_stable_step(b), stable, 1e-11, 0);
+        CHECK(largest(damage, 160) > 0);
+        free(kept);
+        free(anew);
+        free(damage);
+    }
+    CHECK(breaking > (criterion == PERI_CRITERION_STRETCH)); /* in steps after the first, too */
+    MUST(b, peri_get_momentum(b, now, NULL));
+    CHECK_NEAR(now[0], start[0], 1e-12, 0);
+    CHECK_NEAR(now[1], start[1], 0, 1e-12 * start[0]);
+    peri_body_destroy(b);
+}
+
+static void steps_keep_all_up_to_date(void) {
+    static const int32_t laws[3] = {PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE};
+    static const int32_t criteria[3] = {PERI_CRITERION_STRETCH, PERI_CRITERION_BOND_ENERGY, PERI_CRITERION_NODE_ENERGY};
+    int k, n;
+    for (k = 0; k < 3; ++k) {
+        for (n = 0; n < 3; ++n) steps_keep_up(laws[k], criteria[n], PERI_KERNEL_BEST, 0);
+        steps_keep_up(laws[k], PERI_CRITERION_STRETCH, PERI_KERNEL_LIST, 0);
+        steps_keep_up(laws[k], PERI_CRITERION_STRETCH, PERI_KERNEL_BEST, 0.6); /* a list whose places are not ids */
+    }
+    steps_keep_up(PERI_LAW_LPS, PERI_CRITERION_BOND_ENERGY, PERI_KERNEL_REFERENCE, 0);
+}
+
+/* The only bond that breaks joins the last point of one block and the first of the next. */
+static void single_bonds_break_across_blocks(void) {
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS, 0.2, 1, 1.2, 128, 1, 1);
+    const double apart[2] = {0.5, 0}, lo[2] = {64, -1}, hi[2] = {129, 2};
+    s.material.critical_stretch = 0.1;
+    peri_body *b = specimen_make(&s);
+    MUST(b, peri_add_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi)), apart));
+    MUST(b, go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 1, 1e-3, 0));
+    CHECK(peri_broken_count(b) == 1 && peri_bond_is_intact(b, 63, 64) == 0 && peri_bond_is_intact(b, 64, 63) == 0);
+    peri_body_destroy(b);
+}
+
+/* The first law: what the ledger leaves open falls with the square of the time step, through fracture, too. */
+static double left_open(int32_t law, double dt) {
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, law, 0.2, 1, 2.2, 12, 6, 1);
+    const double lo[2] = {6, -1}, hi[2] = {13, 9}, v[2] = {0.3, 0.05};
+    peri_energy e;
+    s.material.critical_stretch = 0.06;
+    peri_body *b = specimen_make(&s);
+    MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi)), v));
+    MUST(b, go(b, PERI_INTEGRATOR_VELOCITY_VERLET, (int64_t)(1.2 / dt + 0.5), dt, 0));
+    MUST(b, peri_get_energy(b, &e));
+    CHECK(e.fracture > 1e-3 * e.initial && peri_broken_count(b) > 0);
+    peri_body_destroy(b);
+    return fabs(e.error) / e.initial;
+}
+
+static void fracture_is_paid_for(void) {
+    static const int32_t laws[4] = {PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE};
+    int k;
+    for (k = 0; k < 4; ++k) {
+        const double coarse = left_open(laws[k], 0.02), fine = left_open(laws[k], 0.01);
+        CHECK(fine < 1e-5 && fine < coarse); /* what fracture takes is a hundred times more */
+        if (k < 3) CHECK(fine < 0.3 * coarse); /* of correspondence, under which few bonds break, both are below 1e-8 */
+    }
+}
+
+int main(int argc, char **argv) {
+    test_begin(argc, argv);
+    RUN(steps_keep_all_up_to_date);
+    RUN(single_bonds_break_across_blocks);
+    RUN(fracture_is_paid_for);
+    return test_end("test_survivors_failure");
+}
