@@ -157,6 +157,7 @@ static void refuse(outcome *o, peri_body *b, const extreme *row, kind k, peri_ad
         if (u[i] != 0) o->error = 4;
     free(u);
     run->time_step = e.value;
+    run->steps = 1; /* strain may ask for another */
     if (extreme_fails(o, b, peri_advance(b, run))) o->error = 5; /* what it named will do */
 }
 static outcome refused(const extreme *row, int32_t precision) { return each(row, precision, row->choice, refuse); }
