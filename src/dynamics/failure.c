@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* failure.c - bonds that meet their criterion are taken out; those of pairwise bodies by the force pass itself.
 
-   A bond of a state-based body is in the sums of both its ends, so when it breaks the constants of both change, and with them the force of
-   every bond that they have. Only the points that lose a bond, and those next to them, are done again.
-   Under PERI_BREAK_WITHIN_STEP the difference D of the force before and after acts until the moment t of the break, a part of the step: what
-   that leaves after the half kick that opened the step goes to `closing` (see PERI_FN(part)). Breaking takes the difference of two elastic
-   energies as it is at that moment: that at the end of the step and what D, which has grown from met D, has done from t on, sum V D.v
-   (1 - t) dt (1 + met)/2, below 0. The bonds of a step are taken by the quarter in which they break; those of a quarter share its means. */
+   A bond of a state-based body is in the sums of both its ends, so when it breaks the constants of both change, and with them the
+   force of every bond that they have. Only the points that lose a bond, and those next to them, are done again.
+   Under PERI_BREAK_WITHIN_STEP the difference D of the force before and after acts until the moment t of the break, a part of the
+   step: what that leaves after the half kick that opened the step goes to `closing` (see PERI_FN(part)). Breaking takes the difference
+   of two elastic energies as it is at that moment: that at the end of the step and what D, which has grown from met D, has done from t
+   on, sum V D.v (1 - t) dt (1 + met)/2, below 0. The bonds of a step are taken by the quarter in which they break; those of a quarter
+   share its means. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif

@@ -8,8 +8,8 @@
 
        1 + (D - 1)/2 (f - 1) + (1 - g)/2        f, g: most and least length of a bond over that at rest, f >= 1 >= g
 
-   times that at rest; that of P = F S, as d(F S) = dF S + F C:(F^T dF) says, below f^2 + D/2 (f^2 - 1). Random displacements, whose bonds turn
-   every way, add next to nothing.
+   times that at rest; that of P = F S, as d(F S) = dF S + F C:(F^T dF) says, below f^2 + D/2 (f^2 - 1). Random displacements, whose
+   bonds turn every way, add next to nothing.
 
    The shortest bonds of each point are looked at, which see the largest differences: by who asks after a change, and now and then in a
    run. Ordinary bodies have room in the default safety for strains of a third between two looks. */

@@ -112,10 +112,12 @@ PERI_INLINE int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri_
 /* ---- breaking ------------------------------------------------------------------------------------------------------- */
 
 /* The extension goes from e0 to e, linearly, and meets the criterion at met e: at the part t of the step dt. Until then the bond gives
-   dt (t f0 + t^2/2 (f - f0)); the half kick that opened the step has given dt/2 f0 of it; over dt/2 f that leaves (2 t - 1) q + t^2 (1 - q),
-   q = e0/e: 1 at the end of the step, below 0 in its first half. A bond that is beyond its limit when the step begins breaks then. Energies
-   of nodes are not known at the start of the step: of a bond that meets its criterion while it gets shorter the moment is the middle. Both ends come to the same numbers, up to centroids. */
-PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+   dt (t f0 + t^2/2 (f - f0)); the half kick that opened the step has given dt/2 f0 of it; over dt/2 f that leaves (2 t - 1) q + t^2 (1
+   - q), q = e0/e: 1 at the end of the step, below 0 in its first half. A bond that is beyond its limit when the step begins breaks
+   then. Energies of nodes are not known at the start of the step: of a bond that meets its criterion while it gets shorter the moment
+   is the middle. Both ends come to the same numbers, up to centroids. */
+PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k,
+                                         const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k], stride = s->model->stride;
     const peri_r *v = (const peri_r *)s->v;
     const double length = (double)bond->length, now = (double)bond->along / (double)bond->reach;
