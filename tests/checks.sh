@@ -41,7 +41,7 @@ switches() { # switches NAME COMPILER SWITCH...
 check switches $CC $STRICT -I. tests/switches.c build/libperi.a -o build/checks/switches $OPENMP -lm
 check switches_whole sh -c 'build/checks/switches > build/checks/switches.text && [ "$(wc -l < build/checks/switches.text)" -eq 48 ]'
 switches 2D_double $quick 3D F32 MIXED
-switches 3D_single $CC 2D F64 MIXED STATICS ADVICE OUTPUT
+switches 3D_single "$CC" 2D F64 MIXED STATICS ADVICE OUTPUT
 switches statics $quick STATICS F64
 switches advice $quick ADVICE F32 3D
 switches output $quick OUTPUT STDIO MIXED 2D

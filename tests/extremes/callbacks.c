@@ -586,7 +586,7 @@ static const extreme rows[] = {
      {0, 0, 0}},
     {"loads and supports write -1e18", far_off, writes_value, -1e18, 0, RANGE(BODY_FORCE, VELOCITY), PERI_ERROR_UNSTABLE, "peri_time",
      {0, 0, 0}},
-    {"a plane in which all lies 1e300 deep", far_off, writes_value, 1e300, 0, RANGE(PLANE, PLANE), PERI_ERROR_UNSTABLE, "peri_time",
+    {"a plane in which all lies 1e30 deep", far_off, writes_value, 1e30, 0, RANGE(PLANE, PLANE), PERI_ERROR_UNSTABLE, "peri_time",
      {0, 0, 0}},
     {"a ball 1e300 away", "it touches nothing", writes_value, 1e300, 0, RANGE(BALL, BALL), PERI_OK, NULL, {0, 0, 0}},
     {"callbacks that write nothing", "peri.h: value holds the constant at entry", writes_nothing, 0, 0, 0, PERI_OK, NULL, {0, 0, 0}},
