@@ -96,6 +96,32 @@ static void the_part_is_told(void) {
     peri_body_destroy(b);
 }
 
+/* "Bonds that weigh less than 1e-7 of the heaviest of the family join and hold nothing": two parts, two spacings apart, joined by those
+   alone. */
+static int32_t steep(void *user, double q, double *w) {
+    *w = exp(-*(const double *)user * q * q * q * q);
+    return 0;
+}
+static void weightless_bonds_do_not_join(void) {
+    double slope; /* 2/2.2 of the horizon away 1e-5 at 17, 1e-10 at 34 */
+    for (slope = 17; slope < 50; slope *= 2) {
+        const double lo[2] = {0, 0}, hi[2] = {6, 3}, next[2] = {7, 0}, far[2] = {13, 3};
+        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, 2.2, 1, 1, 1);
+        s.desc.geometry = PERI_GEOMETRY_LINEAR;
+        s.desc.influence = PERI_INFLUENCE_USER;
+        s.desc.influence_fn = steep;
+        s.desc.influence_user = &slope;
+        peri_body *b = specimen_start(&s);
+        MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1));
+        MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), next, far, 1));
+        MUST(b, peri_build(b));
+        hold(b, side(b, 0, 2));
+        if (slope > 20) loose_at(b, 18, 36, 3);
+        else CHECK(solve(b, PERI_LOOSE_BALANCED).loose == 0);
+        peri_body_destroy(b);
+    }
+}
+
 /* Of the bonds of a corner all are cut but those along x: nothing resists its way along y. */
 static int32_t all_but_along(void *user, int32_t i, int32_t j, const double *xi, const double *xj) {
     (void)user;
@@ -296,6 +322,7 @@ int main(int argc, char **argv) {
     RUN(pivots);
     RUN(rows_and_points);
     RUN(the_part_is_told);
+    RUN(weightless_bonds_do_not_join);
     RUN(points_that_hang_on_a_line);
     RUN(obstacles_hold_where_they_are_now);
     RUN(free_bodies_keep_their_centre);
