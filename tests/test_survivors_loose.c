@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_survivors_loose.c - what `make mutants` found that no other test of loose parts, matrices and spread loads looked at.
 
-   SOURCE OF TRUTH: peri.h and docs/statics.md (Loose parts, The stiffness, Tractions and pressures); the count of the rigid motions of points
-   that are held in one place; balance of forces; the matrix and the product are of one tangent. */
+   SOURCE OF TRUTH: peri.h and docs/statics.md (Loose parts, The stiffness, Tractions and pressures); the count of the rigid motions
+   of points that are held in one place; balance of forces; the matrix and the product are of one tangent. */
 #include "refusal.h"
 
 static int32_t side(peri_body *b, double from, double to) {
@@ -222,7 +222,8 @@ static void rows_free(rows *a) {
     free(a->value);
 }
 
-/* "column[entries] ascending in each row"; as many of them as points couple; the product of both is the same, in a body that is strained. */
+/* "column[entries] ascending in each row"; as many of them as points couple; of a strained body, too, it is what
+   peri_multiply_stiffness multiplies by. */
 static void matrices_of_torn_bodies(void) {
     int32_t law;
     for (law = PERI_LAW_BOND_BASED; law <= PERI_LAW_CORRESPONDENCE; ++law) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_survivors_marks.c - what `make mutants` found that no other test of failed steps, of who may call, and of spread pressures looked at.
+/* test_survivors_marks.c - what `make mutants` found that no other test of failed steps, job systems and pressures looked at.
 
    SOURCE OF TRUTH: peri.h (PERI_ERROR_UNSTABLE and the first offending point, peri_advance after a failure, job systems); a product changes
    nothing; Hooke's law of a plate under pressure from all sides. */
@@ -84,7 +84,8 @@ static void forces_after_a_failed_step(void) {
             peri_advance_desc a;
             double *u, *f, *g;
             int k;
-            peri_body *b = plate(PERI_LAW_BOND_BASED, 12, 4, PERI_GEOMETRY_LINEAR), *c = plate(PERI_LAW_BOND_BASED, 12, 4, PERI_GEOMETRY_LINEAR);
+            peri_body *b = plate(PERI_LAW_BOND_BASED, 12, 4, PERI_GEOMETRY_LINEAR);
+            peri_body *c = plate(PERI_LAW_BOND_BASED, 12, 4, PERI_GEOMETRY_LINEAR);
             MUST(b, peri_apply_body_force(b, side(b, 6, 9), force, supports ? NULL : fail_once, &state));
             if (supports) MUST(b, peri_prescribe_velocity(b, side(b, 0, 3), PERI_AXIS_XY, NULL, fail_once, &state));
             peri_advance_desc_init(&a);

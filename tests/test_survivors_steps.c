@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_survivors_steps.c - what `make mutants` found that no other test of load steps, and of how solves end, looked at.
 
-   SOURCE OF TRUTH: peri.h and docs/statics.md (Load factors, One equilibrium, What a failed solve leaves); work is force times way; balance of
-   forces; a body that was solved otherwise is in the same equilibrium; calls that only read or multiply change nothing. */
+   SOURCE OF TRUTH: peri.h and docs/statics.md (Load factors, One equilibrium, What a failed solve leaves); work is force times way;
+   balance of forces; a body that was solved otherwise is in the same equilibrium; calls that only read or multiply change nothing. */
 #include "refusal.h"
 
 static int32_t side(peri_body *b, double from, double to) {
@@ -107,7 +107,8 @@ static int32_t stop_as_asked(void *user, double time, int64_t count, const int32
     (void)value;
     return 1;
 }
-/* "linear: with what the linear solver had found"; a load "stops as peri_iteration_fn does": after one iteration, short of the equilibrium. */
+/* "linear: with what the linear solver had found"; a load "stops as peri_iteration_fn does": after one iteration, short of the
+   equilibrium. */
 static void stopped_solves(void) {
     const double force[2] = {0, 1e-3};
     int64_t at = 3;
@@ -349,7 +350,10 @@ static void work_of_a_second_load(void) {
     (void)solve(b, &s);
     u = get(b, PERI_FIELD_DISPLACEMENT);
     for (k = 0; k < 48; ++k)
-        if (k % 12 >= 9) work += 0.25e-3 * t.first[2 * k] + 0.75e-3 * (u[2 * k] - t.first[2 * k]) + 2e-3 * (u[2 * k + 1] - t.first[2 * k + 1]);
+        if (k % 12 >= 9) {
+            work += 0.25e-3 * t.first[2 * k] + 0.75e-3 * (u[2 * k] - t.first[2 * k]);
+            work += 2e-3 * (u[2 * k + 1] - t.first[2 * k + 1]);
+        }
     MUST(b, peri_get_energy(b, &e));
     CHECK_NEAR(e.external, work, 1e-7, 0);
     free(u);
@@ -357,7 +361,8 @@ static void work_of_a_second_load(void) {
     peri_body_destroy(b);
 }
 
-/* "A step without equilibrium is halved, up to `halvings` times, and grows again": nearly all of the load comes within a tenth of the way. */
+/* "A step without equilibrium is halved, up to `halvings` times, and grows again": all of the load comes within a tenth
+   of the way. */
 static int32_t early(void *user, double time, int64_t count, const int32_t *points, double *value) {
     int64_t k;
     (void)points;
