@@ -23,8 +23,9 @@ typedef struct peri__deaths { /* the bonds in `dying` that break up to the end o
 } peri__deaths;
 
 static void peri__mark(peri_body *b, int64_t i, uint8_t mark, int64_t *count) {
-    if (!b->marked[i]) b->near_dying[(*count)++] = (int32_t)i;
-    if (!b->marked[i] || mark == 1) b->marked[i] = mark;
+    if (b->marked[i]) return;
+    b->near_dying[(*count)++] = (int32_t)i;
+    b->marked[i] = mark;
 }
 
 /* Is bond k of row i in the quarter? As its lower end sees it: with centroids the ends differ. */

@@ -169,6 +169,7 @@ static void peri__stand_still(peri__solver *s) {
     peri_body *b = s->body;
     if (s->begun) return;
     s->begun = 1;
+    b->now.loaded = 1;
     if (b->desc.ledger) b->now.ledger.damping += peri__kinetic_energy(b);
     memset(b->v, 0, peri__vector_bytes(b));
 }
@@ -329,7 +330,7 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_
     peri__end_run(b, former);
     if (status < 0 && status == s.failure.code) b->error = s.failure;
     if (status < 0 && b->break_said < 0) status = peri__heed_callbacks(b);
-    if (status >= 0 || s.begun) b->now.loaded = 1;
+    if (status >= 0) b->now.loaded = 1;
     if (status < 0) {
         b->now.load_factor = s.report.steps > 0 ? s.report.load_factor : s.begun ? s.load_from : factor;
         b->now.still = s.begun ? 1 : still;
