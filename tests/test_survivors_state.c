@@ -166,6 +166,28 @@ static void clones_know_the_past(void) {
     peri_body_destroy(b);
 }
 
+/* Bonds between two materials are what was asked for in a clone, too. */
+static void clones_know_interfaces(void) {
+    const double lo[2] = {0, 0}, middle[2] = {0.4, 0.4}, hi[2] = {0.8, 0.4}, right[2] = {0.4, 0};
+    double own = 0, its = 0, without = 0;
+    peri_material_desc m;
+    peri_body *copy = NULL, *b = empty(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 0.3);
+    const int32_t first = unbreakable(b, 1, 1), second = unbreakable(b, 2, 1);
+    peri_material_desc_init(&m, PERI_LAW_BOND_BASED);
+    m.young = 5;
+    MUST(b, peri_get_bond_constants(b, first, second, &without, NULL));
+    MUST(b, peri_set_interface(b, first, second, &m));
+    MUST(b, peri_add_box(b, first, lo, middle, H));
+    MUST(b, peri_add_box(b, second, right, hi, H));
+    MUST(b, peri_build(b));
+    MUST(b, peri_body_clone(b, &copy, NULL));
+    MUST(b, peri_get_bond_constants(b, first, second, &own, NULL));
+    MUST(copy, peri_get_bond_constants(copy, first, second, &its, NULL));
+    CHECK(own == its && own > 2 * without);
+    peri_body_destroy(copy);
+    peri_body_destroy(b);
+}
+
 /* ---- supports ------------------------------------------------------------------------------------------------------ */
 
 /* At one velocity the support of the whole body does work against damping alone: force density a rho v. The load factor is not for
@@ -434,6 +456,7 @@ int main(int argc, char **argv) {
     RUN(a_reset_is_seen);
     RUN(energy_is_put_in_once);
     RUN(clones_know_the_past);
+    RUN(clones_know_interfaces);
     RUN(steady_motion_costs_damping);
     RUN(reactions_are_momentum);
     RUN(supports_take_and_give_back);
