@@ -36,7 +36,7 @@ static void run_programs(void) {
 
 #define ASK(call) reach(#call, (int64_t)(call))
 
-static int64_t fail_in; /* allocations until one fails; negative: none does */
+static int64_t fail_in = -1; /* allocations until one fails; negative: none does */
 static void *take(void *user, uint64_t bytes) { return (void)user, fail_in >= 0 && fail_in-- == 0 ? NULL : malloc((size_t)bytes); }
 static void give(void *user, void *pointer, uint64_t bytes) { (void)user, (void)bytes, free(pointer); }
 static int32_t fail_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
