@@ -108,4 +108,22 @@ static inline double test_random(uint64_t *state) {
     return (double)((z ^ (z >> 31)) >> 11) * (1.0 / 9007199254740992.0);
 }
 
+/* For peri_cut_if: a share of the bonds, at random. */
+typedef struct chance {
+    uint64_t seed;
+    double   share;
+} chance;
+static inline int32_t by_chance(void *user, int32_t i, int32_t j, const double *xi, const double *xj) {
+    chance *c = (chance *)user;
+    (void)i, (void)j, (void)xi, (void)xj;
+    return test_random(&c->seed) < c->share;
+}
+
+/* A peri_load_fn that notes the time it is asked for. */
+static inline int32_t note_time(void *user, double time, int64_t count, const int32_t *points, double *value) {
+    (void)count, (void)points, (void)value;
+    *(double *)user = time;
+    return 0;
+}
+
 #endif

@@ -52,4 +52,20 @@ static inline peri_body *specimen_make(const specimen *s) {
     return b;
 }
 
+/* The plan of its box; measure: as in peri_plan_desc. */
+static inline peri_plan_report specimen_plan(const specimen *s, int32_t measure) {
+    peri_plan_desc p;
+    peri_plan_report r;
+    memset(&r, 0, sizeof r);
+    peri_plan_desc_init(&p);
+    p.body = &s->desc;
+    p.material = &s->material;
+    p.spacing = s->spacing;
+    p.measure = measure;
+    if (s->scatter > 0) p.source = PERI_SOURCE_PERTURBED, p.amount = s->scatter;
+    memcpy(p.hi, s->hi, sizeof p.hi);
+    CHECK(peri_plan(&p, &r, NULL) == PERI_OK);
+    return r;
+}
+
 #endif

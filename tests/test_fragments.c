@@ -445,16 +445,6 @@ static void broken_bonds_shorten_the_step(void) {
 
 /* ---- is the stable step safe? ------------------------------------------------------------------------------------- */
 
-typedef struct chance {
-    uint64_t seed;
-    double   share;
-} chance;
-static int32_t by_chance(void *user, int32_t i, int32_t j, const double *xi, const double *xj) {
-    chance *c = (chance *)user;
-    (void)i, (void)j, (void)xi, (void)xj;
-    return test_random(&c->seed) < c->share;
-}
-
 /* Upper bound of the spectral radius of a[n][n] (destroyed): |A^1024|^(1/1024) in Frobenius's norm, by ten squarings. It exceeds the
    radius of a symmetric matrix by n^(1/2048) at most: 0.3 %. */
 static double radius(double *a, int64_t n) {

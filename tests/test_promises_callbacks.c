@@ -494,7 +494,7 @@ typedef struct asked {
     int    calls, wrong;
     double time, place;
 } asked;
-static int32_t note_time(void *user, double time, int64_t count, const int32_t *points, double *value) {
+static int32_t ask_time(void *user, double time, int64_t count, const int32_t *points, double *value) {
     asked *k = (asked *)user;
     (void)count, (void)points;
     k->calls++;
@@ -520,7 +520,7 @@ static void times_of_callbacks(void) {
     peri_solve_desc s;
     peri_body *b = plate(10, 8, 0);
     MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo2, hi)), PERI_AXIS_XY, NULL, NULL, NULL));
-    MUST(b, peri_apply_body_force(b, PERI_ALL, pull, note_time, &load));
+    MUST(b, peri_apply_body_force(b, PERI_ALL, pull, ask_time, &load));
     const int32_t plane = (int32_t)MUST(b, peri_add_plane_obstacle(b, at, up, 1e-3, note_place, &wall));
     MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 160));
     CHECK(load.calls > 0 && load.time == 0 && wall.time == 0);

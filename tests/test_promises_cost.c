@@ -3,6 +3,7 @@
    says which sentence each case proves. SOURCE OF TRUTH: the figures of the manual; processor time, of one thread. Times are taken with
    --long, but for those that leave a factor of room. */
 #include "equilibrium.h"
+#include "stiffest.h"
 
 static double seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
@@ -17,20 +18,6 @@ static int32_t run(peri_body *b, int64_t steps, double time_step, double damping
     a.damping = damping;
     return peri_advance(b, &a);
 }
-static peri_plan_report plan_of(const specimen *s, int32_t measure) {
-    peri_plan_desc p;
-    peri_plan_report r;
-    memset(&r, 0, sizeof r);
-    peri_plan_desc_init(&p);
-    p.body = &s->desc;
-    p.material = &s->material;
-    p.spacing = s->spacing;
-    p.measure = measure;
-    memcpy(p.hi, s->hi, sizeof p.hi);
-    CHECK(peri_plan(&p, &r, NULL) == PERI_OK);
-    return r;
-}
-
 /* ---- plans --------------------------------------------------------------------------------------------------------------------- */
 
 /* peri_plan takes "some milliseconds at usual horizons, however many the points"; with measure = 1 "20 to 100 ms".
@@ -42,13 +29,13 @@ static void a_plan_takes_a_millisecond(void) {
             const specimen s = specimen_of(solid ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS, 0.2, 1, 3, n, n, n);
             const double from = seconds();
             int64_t points = 0;
-            for (int k = 0; k < 20; ++k) points += plan_of(&s, 0).points;
+            for (int k = 0; k < 20; ++k) points += specimen_plan(&s, 0).points;
             const double each = (seconds() - from) / 20;
             CHECK(points > 0 && each < 25e-3);
             if (size == 2) printf("    %s: %.2f ms for %.3g points\n", solid ? "3D" : "2D", 1e3 * each, (double)points / 20);
         }
     const specimen s = specimen_of(PERI_SPACE_SOLID, PERI_LAW_LPS, 0.2, 1, 3, 100, 100, 100);
-    const double from = seconds(), planned = plan_of(&s, 1).seconds, took = seconds() - from;
+    const double from = seconds(), planned = specimen_plan(&s, 1).seconds, took = seconds() - from;
     printf("    measured: %.0f ms\n", 1e3 * took);
     CHECK(planned > 0 && took > 0.004 && took < 0.5);
 }
@@ -57,9 +44,9 @@ static void cost_grows_with_the_horizon(void) {
     for (int solid = 0; solid < 2; ++solid)
         for (int m = 3; m <= 6; m += 3) {
             specimen s = specimen_of(solid ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, m, 1000, 1000, 1000);
-            const double once = (double)plan_of(&s, 0).entries;
+            const double once = (double)specimen_plan(&s, 0).entries;
             s.desc.horizon *= 2;
-            CHECK_NEAR((double)plan_of(&s, 0).entries / once, solid ? 8 : 4, m == 3 ? 0.1 : 0.05, 0);
+            CHECK_NEAR((double)specimen_plan(&s, 0).entries / once, solid ? 8 : 4, m == 3 ? 0.1 : 0.05, 0);
         }
 }
 /* PERI_SOURCE_BOX: "(or points of yours that lie on a lattice, in its order)": as many bytes and the same step. */
@@ -67,7 +54,7 @@ static void points_on_a_lattice_cost_a_box(void) {
     enum { NX = 60, NY = 40 };
     static double x[2 * NX * NY], volume[NX * NY];
     const specimen s = plate_of(PERI_LAW_LPS, 3, NX, NY);
-    const peri_plan_report r = plan_of(&s, 0);
+    const peri_plan_report r = specimen_plan(&s, 0);
     peri_memory m;
     for (int k = 0; k < NX * NY; ++k) x[2 * k] = 0.5 + k % NX, x[2 * k + 1] = 0.5 + k / NX, volume[k] = 1;
     peri_body *b = specimen_start(&s);
@@ -279,23 +266,6 @@ static void relaxing_by_damping(void) {
 
 /* ---- figures ------------------------------------------------------------------------------------------------------------------- */
 
-/* Largest eigenvalue of the tangent, by power iteration: unit density, unit volumes. */
-static double stiffest(peri_body *b) {
-    const int64_t n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT);
-    double *v = random_field(n, 1, 11), *w = random_field(n, 0, 1), value = 0;
-    for (int k = 0; k < 300; ++k) {
-        double norm = 0;
-        for (int64_t i = 0; i < n; ++i) norm += v[i] * v[i];
-        for (int64_t i = 0; i < n; ++i) v[i] /= sqrt(norm);
-        MUST(b, peri_multiply_stiffness(b, v, w, n));
-        value = 0;
-        for (int64_t i = 0; i < n; ++i) value += w[i] * v[i];
-        memcpy(v, w, (size_t)n * sizeof *v);
-    }
-    free(v);
-    free(w);
-    return value;
-}
 /* peri_stable_step: "nonlinear correspondence is stiffer by the square of the stretch and more": the largest eigenvalue of a body drawn to
    twice its length in all directions is more than four times that at rest, and the step knows it. */
 static void stretched_correspondence(void) {
@@ -306,7 +276,7 @@ static void stretched_correspondence(void) {
     double *x = get(b, PERI_FIELD_POSITION);
     for (int k = 0; k < 2; ++k) {
         if (k) put(b, PERI_FIELD_DISPLACEMENT, x); /* u = x: F = 2 */
-        step[k] = 2 / sqrt(stiffest(b));
+        step[k] = 2 / sqrt(stiffest(b, 0, 300));
     }
     printf("    at rest %.3f (told %.3f), stretched %.3f: %.2f of it\n", step[0], before, step[1], step[1] / step[0]);
     CHECK(before <= step[0] && before > step[0] / 1.05);

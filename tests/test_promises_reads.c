@@ -403,19 +403,6 @@ static void within_a_step_it_is_read_and_reset(void) {
 
 /* ---- plans and choices --------------------------------------------------------------------------------------------- */
 
-static peri_plan_report plan_of(const specimen *s) {
-    peri_plan_desc p;
-    peri_plan_report r;
-    memset(&r, 0, sizeof r);
-    peri_plan_desc_init(&p);
-    p.body = &s->desc;
-    p.material = &s->material;
-    p.spacing = s->spacing;
-    if (s->scatter > 0) p.source = PERI_SOURCE_PERTURBED, p.amount = s->scatter;
-    memcpy(p.hi, s->hi, sizeof p.hi);
-    CHECK(peri_plan(&p, &r, NULL) == PERI_OK);
-    return r;
-}
 /* "Bonds can break where the material has a fracture energy or a critical stretch": what that takes is planned, to the byte. */
 static void plans_know_what_can_break(void) {
     int64_t bytes[3];
@@ -425,7 +412,7 @@ static void plans_know_what_can_break(void) {
         if (k == 1) s.material.fracture_energy = 1;
         if (k == 2) s.material.critical_stretch = 0.1;
         peri_body *b = specimen_make(&s);
-        CHECK(peri_get_memory(b, &m) == PERI_OK && plan_of(&s).bytes == m.total);
+        CHECK(peri_get_memory(b, &m) == PERI_OK && specimen_plan(&s, 0).bytes == m.total);
         bytes[k] = m.damage;
         peri_body_destroy(b);
     }
@@ -442,7 +429,7 @@ static void shapes_cost_less_than_their_box(void) {
     peri_body *b = specimen_start(&s);
     MUST(b, peri_add_shape(b, peri_id(b, PERI_KIND_MATERIAL, 1), s.lo, s.hi, 1, in_ring, NULL));
     MUST(b, peri_build(b));
-    CHECK(peri_get_memory(b, &m) == PERI_OK && m.total < plan_of(&s).bytes);
+    CHECK(peri_get_memory(b, &m) == PERI_OK && m.total < specimen_plan(&s, 0).bytes);
     peri_body_destroy(b);
 }
 /* "columns: of 16 bonds each; 0: a list": so many hold the families, and what is more is what some leave empty; peri_kernel_text agrees. */
@@ -451,7 +438,7 @@ static void columns_of_plans(void) {
         specimen s = plate_of(PERI_LAW_BOND_BASED, 64, 48);
         if (k == 1) s.desc.kernel = PERI_KERNEL_LIST;
         if (k == 2) s.scatter = 0.5;
-        const peri_plan_report r = plan_of(&s);
+        const peri_plan_report r = specimen_plan(&s, 0);
         peri_body *b = specimen_make(&s);
         CHECK((r.columns > 0) == (k == 0) && (strncmp(peri_kernel_text(b), "columns", 7) == 0) == (r.columns > 0));
         if (k == 0) CHECK(16 * r.columns >= r.entries && 10 * r.columns < r.entries);
@@ -468,7 +455,7 @@ static void steps_of_plans(void) {
                                  n, n, solid ? n : 1);
         if (breaks) s.material.critical_stretch = 0.1;
         peri_body *b = specimen_make(&s);
-        CHECK_NEAR(plan_of(&s).stable_step, peri_stable_step(b), breaks && !large ? 1e-9 : 0.06, 0);
+        CHECK_NEAR(specimen_plan(&s, 0).stable_step, peri_stable_step(b), breaks && !large ? 1e-9 : 0.06, 0);
         peri_body_destroy(b);
     }
     double least[3] = {1, 1, 1};
@@ -484,7 +471,7 @@ static void steps_of_plans(void) {
                     s.scatter = way == 2 ? 0.5 : 0;
                     s.seed = 3;
                     peri_body *b = specimen_make(&s);
-                    least[way] = fmin(least[way], peri_stable_step(b) / plan_of(&s).stable_step);
+                    least[way] = fmin(least[way], peri_stable_step(b) / specimen_plan(&s, 0).stable_step);
                     peri_body_destroy(b);
                 }
     printf("    built over planned: %.2f with corrections, %.2f of thin parts, %.2f of clouds\n", least[0], least[1], least[2]);

@@ -3,6 +3,7 @@
    SOURCE OF TRUTH: an explicit step is stable up to 2/sqrt(L), L the largest eigenvalue of M^-1 K by the power method; the bits of
    peri_stable_step from step to step; and runs of the same body with a tenth of the step. */
 #include "specimen.h"
+#include "stiffest.h"
 #include <time.h>
 
 static double *get(peri_body *b, int32_t field) {
@@ -23,23 +24,7 @@ static void spread(peri_body *b, int32_t field, double rate) {
     free(x);
 }
 
-/* Of a lattice of unit spacing, volume and density; from above, as the power method finds eigenvalues from below. */
-static double true_limit(peri_body *b) {
-    const int64_t n = peri_size_of_field(b, PERI_FIELD_VELOCITY);
-    double *x = (double *)calloc((size_t)n, sizeof *x), *y = (double *)calloc((size_t)n, sizeof *y), found = 1;
-    uint64_t seed = 5;
-    for (int64_t k = 0; k < n; ++k) x[k] = test_random(&seed) - 0.5;
-    for (int it = 0; it < 250; ++it) {
-        double norm = 0;
-        for (int64_t k = 0; k < n; ++k) norm += x[k] * x[k];
-        for (int64_t k = 0; k < n; ++k) x[k] /= sqrt(norm);
-        MUST(b, peri_multiply_stiffness(b, x, y, n));
-        found = 0;
-        for (int64_t k = 0; k < n; ++k) found += x[k] * y[k], x[k] = y[k];
-    }
-    free(x), free(y);
-    return 2 / sqrt(found);
-}
+static double true_limit(peri_body *b) { return 2 / sqrt(stiffest(b, 0, 250)); }
 
 static specimen box_of(int32_t law, int32_t space, double poisson, double reach) {
     if (space == PERI_SPACE_SOLID) return specimen_of(space, law, poisson, 1, reach, 7, 8, 9);

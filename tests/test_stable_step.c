@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* test_stable_step.c - how close peri_stable_step is to the true limit.
-   SOURCE OF TRUTH: an explicit step is stable up to 2/sqrt(L), L the largest eigenvalue of M^-1 K. Small bodies: all eigenvalues of the
-   matrix of differences of the force, by Jacobi's rotations. Larger ones: the power method on peri_multiply_stiffness from several
-   starts, and runs, which stay bounded just below the limit and do not just above it. */
+   SOURCE OF TRUTH: an explicit step is stable up to 2/sqrt(L), L the largest eigenvalue of M^-1 K. Small bodies: all eigenvalues of
+   the matrix of differences of the force, by Jacobi's rotations. Larger ones: the power method on peri_multiply_stiffness, and runs,
+   which stay bounded just below the limit and do not just above it. */
 #include "specimen.h"
+#include "stiffest.h"
 
 #define CLOSE 1.05 /* true limit over peri_stable_step, where it is an estimate; 1.10 is promised */
 
@@ -81,42 +82,7 @@ static void dense(peri_body *b, const double *density, double *least, double *mo
     free(a), free(u), free(f0), free(v);
 }
 
-/* Unit density. From below, by the largest of a few starts. */
-static double power_method(peri_body *b, int starts, int rounds) {
-    const int64_t n = peri_size_of_field(b, PERI_FIELD_VELOCITY), dim = peri_dimension(b);
-    double *x = (double *)calloc((size_t)n, sizeof *x), *y = (double *)calloc((size_t)n, sizeof *y);
-    double *v = get(b, PERI_FIELD_VOLUME), most = 0;
-    uint64_t seed = 5;
-    int64_t k;
-    int start, it;
-    for (start = 0; start < starts; ++start) {
-        double found = 0;
-        for (k = 0; k < n; ++k) x[k] = test_random(&seed) - 0.5;
-        for (it = 0; it < rounds; ++it) {
-            double norm = 0;
-            for (k = 0; k < n; ++k) norm += x[k] * x[k];
-            for (k = 0; k < n; ++k) x[k] /= sqrt(norm * v[k / dim]);
-            (void)MUST(b, peri_multiply_stiffness(b, x, y, n));
-            found = 0;
-            for (k = 0; k < n; ++k) found += x[k] * y[k], x[k] = y[k] / sqrt(v[k / dim]);
-        }
-        most = fmax(most, found);
-    }
-    free(x), free(y), free(v);
-    return most;
-}
-
 /* ---- random bodies -------------------------------------------------------------------------------------------------- */
-
-typedef struct chance {
-    uint64_t seed;
-    double   share;
-} chance;
-static int32_t by_chance(void *user, int32_t i, int32_t j, const double *xi, const double *xj) {
-    chance *c = (chance *)user;
-    (void)i, (void)j, (void)xi, (void)xj;
-    return test_random(&c->seed) < c->share;
-}
 
 static int pick(uint64_t *seed, int count) { return (int)(test_random(seed) * count); }
 
@@ -271,7 +237,7 @@ static void one_size(int32_t law, int32_t space, double scatter, int32_t correct
     s.desc.influence = influence;
     s.scatter = scatter;
     b = specimen_make(&s);
-    limit = 2 / sqrt(power_method(b, 1, test_long ? 3000 : 250));
+    limit = 2 / sqrt(stiffest(b, 0, test_long ? 3000 : 250));
     ratio = limit / peri_stable_step(b);
     if (!(ratio >= 1 && ratio <= CLOSE)) printf("    law %d space %d scatter %g: %.4f\n", (int)law, (int)space, scatter, ratio);
     CHECK(ratio >= 1 && ratio <= CLOSE);
@@ -347,7 +313,7 @@ static void the_bound(void) {
             s.desc.geometry = PERI_GEOMETRY_LINEAR;
             s.material.critical_stretch = 1e6;
             b = specimen_make(&s);
-            ratio = 2 / sqrt(power_method(b, 1, 250)) / peri_stable_step(b);
+            ratio = 2 / sqrt(stiffest(b, 0, 250)) / peri_stable_step(b);
             printf("    law %d space %d: %.3f\n", (int)law, (int)space, ratio);
             CHECK(ratio >= 1 && ratio <= (law == PERI_LAW_CORRESPONDENCE ? 2.2 : 1.35));
             peri_body_destroy(b);
@@ -355,26 +321,6 @@ static void the_bound(void) {
 }
 
 /* ---- stretched ------------------------------------------------------------------------------------------------------- */
-
-/* The largest eigenvalue of M^-1 K where K may have eigenvalues below 0: that of K + shift by the power method, from below. */
-static double shifted_power_method(peri_body *b, double shift, int rounds) {
-    const int64_t n = peri_size_of_field(b, PERI_FIELD_VELOCITY);
-    double *x = (double *)calloc((size_t)n, sizeof *x), *y = (double *)calloc((size_t)n, sizeof *y), found = 0;
-    uint64_t seed = 5;
-    int64_t k;
-    int it;
-    for (k = 0; k < n; ++k) x[k] = test_random(&seed) - 0.5;
-    for (it = 0; it < rounds; ++it) {
-        double norm = 0;
-        for (k = 0; k < n; ++k) norm += x[k] * x[k];
-        for (k = 0; k < n; ++k) x[k] /= sqrt(norm);
-        (void)MUST(b, peri_multiply_stiffness(b, x, y, n));
-        found = 0;
-        for (k = 0; k < n; ++k) found += x[k] * y[k], x[k] = y[k] + shift * x[k];
-    }
-    free(x), free(y);
-    return found;
-}
 
 static void deform(peri_body *b, const double *axes) {
     const int64_t n = peri_size_of_field(b, PERI_FIELD_DISPLACEMENT), dim = peri_dimension(b);
@@ -398,11 +344,11 @@ static void in_any_shape(void) {
                 specimen s = space == PERI_SPACE_SOLID ? specimen_of(space, law, nu ? 0.45 : 0.2, 1, 2.05, 4, 5, 6)
                                                        : specimen_of(space, law, nu ? 0.45 : 0.2, 1, 3.05, 9, 10, 1);
                 peri_body *b = specimen_make(&s);
-                const double rest = power_method(b, 1, 200), step = peri_stable_step(b);
+                const double rest = stiffest(b, 0, 200), step = peri_stable_step(b);
                 for (k = 0; k < 9; ++k) {
                     double ratio;
                     deform(b, axes[k]);
-                    ratio = 2 / sqrt(shifted_power_method(b, rest, 100)) / peri_stable_step(b);
+                    ratio = 2 / sqrt(stiffest(b, rest, 100)) / peri_stable_step(b);
                     CHECK(ratio >= 1);
                     if (k < 2) CHECK(ratio <= 1.1);
                     if (law == PERI_LAW_BOND_BASED) CHECK(peri_stable_step(b) > step / 1.5);

@@ -107,13 +107,6 @@ static void forces_after_a_failed_step(void) {
 }
 
 /* A first solve that fails at once: forces that are read after it are those at the factor where it began. */
-static int32_t note_time(void *user, double time, int64_t count, const int32_t *points, double *value) {
-    (void)count;
-    (void)points;
-    (void)value;
-    *(double *)user = time;
-    return 0;
-}
 static void a_first_solve_that_fails(void) {
     const double force[2] = {0, 1e-2};
     double time = -1, *f;

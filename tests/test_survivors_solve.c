@@ -157,14 +157,6 @@ static void reactions_are_of_the_equilibrium(void) {
     peri_body_destroy(b);
 }
 
-static int32_t note_time(void *user, double time, int64_t count, const int32_t *points, double *value) {
-    (void)count;
-    (void)points;
-    (void)value;
-    *(double *)user = time;
-    return 0;
-}
-
 /* "in peri_solve time is the load factor": and of forces that are read after it, of the body as the solve left it. */
 static void forces_after_a_solve_are_at_its_factor(void) {
     const double from[2] = {5, -9}, to[2] = {5, 9};

@@ -392,13 +392,6 @@ static void halved_steps_grow_again(void) {
 
 /* ---- what a failed solve leaves ------------------------------------------------------------------------------------- */
 
-static int32_t note_time(void *user, double time, int64_t count, const int32_t *points, double *value) {
-    (void)count;
-    (void)points;
-    (void)value;
-    *(double *)user = time;
-    return 0;
-}
 /* A first step that runs out of iterations can be gone on with: the factor is where the solve began, loads act with it, and the way on is
    as long as it was. */
 static void failed_solves_can_be_gone_on_with(void) {

@@ -20,5 +20,7 @@ PERI_INLINE int64_t peri__nth(const peri__model *m, int64_t k) { return m->order
    divides its sums, in the precision of the state, by its own volume. */
 PERI_INLINE double peri__share(const peri__model *m, int64_t i) { return m->mutual ? m->volume[i] : 1.0; }
 
+PERI_INLINE double peri__mass(const peri__model *m, int64_t i) { return m->rho[m->material[i]] * m->volume[i]; }
+
 /* The neighbour of entry `at` of the list. */
 PERI_INLINE int64_t peri__entry_id(const peri__model *m, int64_t at) { return m->order ? m->order[m->ids[at]] : m->ids[at]; }

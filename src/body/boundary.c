@@ -119,12 +119,10 @@ PERI_API int32_t peri_remove_load(peri_body *b, int32_t id) {
 
 static double peri__default_stiffness(const peri__model *m) { return 1.0 / peri__square(m->spacing); }
 
-/* Obstacles add up in the bound of the stable step, over the least density (explicit.c). As many as there are ids stay within double. */
-static int peri__leaves_step(const peri_body *b, double stiffness) {
-    const peri__model *m = b->model;
-    double lightest = m->rho[0];
-    for (int32_t k = 1; k < m->materials; ++k) lightest = fmin(lightest, m->rho[k]);
-    return stiffness / lightest < 1e300;
+static double peri__least_density(const peri__model *m) {
+    double least = m->rho[0];
+    for (int32_t k = 1; k < m->materials; ++k) least = fmin(least, m->rho[k]);
+    return least;
 }
 
 static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const double *place, double stiffness) {
@@ -140,7 +138,8 @@ static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const 
     if (!(obstacle->radius < 1e15)) return peri__fail(b, PERI_ERROR_RANGE, "radius", -1, obstacle->radius * m->length);
     memcpy(obstacle->position0, obstacle->position, sizeof obstacle->position0);
     obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
-    if (!peri__leaves_step(b, obstacle->stiffness)) return peri__fail(b, PERI_ERROR_RANGE, "stiffness", -1, stiffness);
+    /* they add up in the stable step, over the least density (explicit.c): as many as there are ids stay within double */
+    if (!(obstacle->stiffness / peri__least_density(m) < 1e300)) return peri__fail(b, PERI_ERROR_RANGE, "stiffness", -1, stiffness);
     if (!peri__grow(&b->memory, &b->obstacles, &b->obstacle_capacity, b->obstacle_count + 1, sizeof *b->obstacles))
         return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
     if (!b->push) b->push = (double *)peri__new(&b->memory, vector, sizeof *b->push);

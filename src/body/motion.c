@@ -88,10 +88,10 @@ PERI_API int32_t peri_reset(peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         memcpy(b->obstacles[k].position, b->obstacles[k].position0, sizeof b->obstacles[k].position);
     for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
-    const uint32_t sharp = b->now.stale & PERI__STALE_SHARP, healed = b->now.broken > 0;
+    /* the estimate of the stable step is good again unless bonds were mended that count in it */
+    const uint32_t sharp = b->now.broken > 0 && !b->softens ? PERI__STALE_SHARP : b->now.stale & PERI__STALE_SHARP;
     b->now = peri__at_start(b->now.cut);
-    b->now.stale = PERI__STALE_FORCE | sharp;
     if (b->alive) peri__changed(b, PERI__BONDS);
-    if (!healed) b->now.stale &= ~(uint32_t)PERI__STALE_SHARP | sharp;
+    b->now.stale = (b->now.stale & ~(uint32_t)PERI__STALE_SHARP) | sharp;
     return PERI_OK;
 }

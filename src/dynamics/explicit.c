@@ -31,11 +31,10 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
    once on the diagonal and once off it; `sharp`: or what is closer; obstacles once, taken as if all touched the lightest point. */
 static double peri__step_of(const peri_body *b, double sharp) {
     const peri__model *m = b->model;
-    double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum, lightest = m->rho[0];
+    const double lightest = peri__least_density(m);
+    double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum;
     if (m->gathers & PERI__GRADIENT) lambda *= b->now.stiffer; /* of springs, the bound holds however they are stretched */
     if (sharp * b->now.stiffer < lambda) lambda = sharp * b->now.stiffer;
-    for (int32_t k = 1; k < m->materials; ++k)
-        if (m->rho[k] < lightest) lightest = m->rho[k];
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) lambda += b->obstacles[k].stiffness / lightest;
     return 2.0 / sqrt(lambda);

@@ -28,6 +28,12 @@ static void peri__mark(peri_body *b, int64_t i, uint8_t mark, int64_t *count) {
     b->marked[i] = mark;
 }
 
+static int peri__is_dying(const peri_body *b, int64_t i) {
+    uint32_t some = 0;
+    for (int32_t word = 0; word < b->model->words; ++word) some |= b->dying[i * b->model->words + word];
+    return some != 0;
+}
+
 /* Is bond k of row i in the quarter? As its lower end sees it: with centroids the ends differ. */
 static int peri__parts(const peri__deaths *s, int64_t i, const peri__row *row, int64_t k, peri__parting *parting) {
     const int64_t j = row->ids[k];
@@ -50,6 +56,7 @@ static void peri__mark_dying(peri__deaths *s) {
         if (b->sums[block].n == 0) continue;
         for (int64_t n = block * PERI_BLOCK; n < peri__min((block + 1) * PERI_BLOCK, m->points); ++n) {
             const int64_t i = m->record_reals ? peri__nth(m, n) : n;
+            if (!peri__is_dying(b, i)) continue;
             peri__read_row(b, i, &row);
             for (int64_t k = 0; k < row.count; ++k) {
                 peri__parting parting;
@@ -153,11 +160,12 @@ static void peri__break_states(peri_body *b, const peri__operands *at) {
     peri__find_largest_row_sum(b);
 }
 
-/* v takes what the bonds that broke in the step still give. */
-static void peri__close_step(peri_body *b) {
+static void peri__close_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri_body *b = (const peri_body *)context;
     const peri__model *m = b->model;
-    for (int64_t i = 0; i < m->points; ++i)
-        for (int32_t d = 0; d < m->dim; ++d) {
+    (void)sums;
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = begin; i < end; ++i) {
             const int64_t at = d * m->stride + i;
             const double impulse = peri__get_real(b->closing, b->f32, at);
             if (impulse == 0.0) continue;
@@ -165,3 +173,6 @@ static void peri__close_step(peri_body *b) {
             peri__put_real(b->closing, b->f32, at, 0.0);
         }
 }
+
+/* v takes what the bonds that broke in the step still give. */
+static void peri__close_step(peri_body *b) { peri__for_points(b, b->model->points, 1, peri__close_block, b, NULL); }

@@ -87,8 +87,6 @@ static double peri__deviate(uint64_t at) {
     return (double)(sum - 4 * 0xFFFF) / 0x10000;
 }
 
-static double peri__mass(const peri__model *m, int64_t i) { return m->rho[m->material[i]] * m->volume[i]; }
-
 /* now = g/sqrt(rho V); sums->a: its norm. */
 static void peri__lanczos_start(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__lanczos *s = (const peri__lanczos *)context;
@@ -155,20 +153,6 @@ static void peri__lanczos_overlap(void *context, int64_t begin, int64_t end, per
         }
 }
 
-/* before -= alpha now; sums->a: its norm. */
-static void peri__lanczos_part(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__lanczos *s = (const peri__lanczos *)context;
-    const peri__model *m = s->body->model;
-    const int32_t f32 = s->body->f32;
-    for (int64_t i = begin; i < end; ++i)
-        for (int32_t d = 0; d < m->dim; ++d) {
-            const int64_t at = d * m->stride + i;
-            const double next = peri__get_real(s->before, f32, at) - s->alpha * peri__get_real(s->now, f32, at);
-            peri__put_real(s->before, f32, at, next);
-            sums->a += peri__mass(m, i) * next * next;
-        }
-}
-
 static double peri__lanczos_pass(peri__lanczos *s, void (*pass)(void *, int64_t, int64_t, peri__sums *)) {
     peri__for_points(s->body, s->body->model->points, 2, pass, s, s->body->sums);
     return peri__total(s->body->sums, s->body->model->points).a;
@@ -187,7 +171,8 @@ static double peri__lanczos_extend(peri__lanczos *s, double size) {
     double next = sqrt(peri__lanczos_pass(s, peri__lanczos_next));
     if (next < 1e-3 * size) {
         s->alpha = peri__lanczos_pass(s, peri__lanczos_overlap);
-        next = sqrt(peri__lanczos_pass(s, peri__lanczos_part));
+        s->beta = -1.0; /* and the force is 0: before -= alpha now */
+        next = sqrt(peri__lanczos_pass(s, peri__lanczos_next));
     }
     return next > (s->body->b32 ? 1e-5 : 1e-12) * size ? next : 0.0;
 }

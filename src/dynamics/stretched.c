@@ -26,8 +26,7 @@ typedef struct peri__reach { /* squares of lengths over those at rest           
     double most, least;
 } peri__reach;
 
-PERI_INLINE void peri__reach_of(peri__reach *reach, double now, double rest) {
-    const double square = now / rest;
+PERI_INLINE void peri__reach_of(peri__reach *reach, double square) {
     if (square > reach->most) reach->most = square;
     if (square < reach->least) reach->least = square;
 }
@@ -51,7 +50,7 @@ static void peri__group_reach(const peri_body *b, int64_t g, peri__reach *reach)
             for (int32_t d = 0; d < m->dim; ++d)
                 square += peri__square(bond->xi[d] + peri__get_real(b->u, b->f32, d * m->stride + j)
                                        - peri__get_real(b->u, b->f32, d * m->stride + i));
-            peri__reach_of(reach, square, peri__square(bond->length));
+            peri__reach_of(reach, square / peri__square(bond->length));
         }
     }
 }
@@ -65,14 +64,8 @@ static void peri__row_reach(const peri_body *b, int64_t i, peri__reach *reach) {
         if (length < shortest) shortest = length;
     }
     for (int64_t k = 0; k < row.count; ++k) {
-        double xi[3], eta[3], square = 0.0, rest = 0.0;
         if (peri__get_real(row.bond, b->b32, k) > PERI_SHORT * shortest || !peri__is_alive(b, i, k)) continue;
-        peri__pull_of(b, i, row.ids[k], xi, eta);
-        for (int32_t d = 0; d < b->dim; ++d) {
-            square += peri__square(xi[d] + eta[d]);
-            rest += peri__square(xi[d]);
-        }
-        peri__reach_of(reach, square, rest);
+        peri__reach_of(reach, peri__square(1.0 + peri__stretch(b, i, &row, k)));
     }
 }
 

@@ -277,7 +277,7 @@ PERI_API int32_t peri_get_momentum(peri_body *b, double *linear, double *angular
     (void)peri__stored_view(b, PERI_FIELD_DISPLACEMENT, &u);
     (void)peri__stored_view(b, PERI_FIELD_VELOCITY, &v);
     for (int64_t i = 0; i < m->points; ++i) {
-        double y[3] = { 0.0, 0.0, 0.0 }, p[3] = { 0.0, 0.0, 0.0 }, mass = m->rho[m->material[i]] * m->volume[i] * unit, cross[3];
+        double y[3] = { 0.0, 0.0, 0.0 }, p[3] = { 0.0, 0.0, 0.0 }, mass = peri__mass(m, i) * unit, cross[3];
         for (int32_t d = 0; d < m->dim; ++d) {
             y[d] = peri__view_at(&x, i, d) + peri__view_at(&u, i, d);
             p[d] = mass * peri__view_at(&v, i, d);
