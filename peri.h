@@ -541,6 +541,25 @@ PERI_API int32_t peri_remove_obstacle(peri_body *body, int32_t obstacle);
 /* Force [M L T^-2] of the obstacle on the body now, to force[dim]. */
 PERI_API int32_t peri_get_obstacle_force(peri_body *body, int32_t obstacle, double *force);
 
+/* ---- contact ---------------------------------------------------------------- */
+
+/* Unbonded surface points: 1/2 k (d - r)^2 where r < d = min(distance, |xi|), k = stiffness E V
+   /(spacing distance) */
+typedef struct peri_contact_desc {
+    uint64_t cookie;       /* set by init */
+    double stiffness;      /* (0, 1e3] of a cell's own [-]. Default 0.25 */
+    double distance;       /* [L] Default 0: the spacing */
+    double friction;       /* mu [-] 0..1e3. Default 0 */
+    double friction_speed; /* [L T^-1] below it: viscous. Default 0 */
+    double restitution;    /* (0, 1] of light pieces. Default 1 */
+} peri_contact_desc;
+
+PERI_API void peri_contact_desc_init(peri_contact_desc *desc);
+
+/* Of materials i and j, ids or PERI_ALL; NULL: none. */
+PERI_API int32_t peri_set_contact(peri_body *body, int32_t i, int32_t j,
+    const peri_contact_desc *desc);
+
 /* ---- motion ----------------------------------------------------------------- */
 
 typedef enum peri_integrator {
@@ -549,7 +568,7 @@ typedef enum peri_integrator {
 } peri_integrator;
 
 /* Every frame_steps steps and at the end of a run; at each equilibrium of peri_solve. > 0 stops. It
-   may also cut, select, set no-fail zones, and add or remove loads and obstacles. */
+   may also cut, select, set no-fail zones and contact, add or remove loads and obstacles. */
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
 
 typedef struct peri_advance_desc {
@@ -651,7 +670,7 @@ PERI_API int32_t peri_solve(peri_body *body, const peri_solve_desc *desc,
     peri_solve_report *report);
 
 /* out = K in [M L T^-2], the tangent at the present displacement times in[count], count =
-   points*dim; without supports and obstacles. out may be in. The first call takes memory
+   points*dim; without supports, obstacles and contact. out may be in. The first call takes memory
    (peri_memory.state). */
 PERI_API int32_t peri_multiply_stiffness(peri_body *body, const double *in, double *out,
     int64_t count);
@@ -679,7 +698,7 @@ typedef enum peri_field {
     PERI_FIELD_POSITION = 2001,         /* S [dim] reference position [L] */
     PERI_FIELD_DISPLACEMENT = 2002,     /* SW [dim] [L] */
     PERI_FIELD_VELOCITY = 2003,         /* SW [dim] [L T^-1] */
-    PERI_FIELD_FORCE_DENSITY = 2004,    /* S [dim] internal, loads and obstacles [M L^-2 T^-2] */
+    PERI_FIELD_FORCE_DENSITY = 2004,    /* S [dim] internal, loads, obstacles, contact */
     PERI_FIELD_VOLUME = 2005,           /* S [L^3]; planes: area [L^2] */
     PERI_FIELD_MATERIAL = 2006,         /* PERI_ID_INDEX of the material */
     PERI_FIELD_FAMILY_SIZE = 2007,      /* bonds of the point, broken ones included */
@@ -727,13 +746,14 @@ typedef struct peri_view {
 PERI_API int32_t peri_view_field(peri_body *body, int32_t field, peri_view *view);
 
 /* The ledger [M L^2 T^-2], from build or reset on: initial + external + obstacle = kinetic +
-   elastic + damping + fracture + error. */
+   elastic + contact + damping + fracture + error. */
 typedef struct peri_energy {
     double kinetic;
     double elastic;  /* stored in intact bonds */
+    double contact;  /* stored in contact */
     double external; /* work of loads and supports; in peri_solve of obstacles, too */
     double obstacle; /* work of obstacles */
-    double damping;  /* taken by damping; in peri_solve what springs free when bonds have broken */
+    double damping;  /* by damping and contact; in peri_solve what springs free as bonds break */
     double fracture; /* elastic energy that went with bonds as they broke */
     double initial;  /* put in by setting motion, less what later cuts took out */
     double error;    /* what time steps, or load steps, left open */
@@ -768,7 +788,7 @@ typedef struct peri_memory {
     int64_t damage;   /* flags of bonds, no-fail zones, events, what the criteria keep */
     int64_t state;    /* displacements, velocities, forces, and scratch of passes */
     int64_t laws;     /* materials, constants, and the body itself */
-    int64_t loads;    /* sets, supports, loads, obstacles */
+    int64_t loads;    /* sets, supports, loads, obstacles, contact */
     int64_t fields;   /* derived fields that were viewed */
     int64_t total;    /* of all these */
     int64_t shared;   /* of the total: what clones share */

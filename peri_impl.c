@@ -85,6 +85,12 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/kernels/kernels.inl"
 #endif
 
+/* ---- contact: which points touch, and how they push each other -------------------------- */
+#include "src/contact/contact.c"   /* what is declared, and lists                                                  */
+#include "src/contact/search.c"    /* exposed points                -> those that may come to touch                */
+#include "src/contact/force.c"     /* points that touch             -> force, energy, loss                         */
+#include "src/contact/tangent.c"   /* and                           -> tangent                                     */
+
 /* ---- body: what there is, and what may be done to it ----------------------------------- */
 #include "src/body/arrays.c"       /* what a body keeps                                                            */
 #include "src/body/body.c"         /* create, build, destroy                                                       */
@@ -98,6 +104,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/cracks.c"       /* initial cracks, no-fail zones, break events                                  */
 #include "src/body/callbacks.c"    /* how runs begin and end; a body that a callback was left in by a jump          */
 #include "src/body/boundary.c"     /* supports, loads and obstacles, added and removed                             */
+#include "src/body/touch.c"        /* contact between materials, declared                                          */
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
 

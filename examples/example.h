@@ -60,7 +60,7 @@ static inline void print_energy(peri_body *body) {
     peri_energy e;
     (void)must(body, peri_get_energy(body, &e));
     printf("energy [J]   in:   initial %.4e   external %.4e   obstacle %.4e\n", e.initial, e.external, e.obstacle);
-    printf("             has:  kinetic %.4e   elastic  %.4e\n", e.kinetic, e.elastic);
+    printf("             has:  kinetic %.4e   elastic  %.4e   contact  %.4e\n", e.kinetic, e.elastic, e.contact);
     printf("             used: fracture %.4e  damping  %.4e\n", e.fracture, e.damping);
     printf("             open: %.1e\n", e.error);
 }

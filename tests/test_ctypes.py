@@ -68,7 +68,7 @@ class View(C.Structure):
 
 
 class Energy(C.Structure):
-    _fields_ = [(n, C.c_double) for n in ("kinetic", "elastic", "external", "obstacle", "damping", "fracture", "initial",
+    _fields_ = [(n, C.c_double) for n in ("kinetic", "elastic", "contact", "external", "obstacle", "damping", "fracture", "initial",
                                           "error")]
 
 

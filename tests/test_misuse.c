@@ -25,6 +25,7 @@ static peri_advance_desc advance_desc, *ad = &advance_desc;
 static peri_solve_desc solve_desc, *sd = &solve_desc;
 static peri_plan_desc plan_desc, *pd = &plan_desc;
 static peri_choose_desc choose_desc, *cd = &choose_desc;
+static peri_contact_desc contact_desc, *kd = &contact_desc;
 
 static int32_t take_all(void *user, int64_t index, const double *x) {
     (void)user, (void)index, (void)x;
@@ -61,6 +62,7 @@ static void good_settings(void) {
     peri_advance_desc_init(ad);
     ad->steps = 2;
     peri_solve_desc_init(sd);
+    peri_contact_desc_init(kd);
     peri_plan_desc_init(pd);
     pd->body = bd;
     pd->material = md;

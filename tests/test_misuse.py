@@ -80,7 +80,7 @@ class Scene:
             ints=(C.c_int32 * 500)(), made=C.byref(self.made), error=self.record, plan=types["peri_plan_report"](),
             choice=types["peri_choose_report"](), view=types["peri_view"](), bd=types["peri_body_desc"](),
             md=types["peri_material_desc"](), ad=types["peri_advance_desc"](), sd=types["peri_solve_desc"](),
-            pd=types["peri_plan_desc"](), cd=types["peri_choose_desc"](),
+            pd=types["peri_plan_desc"](), cd=types["peri_choose_desc"](), kd=types["peri_contact_desc"](),
             take_all=callback(lambda user, index, x: 1, *point), take_none=callback(lambda user, index, x: 0, *point),
             fail_point=callback(lambda user, index, x: -7 if index == 5 else 1, *point),
             cut_all=callback(lambda user, i, j, xi, xj: 1, *pair),
@@ -117,6 +117,7 @@ class Scene:
         self.lib.peri_advance_desc_init(C.addressof(n["ad"]))
         n["ad"].steps = 2
         self.lib.peri_solve_desc_init(C.addressof(n["sd"]))
+        self.lib.peri_contact_desc_init(C.addressof(n["kd"]))
         self.lib.peri_plan_desc_init(C.addressof(n["pd"]))
         n["pd"].body, n["pd"].material, n["pd"].spacing = C.addressof(n["bd"]), C.addressof(n["md"]), 1
         n["pd"].hi[0] = n["pd"].hi[1] = 6

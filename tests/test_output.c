@@ -370,32 +370,33 @@ static void vtu_holds_what_read_gives(void) {
 /* ---- CSV ---------------------------------------------------------------------------------------------------------- */
 
 static void history_line(peri_body *b, const char *line) {
-    double v[12];
+    double v[13];
     peri_energy e;
     int k;
     char *end = NULL;
-    for (k = 0; k < 12; ++k) {
+    for (k = 0; k < 13; ++k) {
         v[k] = strtod(line, &end);
-        CHECK(end != line && *end == (k < 11 ? ',' : '\n'));
+        CHECK(end != line && *end == (k < 12 ? ',' : '\n'));
         line = end + 1;
     }
     (void)MUST(b, peri_get_energy(b, &e));
-    CHECK(v[0] == (double)peri_step_count(b) && v[10] == (double)peri_broken_count(b) && v[11] == (double)peri_cut_count(b));
+    CHECK(v[0] == (double)peri_step_count(b) && v[11] == (double)peri_broken_count(b) && v[12] == (double)peri_cut_count(b));
     CHECK_NEAR(v[1], peri_time(b), 1e-12, 0);
     CHECK_NEAR(v[2], e.kinetic, 1e-12, 0);
     CHECK_NEAR(v[3], e.elastic, 1e-12, 0);
-    CHECK_NEAR(v[4], e.external, 1e-12, 0);
-    CHECK_NEAR(v[5], e.obstacle, 1e-12, 0);
-    CHECK_NEAR(v[6], e.damping, 1e-12, 0);
-    CHECK_NEAR(v[7], e.fracture, 1e-12, 0);
-    CHECK_NEAR(v[8], e.initial, 1e-12, 0);
-    CHECK_NEAR(v[9], e.error, 1e-12, 1e-12 * (e.kinetic + e.elastic));
-    CHECK(v[2] > 0 && v[3] > 0 && v[4] != 0 && v[6] > 0 && v[7] > 0 && v[8] > 0 && v[10] > 0 && v[11] > 0);
+    CHECK_NEAR(v[4], e.contact, 1e-12, 0);
+    CHECK_NEAR(v[5], e.external, 1e-12, 0);
+    CHECK_NEAR(v[6], e.obstacle, 1e-12, 0);
+    CHECK_NEAR(v[7], e.damping, 1e-12, 0);
+    CHECK_NEAR(v[8], e.fracture, 1e-12, 0);
+    CHECK_NEAR(v[9], e.initial, 1e-12, 0);
+    CHECK_NEAR(v[10], e.error, 1e-12, 1e-12 * (e.kinetic + e.elastic));
+    CHECK(v[2] > 0 && v[3] > 0 && v[5] != 0 && v[7] > 0 && v[8] > 0 && v[9] > 0 && v[11] > 0 && v[12] > 0);
 }
 
 /* SOURCE OF TRUTH: peri_export_history_to's contract: step, time, the ledger in the order of peri_energy, broken and cut bonds. */
 static void history(void) {
-    static const char *const names[12] = {"step",     "time",    "kinetic",  "elastic", "external", "obstacle",
+    static const char *const names[13] = {"step",     "time",    "kinetic",  "elastic", "contact", "external", "obstacle",
                                           "damping",  "fracture", "initial", "error",   "broken",   "cut"};
     peri_body *b = subject(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE);
     buffer f = {NULL, 0, 0, 0, 0}, g = {NULL, 0, 0, 0, 0};
@@ -404,9 +405,9 @@ static void history(void) {
     (void)MUST(b, peri_export_history_to(b, 1, collect, &f));
     (void)MUST(b, peri_export_history_to(b, 0, collect, &g));
     at = f.bytes;
-    for (k = 0; k < 12; ++k) { /* the names, in this order, one per column */
+    for (k = 0; k < 13; ++k) { /* the names, in this order, one per column */
         const char *stop = strpbrk(at, ",\n"), *word = strstr(at, names[k]);
-        CHECK(stop && word && word < stop && *stop == (k < 11 ? ',' : '\n'));
+        CHECK(stop && word && word < stop && *stop == (k < 12 ? ',' : '\n'));
         if (!stop) break;
         at = stop + 1;
     }

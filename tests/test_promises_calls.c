@@ -104,6 +104,7 @@ static void without_a_body(void) {
     ASK(peri_apply_pressure(n, PERI_ALL, 1, NULL, NULL)), ASK(peri_apply_bond_pressure_for_comparison(n, PERI_ALL, 1, NULL, NULL));
     ASK(peri_remove_load(n, 1)), ASK(peri_get_reaction(n, 1, numbers)), ASK(peri_add_plane_obstacle(n, zero3, up3, 0, NULL, NULL));
     ASK(peri_add_ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers));
+    ASK(peri_set_contact(n, 1, 1, NULL));
     ASK(peri_multiply_stiffness(n, numbers, numbers, 2)), ASK(peri_matrix_create(n, &m)), ASK(peri_matrix_rows(m));
     ASK(peri_matrix_entries(m));
     ASK(peri_get_matrix(m, NULL, NULL, NULL)), ASK(peri_export_matrix_to(m, take_bytes, NULL));
@@ -150,6 +151,7 @@ static void with_wrong_ids(void) {
         ASK(peri_apply_bond_pressure_for_comparison(b, i, 1, NULL, NULL)), ASK(peri_remove_load(b, l));
         ASK(peri_get_reaction(b, l, numbers));
         ASK(peri_remove_obstacle(b, w)), ASK(peri_get_obstacle_force(b, w, numbers));
+        ASK(peri_set_contact(b, k == 1 ? set : m, material, NULL));
         st.curve_load = l;
         st.curve = numbers;
         st.curve_rows = 1;
@@ -327,6 +329,22 @@ static void without_memory(void) {
     SHORT(peri_multiply_stiffness(b, numbers, numbers, 240)), SHORT(peri_matrix_create(b, &m));
     SHORT(peri_view_field(b, PERI_FIELD_DAMAGE, &view)), SHORT(peri_advance(b, &one_step));
     SHORT(peri_export_vtu_to(b, take_bytes, NULL)), SHORT(peri_export_vtu(b, "build/short.vtu"));
+    peri_contact_desc touch;
+    peri_contact_desc_init(&touch);
+    SHORT(peri_set_contact(b, PERI_ALL, PERI_ALL, &touch)); /* whose lists forces and energies are made with */
+    for (int k = 0; k < 6; ++k) {
+        const int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
+        const int32_t wall_of = (int32_t)MUST(b, peri_add_plane_obstacle(b, wall, up3, 0, NULL, NULL));
+        MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, &touch));
+        if (k == 0) SHORT(peri_get_field(b, PERI_FIELD_FORCE_DENSITY, numbers, 512));
+        if (k == 1) SHORT(peri_get_reaction(b, load, numbers));
+        if (k == 2) SHORT(peri_get_obstacle_force(b, wall_of, numbers));
+        if (k == 3) SHORT(peri_get_energy(b, &energy));
+        if (k == 4) SHORT(peri_export_history_to(b, 0, take_bytes, NULL));
+        if (k == 5) SHORT(peri_export_history(b, "build/short.csv", 0));
+        MUST(b, peri_remove_load(b, load)), MUST(b, peri_remove_obstacle(b, wall_of));
+        MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, NULL));
+    }
     CHECK(peri_get_memory(b, &after) == PERI_OK && after.state == before.state && after.fields == before.fields);
     CHECK(made == NULL && m == NULL);
     peri_body_destroy(t);
@@ -477,7 +495,7 @@ static void no_others_are(void) {
 static void never_where_it_says_so(void) {
     int never = 0;
     for (int k = 0; k < calls_of_table; ++k) never += table_rows[k].never;
-    CHECK(never == 2 + 6 + 2 + 12);
+    CHECK(never == 2 + 7 + 2 + 12);
     CHECK(peri_version() > 0 && peri_status_text(12345)[0] != 0);
     peri_body_destroy(NULL);
     peri_matrix_destroy(NULL);

@@ -67,7 +67,7 @@ static void broken_bonds_stay_broken(void) {
         }
 }
 
-/* "It has no contact between parts of a body": two blocks, farther apart than a horizon, thrown at each other, end on the other side
+/* Parts of a body touch only where that is declared: two blocks, farther apart than a horizon, thrown at each other, end on the other side
    with the velocities that they had. */
 static void parts_pass_through_each_other(void) {
     const specimen s = plate_of(PERI_LAW_BOND_BASED, 4, 4);

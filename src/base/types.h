@@ -47,7 +47,12 @@
      dying     bonds whose criterion was met in the last pass; alive: those that carry force; uncut: those not cut before the start
      work      done on a bond; pull: its force density at the last count; node: the energy of the ends of bonds
      stale     of derived quantities: they no longer belong to the state. stale.c says which follow from which
-     ledger    the sums of energy that balance: external work, damping, fracture, obstacles
+     ledger    the sums of energy that balance: external work, damping, fracture, obstacles; contact is stored, like elastic energy
+   Contact:
+     touch     of a pair: nearer than the distance declared, and than in the reference, and no bond joins them
+     exposed   of a point: it is at a surface, or lost a bond, so that it can touch; member: it has a row of candidates
+     candidate a pair that may touch before the lists are made again; open: it may now; it sleeps while its bond lives
+     drag      the force of dashpots and friction, beside that of the springs; crowd: the largest row sum of springs over rho
    Statics:
      constrained   of a degree of freedom (dof): it moves as a support prescribes; the others are free
      floating part connected points that some rigid-body modes leave without resistance
@@ -152,6 +157,7 @@ typedef struct peri__interface {
 } peri__interface;
 
 typedef struct peri__ops peri__ops;
+typedef struct peri__contact peri__contact; /* of a body: search.c                                                       */
 
 typedef struct peri__stencil_bond { /* what bonds along one lattice vector between two materials share, rounded as bond  */
     double xi[3], length, weight, partial_volume, inverse; /* weight: as the model's; partial_volume: beta V_j; inverse: 1/|xi| */
@@ -520,6 +526,7 @@ struct peri_body {
     void     *change_response; /* and of the response                                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
+    peri__contact *contact;  /* NULL where none is declared                                                              */
     peri__derived derived[peri__count_field]; /* by field                                                                */
 
     peri__set      *sets;

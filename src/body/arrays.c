@@ -207,7 +207,7 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
         loads += peri__held_bytes(load->owned, load->count, sizeof *load->owned);
         loads += peri__held_bytes(load->all, load->count, sizeof *load->all);
     }
-    held[PERI__LOADS] += loads;
+    held[PERI__LOADS] += loads + peri__contact_bytes(b);
 }
 
 static int64_t peri__held_total(const int64_t *held) {

@@ -345,6 +345,8 @@ static void peri__free_state(peri_body *b) {
     for (int64_t k = 0; k < b->load_count; ++k) peri__free_load(b, &b->loads[k]);
     peri__delete(memory, b->loads, b->load_capacity, sizeof *b->loads);
     peri__delete(memory, b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
+    peri__free_contact(b, b->contact);
+    b->contact = NULL;
     b->sets = NULL;
     b->loads = NULL;
     b->obstacles = NULL;

@@ -33,6 +33,10 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         ok = ok && (made || !own);
         peri__set_array(b, &arrays[k], made);
     }
+    if (from->contact) {
+        b->contact = peri__copy_contact(b, from->contact);
+        ok = ok && b->contact;
+    }
     PERI_COPY_(obstacles, from->obstacle_capacity, sizeof *b->obstacles)
     b->obstacle_count = from->obstacle_count;
     b->obstacle_capacity = b->obstacles ? from->obstacle_capacity : 0;

@@ -80,6 +80,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
     }
     if (b->closing) memset(b->closing, 0, vector);
+    peri__forget_contact(b->contact, m);
     if (b->work) {
         memset(b->work, 0, (size_t)peri__bond_slots(m) * peri__real(b));
         memset(b->pull, 0, (size_t)(peri__bond_slots(m) * m->dim) * peri__real(b));

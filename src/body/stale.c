@@ -15,12 +15,17 @@ typedef enum peri__change {
     PERI__ACTION  /* loads, supports, obstacles, the load factor; or a step that ended half way                          */
 } peri__change;
 
+static double peri__whole_energy(peri_body *b) {
+    if (b->contact) (void)peri__ready_contact(b);
+    return peri__kinetic_energy(b) + peri__elastic_energy(b, NULL) + peri__contact_energy(b);
+}
+
 /* Before displacement, velocity or bonds are changed by the caller, not by the equations of motion: the change of energy counts as
    `initial`. It is measured when next needed, so that a hundred cuts cost two energy passes. */
 static void peri__note_energy(peri_body *b) {
     peri__ledger *l = &b->now.ledger;
     if (!b->desc.ledger || b->now.stale & PERI__STALE_LEDGER) return;
-    l->before = b->now.steps == 0 && l->initial == 0.0 ? 0.0 : peri__kinetic_energy(b) + peri__elastic_energy(b, NULL);
+    l->before = b->now.steps == 0 && l->initial == 0.0 ? 0.0 : peri__whole_energy(b);
     b->now.stale |= PERI__STALE_LEDGER;
 }
 
@@ -31,8 +36,17 @@ static void peri__changed(peri_body *b, peri__change what) {
     if ((what == PERI__CUTS || what == PERI__BONDS) && !b->model->pairwise) b->now.stale |= PERI__STALE_CONSTANTS;
     if ((what == PERI__CUTS && b->now.steps == 0) || ((what == PERI__CUTS || what == PERI__BONDS) && !b->softens))
         b->now.stale |= PERI__STALE_SHARP; /* initial cracks, of which a body that softens knows, come before the first step */
+    if ((what == PERI__CUTS || what == PERI__BONDS) && b->contact) b->contact->dead = -1;
     b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
     if (what == PERI__MOTION) b->now.stale |= PERI__STALE_STRETCH;
+}
+
+/* The forces of contact at no step. In equilibria nothing slips and nothing approaches. */
+static int32_t peri__touch_now(peri_body *b) {
+    if (!b->contact) return PERI_OK;
+    if (!peri__ready_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
+    peri__apply_touch(b, 0.0, !b->now.still);
+    return PERI_OK;
 }
 
 /* f of u, loads and bonds as they are, without breaking anything. */
@@ -46,14 +60,15 @@ static int32_t peri__make_force(peri_body *b) {
     if (status == PERI_OK) {
         operands.working = m->seen_by & PERI__BY_WORK;
         peri__bond_forces(b, &operands);
-        status = peri__meet_supports(b);
+        status = peri__touch_now(b);
+        if (status == PERI_OK) status = peri__meet_supports(b);
     }
     peri__leave(b, former);
     return status;
 }
 
-/* Brings up to date what is stale of `what`, bits of peri__stale, and what that is made of. Fails only where a load or an obstacle does;
-   the force then stays stale. */
+/* Brings up to date what is stale of `what`, bits of peri__stale, and what that is made of. Fails only where a load or an obstacle does, or
+   where contact has no memory; the force then stays stale. */
 static int32_t peri__ensure(peri_body *b, uint32_t what) {
     what &= b->now.stale;
     if (what & (PERI__STALE_FORCE | PERI__STALE_MASKS)) peri__update_masks(b);
@@ -63,7 +78,7 @@ static int32_t peri__ensure(peri_body *b, uint32_t what) {
         if (status < 0) return status;
     }
     if (what & PERI__STALE_LEDGER)
-        b->now.ledger.initial += peri__kinetic_energy(b) + peri__elastic_energy(b, NULL) - b->now.ledger.before;
+        b->now.ledger.initial += peri__whole_energy(b) - b->now.ledger.before;
     b->now.stale &= ~what;
     return PERI_OK;
 }

@@ -28,7 +28,8 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
 }
 
 /* The stable step, inner units: 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice,
-   once on the diagonal and once off it; `sharp`: or what is closer; obstacles once, taken as if all touched the lightest point. */
+   once on the diagonal and once off it; `sharp`: or what is closer; obstacles once, taken as if all touched the lightest point; contact as
+   it is, but not less than some touching. */
 static double peri__step_of(const peri_body *b, double sharp) {
     const peri__model *m = b->model;
     const double lightest = peri__least_density(m);
@@ -37,7 +38,16 @@ static double peri__step_of(const peri_body *b, double sharp) {
     if (sharp * b->now.stiffer < lambda) lambda = sharp * b->now.stiffer;
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) lambda += b->obstacles[k].stiffness / lightest;
+    if (b->contact) return peri__step_with_contact(b->contact, lambda);
     return 2.0 / sqrt(lambda);
+}
+
+/* The crowd of contact, where the force does not tell. 0 where memory is short. */
+static int peri__look_at_contact(peri_body *b) {
+    if (!b->contact || !(b->now.stale & PERI__STALE_FORCE)) return 1;
+    if (!peri__ready_contact(b)) return 0;
+    (void)peri__press(b, 0);
+    return 1;
 }
 
 /* By the bound, which costs nothing; and by the estimate too, where there is one that holds. */
@@ -50,6 +60,7 @@ PERI_API double peri_stable_step(const peri_body *b) {
     (void)peri__ensure((peri_body *)b, PERI__STALE_CONSTANTS);
     if (b->running <= PERI__IN_FRAME) {
         if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch((peri_body *)b);
+        (void)peri__look_at_contact((peri_body *)b);
         (void)peri__sharpen((peri_body *)b);
     }
     return peri__stable(b) * b->model->time;
@@ -90,7 +101,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
-    int broke = 0;
+    int broke = 0, listed = 1;
     peri__operands operands = peri__operands_of(b);
     int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
@@ -129,6 +140,10 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         broke = total.n > 0;
         if (broke && b->closing) peri__close_step(b);
     }
+    if (b->contact) {
+        listed = peri__ready_contact(b);
+        peri__apply_touch(b, dt, 1);
+    }
     peri__hold_supports(b, dt, damping);
 
     if (!central) {
@@ -142,7 +157,9 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     peri__look_in_time(b);
     if (b->before && broke) peri__report_breaks(b);
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
-    return PERI_OK;
+    if (listed) return PERI_OK;
+    peri__changed(b, PERI__ACTION); /* the step was done by lists that miss what has come near of late */
+    return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
 }
 
 static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
@@ -160,6 +177,7 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "duration", -1, r->duration);
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch(b);
+    if (!peri__look_at_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
     const double unit = b->model->time;
     if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */
         return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
@@ -242,7 +260,10 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
             run++;
             plan.done++;
         }
-        if (central && status == PERI_OK) status = peri__unstagger(b, size, damping);
+        if (central && (status == PERI_OK || status == PERI_ERROR_MEMORY)) {
+            const int32_t back = peri__unstagger(b, size, damping);
+            if (status == PERI_OK || back < 0) status = back;
+        }
         left_to_frame -= run;
         if (status != PERI_OK) break;
         const int32_t heeded = peri__heed_callbacks(b);

@@ -256,14 +256,16 @@ PERI_API int32_t peri_get_energy(peri_body *b, peri_energy *e) {
     memset(e, 0, sizeof *e);
     e->kinetic = peri__kinetic_energy(b) * unit;
     e->elastic = peri__elastic_energy(b, NULL) * unit;
+    if (b->contact && !peri__ready_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
+    e->contact = peri__contact_energy(b) * unit;
     e->fracture = l->fracture * unit;
     if (!b->desc.ledger) return PERI_OK;
     e->external = l->external * unit;
     e->obstacle = l->obstacle * unit;
     e->damping = l->damping * unit;
     e->initial = l->initial * unit;
-    if (b->now.stale & PERI__STALE_LEDGER) e->initial += e->kinetic + e->elastic - l->before * unit;
-    e->error = e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->damping - e->fracture;
+    if (b->now.stale & PERI__STALE_LEDGER) e->initial += e->kinetic + e->elastic + e->contact - l->before * unit;
+    e->error = e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->contact - e->damping - e->fracture;
     return PERI_OK;
 }
 

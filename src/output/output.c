@@ -156,11 +156,11 @@ PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write
     w.failed = 0;
     w.used = 0;
     if (header)
-        peri__emit_text(&w, "step,time,kinetic,elastic,external,obstacle,damping,fracture,initial,error,broken,cut\n");
-    const double numbers[9] = { peri_time(b), e.kinetic,  e.elastic, e.external, e.obstacle,
-                                e.damping,    e.fracture, e.initial, e.error };
+        peri__emit_text(&w, "step,time,kinetic,elastic,contact,external,obstacle,damping,fracture,initial,error,broken,cut\n");
+    const double numbers[10] = { peri_time(b), e.kinetic,  e.elastic,  e.contact, e.external,
+                                 e.obstacle,   e.damping,  e.fracture, e.initial, e.error };
     peri__emit_integer(&w, b->now.steps);
-    for (int k = 0; k < 9; ++k) {
+    for (int k = 0; k < 10; ++k) {
         char text[40] = "";
         peri__emit_text(&w, ",");
         peri__emit(&w, text, (size_t)(peri__put_double(text, numbers[k]) - text));

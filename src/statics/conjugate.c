@@ -12,7 +12,7 @@
 static int peri__is_linear(const peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) return 0;
-    return b->desc.geometry == PERI_GEOMETRY_LINEAR;
+    return b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->contact;
 }
 
 static double peri__rounding(const peri_body *b) { return b->b32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
@@ -58,6 +58,7 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
     s->t.q = s->k.q;
     peri__apply_tangent(&s->t, at_rest);
     peri__apply_contact(&s->t);
+    peri__add_touch_tangent(s->body, s->t.p, s->t.q);
     s->report.passes++;
     peri__sums sums = peri__krylov_pass(s, &s->k, s->body->ops->krylov_force);
     /* the tangent of a stressed body answers to turns; p has no part in what is taken out, so p.K p stands */

@@ -55,6 +55,8 @@ static double peri__static_forces(peri__solver *s) {
         for (int64_t i = 0; i < m->points; ++i)
             if (!(s->constrained[i] >> d & 1)) square += peri__square(m->volume[i] * peri__get_real(b->f, b->f32, d * m->stride + i));
     peri__bond_forces(b, &operands);
+    status = peri__touch_now(b);
+    if (status < 0) return status;
     s->report.passes++;
     for (int32_t d = 0; d < m->dim; ++d)
         for (int64_t i = 0; i < m->points; ++i) {

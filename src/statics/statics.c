@@ -47,6 +47,7 @@ static int32_t peri__check_statics(peri_body *b, const peri_solve_desc *st) {
         if (curve < 0) return (int32_t)curve;
     }
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
+    if (b->contact && st->method == PERI_METHOD_BICGSTAB) return peri__fail(b, PERI_ERROR_LAW, "method", -1, st->method);
     return PERI_OK;
 }
 
@@ -136,7 +137,11 @@ static void peri__count_work(peri__solver *s, const void *from) {
     b->now.ledger.external += work;
 }
 
-static double peri__static_energy(peri_body *b) { return b->desc.ledger ? peri__elastic_energy(b, NULL) : 0.0; }
+static double peri__static_energy(peri_body *b) {
+    if (!b->desc.ledger) return 0.0;
+    if (b->contact) (void)peri__ready_contact(b);
+    return peri__elastic_energy(b, NULL) + peri__contact_energy(b);
+}
 
 /* ---- load steps --------------------------------------------------------------------------------------------------- */
 
@@ -308,7 +313,7 @@ static int32_t peri__load_steps(peri__solver *s) {
 /* A solve that ended short of an equilibrium has moved the body: like a change by the caller, to `initial`. */
 static void peri__count_stray(peri__solver *s) {
     peri_body *b = s->body;
-    b->now.ledger.initial += peri__elastic_energy(b, NULL) - peri__energy_under(b, s->from, NULL);
+    b->now.ledger.initial += peri__static_energy(b) - peri__energy_under(b, s->from, NULL) - peri__contact_energy_under(b, s->from);
 }
 
 PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_report *report) {
