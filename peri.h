@@ -98,7 +98,7 @@ typedef enum peri_status { /* peri_status_text says the same */
     PERI_ERROR_COINCIDENT = -22,  /* two points are at the same place */
     PERI_ERROR_HORIZON = -23,     /* the horizon is smaller than the spacing of the points */
     PERI_ERROR_FAMILY = -24,      /* a point has no neighbour, or none with a weight */
-    PERI_ERROR_IBOND = -25,       /* given families: number out of range, twice, or not mutual */
+    PERI_ERROR_IBOND = -25,       /* given families: wrong number, not mutual, not of the horizon */
     PERI_ERROR_CRACK = -26,       /* the crack has no extent, or is not for this space */
     PERI_ERROR_PAIR = -27,        /* the two points share no bond */
     PERI_ERROR_FIELD = -28,       /* this field cannot be used in this way: it is not stored */
@@ -385,10 +385,12 @@ PERI_API int64_t peri_add_points(peri_body *body, int64_t count, const double *p
     const double *volumes, const int32_t *materials);
 
 /* Families of yours instead of a search: ibond[points*width] as in [T] 3.11, row i padded with i.
-   Membership must be mutual. Weights are computed as for found families. */
+   Membership must be mutual. Weights are computed as for found families, of whose horizon they must
+   be. */
 PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t *ibond);
 
-/* Finds the families, computes weights and constants, takes the state. After a failure the body is
+/* Finds the families, computes weights and constants, takes the state. Logs a warning of rows of
+   points, and of sheets one cell thick in 3D: no constants are for these. After a failure the body is
    as it was: add what is missing and build again. */
 PERI_API int32_t peri_build(peri_body *body);
 

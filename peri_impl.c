@@ -46,9 +46,11 @@
 #include "src/families/search.c"     /* points                        -> those within reach of each other          */
 #include "src/families/weights.c" /* bonds                         -> lengths and weights                       */
 #include "src/families/neighbors.c"  /* points                        -> families (Ibond)                          */
+#include "src/families/agreement.c"  /* families of the caller       -> do they belong to the horizon?              */
 #include "src/families/correction.c" /* weights                       -> weights that surfaces need                */
 #include "src/families/stencil.c"      /* points of lattices            -> families by columns, Ibond compressed     */
 #include "src/families/rows.c"       /* the family of a point, wherever it is stored                               */
+#include "src/families/span.c"       /* families                      -> do they span the space?                   */
 
 /* ---- laws: what materials make of live families ---------------------------------------- */
 #include "src/laws/material.c"     /* engineering constants           -> those of the laws, critical values        */

@@ -252,15 +252,18 @@ static void grow(scene *s, int families) {
     (void)MUST(s->body, peri_add_box(s->body, first, s->plan.lo, s->plan.hi, 1));
     m = HELD(s);
     CHECK(m.points > before.points && m.laws == before.laws && m.shared == 0 && m.families == 0);
-    if (families) { /* a chain: each with the next */
+    if (families) { /* those that a search finds */
         const int64_t n = peri_point_count(s->body);
-        int32_t *rows = (int32_t *)malloc((size_t)(2 * n) * sizeof *rows);
-        int64_t i;
-        for (i = 0; i < n; ++i) {
-            rows[2 * i] = (int32_t)(i > 0 ? i - 1 : i);
-            rows[2 * i + 1] = (int32_t)(i + 1 < n ? i + 1 : i);
-        }
-        (void)MUST(s->body, peri_set_families(s->body, 2, rows));
+        peri_body *same = NULL;
+        (void)MUST(NULL, peri_body_create(&s->desc, &same, NULL));
+        (void)MUST(same, peri_add_material(same, &s->material));
+        (void)MUST(same, peri_add_box(same, peri_id(same, PERI_KIND_MATERIAL, 1), s->plan.lo, s->plan.hi, 1));
+        (void)MUST(same, peri_build(same));
+        const int32_t width = peri_family_width(same);
+        int32_t *rows = (int32_t *)malloc((size_t)(n * width) * sizeof *rows);
+        (void)MUST(same, peri_get_families(same, 0, n, rows, n * width));
+        peri_body_destroy(same);
+        (void)MUST(s->body, peri_set_families(s->body, width, rows));
         free(rows);
         CHECK(HELD(s).families > 0);
     } else {

@@ -210,6 +210,7 @@ static int32_t peri__fill_list(peri_body *b, peri__model *m, peri__cloud *cloud,
     int32_t status = b->setup.ibond ? peri__take_families(b, cloud) : peri__write_families(b, cloud, corrects);
     if (status == PERI_OK && b->setup.ibond) status = peri__check_families(b, m);
     if (status == PERI_OK) status = peri__weigh(b, cloud, sums);
+    if (status == PERI_OK && b->setup.ibond) status = peri__check_agreement(b, cloud);
     if (status == PERI_OK) status = peri__correct(b, cloud, sums);
     if (status < 0 || !m->pairwise || (cloud->weighs && !corrects)) return status;
     peri__for_points(b, m->points, m->width, peri__row_sum_block, cloud, sums);
@@ -459,7 +460,8 @@ static int32_t peri__make_model(peri_body *b) {
     peri__free_cloud(b, &cloud, points);
     if (status == PERI_OK) {
         b->model = m;
-        status = peri__new_state(b);
+        status = peri__check_span(b, sums);
+        if (status == PERI_OK) status = peri__new_state(b);
     }
     peri__delete(&b->scratch, sums, blocks, sizeof *sums);
     return status;
