@@ -389,9 +389,9 @@ PERI_API int64_t peri_add_points(peri_body *body, int64_t count, const double *p
    be. */
 PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t *ibond);
 
-/* Finds the families, computes weights and constants, takes the state. Logs a warning of rows of
-   points, and of sheets one cell thick in 3D: no constants are for these. After a failure the body is
-   as it was: add what is missing and build again. */
+/* Finds the families, computes weights and constants, takes the state. Warns of rows of points, and
+   of sheets one cell thick in 3D: no constants are for these. After a failure the body is as it
+   was: add what is missing and build again. */
 PERI_API int32_t peri_build(peri_body *body);
 
 /* ---- the built body: nouns return that number, 0 for NULL */
@@ -474,6 +474,10 @@ PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
 /* fn is called for every bond that breaks by its criterion; NULL removes. Costs two to
    three bits per bond. */
 PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
+
+/* on = 1: keeps from now on when bonds between neighbouring points break, for peri_get_cracks.
+   Takes 32 to 44 bytes per point. 0: no longer. */
+PERI_API int32_t peri_record_breaks(peri_body *body, int32_t on);
 
 /* ---- initial state, supports, loads, obstacles: ids, or an error ------------ */
 
@@ -767,6 +771,43 @@ PERI_API int32_t peri_get_energy(peri_body *body, peri_energy *energy);
 /* Momentum [M L T^-1] to linear[dim], about the origin [M L^2 T^-1] to angular[1] (2D) or [3].
    Either may be NULL. */
 PERI_API int32_t peri_get_momentum(peri_body *body, double *linear, double *angular);
+
+/* Cracks: through the broken and cut bonds of neighbouring points, midway. They outlive the body;
+   free them by peri_cracks_destroy. */
+typedef struct peri_cracks peri_cracks;
+
+typedef struct peri_cracks_desc {
+    uint64_t cookie;  /* set by init */
+    int32_t initial;  /* 1 (default): initial cracks, too */
+    int32_t current;  /* 1: where the body is now. Default 0: reference positions */
+    double shortest;  /* [L] >= 0, 2D: shorter branches and cracks with a tip are left out. NaN
+                         (default): the horizon */
+} peri_cracks_desc;
+
+typedef struct peri_crack_tip { /* 2D: where a path ends within the body */
+    double place[3];     /* [L] */
+    double direction[3]; /* of length 1, of the last horizon of the path */
+    double speed;        /* [L T^-1] mean of the last two horizons; NaN: not recorded */
+    int64_t path;        /* 0, 1, ... */
+} peri_crack_tip;
+
+PERI_API void peri_cracks_desc_init(peri_cracks_desc *desc);
+PERI_API int32_t peri_cracks_create(peri_body *body, const peri_cracks_desc *desc,
+    peri_cracks **cracks);
+PERI_API void peri_cracks_destroy(peri_cracks *cracks);
+PERI_API int64_t peri_cracks_paths(const peri_cracks *cracks); /* polylines; 3D: sides of cells */
+PERI_API int64_t peri_cracks_vertices(const peri_cracks *cracks);
+PERI_API int64_t peri_cracks_tips(const peri_cracks *cracks);
+PERI_API double peri_cracks_size(const peri_cracks *cracks); /* length [L]; 3D: area [L^2] */
+
+/* Path p: vertices start[p] to start[p+1], of start[paths+1]; in 3D 4, the triangles 0 1 2 and
+   0 2 3. vertex[vertices*dim] [L], time[vertices] when it broke [T] (peri_solve: load factor; NaN:
+   not recorded), tip[tips]. Any may be NULL. */
+PERI_API int32_t peri_get_cracks(const peri_cracks *cracks, int64_t *start, double *vertex,
+    double *time, peri_crack_tip *tip);
+
+/* VTK XML PolyData (.vtp). */
+PERI_API int32_t peri_export_cracks_to(const peri_cracks *cracks, peri_write_fn write, void *user);
 
 /* VTK XML for ParaView; "Warp By Vector" shows the deformed body. */
 PERI_API int32_t peri_export_vtu_to(peri_body *body, peri_write_fn write, void *user);

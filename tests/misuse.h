@@ -114,6 +114,7 @@ SET(b, CHOICE, "force_step", 7, ad, force_step, 7, peri_advance(b, ad))
 SET(b, CHOICE, "fracture", 7, sd, fracture, 7, peri_solve(b, sd, NULL))
 SET(ERROR, CHOICE, "measure", 7, pd, measure, 7, peri_plan(pd, plan, error))
 ROW(b, CHOICE, "on", 7, peri_set_no_fail(b, set, 7))
+ROW(b, CHOICE, "on", 7, peri_record_breaks(b, 7))
 ROW(b, CHOICE, "header", 7, peri_export_history_to(b, 7, write_none, NULL))
 ROW(b, CHOICE, "append", 7, peri_export_history(b, "build/no_such_folder/x", 7))
 

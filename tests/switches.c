@@ -119,15 +119,27 @@ static void try_statics(peri_body *b, int p, int dim) {
 static void try_output(peri_body *b, int p, int dim) {
     uint64_t hash = 0;
     const int32_t vtu = peri_export_vtu_to(b, mix, &hash), history = peri_export_history_to(b, 1, mix, &hash);
+    peri_cracks_desc desc;
+    peri_cracks *cracks = NULL;
+    peri_cracks_desc_init(&desc);
+    const int32_t found = peri_cracks_create(b, &desc, &cracks), exported = cracks ? peri_export_cracks_to(cracks, mix, &hash) : 0;
+    peri_cracks_destroy(cracks);
     if (!no_output) {
         MUST(b, vtu);
         MUST(b, history);
+        MUST(b, found);
+        CHECK(exported == PERI_OK);
         show("output", p, dim, hash);
         return;
     }
     CHECK(hash == 0);
     left_out(b, vtu, no_output);
     left_out(b, history, no_output);
+    left_out(b, found, no_output);
+    CHECK(cracks == NULL && peri_cracks_size(cracks) == 0 && peri_cracks_tips(cracks) == PERI_ERROR_ARGUMENT);
+    CHECK(peri_cracks_paths(cracks) == PERI_ERROR_ARGUMENT && peri_cracks_vertices(cracks) == PERI_ERROR_ARGUMENT);
+    CHECK(peri_get_cracks(cracks, NULL, NULL, NULL, NULL) == PERI_ERROR_ARGUMENT);
+    CHECK(peri_export_cracks_to(cracks, mix, &hash) == PERI_ERROR_ARGUMENT);
 #ifndef PERI_NO_STDIO
     left_out(b, peri_export_vtu(b, "build/checks/left_out.vtu"), no_output);
     left_out(b, peri_export_history(b, "build/checks/left_out.csv", 0), no_output);

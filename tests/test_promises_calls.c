@@ -76,6 +76,27 @@ static peri_material_desc stuff;
 static peri_view view;
 static peri_energy energy;
 
+/* What asks for cracks, of a body that has none or of one that is: then by what is wrong beside. */
+static void with_cracks(peri_body *b, const peri_body *unbuilt) {
+    peri_cracks *cracks = NULL;
+    peri_cracks_desc desc;
+    peri_cracks_desc_init(&desc);
+    if (unbuilt || !b) {
+        ASK(peri_record_breaks(b, 1)), ASK(peri_cracks_create(b, &desc, &cracks)), ASK(peri_cracks_paths(cracks));
+        ASK(peri_cracks_vertices(cracks)), ASK(peri_cracks_tips(cracks)), ASK(peri_get_cracks(cracks, NULL, NULL, NULL, NULL));
+        ASK(peri_export_cracks_to(cracks, take_bytes, NULL));
+        return;
+    }
+    ASK(peri_cracks_create(b, NULL, &cracks)), ASK(peri_cracks_create(b, &desc, NULL));
+    desc.shortest = -1, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.shortest = 0, desc.current = 2, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.current = 1, desc.initial = -1, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.initial = 0, desc.cookie++, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.cookie--, MUST(b, peri_cracks_create(b, &desc, &cracks));
+    ASK(peri_export_cracks_to(cracks, take_bytes, b)), ASK(peri_export_cracks_to(cracks, NULL, NULL));
+    peri_cracks_destroy(cracks);
+}
+
 /* Every function, without a body or a matrix. */
 static void without_a_body(void) {
     const peri_body *c = NULL;
@@ -106,7 +127,7 @@ static void without_a_body(void) {
     ASK(peri_add_ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers));
     ASK(peri_set_contact(n, 1, 1, NULL));
     ASK(peri_multiply_stiffness(n, numbers, numbers, 2)), ASK(peri_matrix_create(n, &m)), ASK(peri_matrix_rows(m));
-    ASK(peri_matrix_entries(m));
+    ASK(peri_matrix_entries(m)), with_cracks(n, n);
     ASK(peri_get_matrix(m, NULL, NULL, NULL)), ASK(peri_export_matrix_to(m, take_bytes, NULL));
     ASK(peri_size_of_field(c, PERI_FIELD_VOLUME));
     ASK(peri_get_field(n, PERI_FIELD_VOLUME, numbers, 512)), ASK(peri_set_field(n, PERI_FIELD_VELOCITY, numbers, 512));
@@ -171,7 +192,7 @@ static void at_the_wrong_time(void) {
     specimen pole = s;
     ASK(peri_get_families(d, 0, 1, ints, 512)), ASK(peri_bond_is_intact(d, 0, 1)), ASK(peri_select_ball(d, NULL, zero3, 9));
     ASK(peri_select_if(d, NULL, take_point, NULL)), ASK(peri_select_points(d, NULL, 2, two)), ASK(peri_get_set(d, PERI_ALL, ints, 512));
-    ASK(peri_set_no_fail(d, PERI_ALL, 1)), ASK(peri_on_break(d, NULL, NULL));
+    ASK(peri_set_no_fail(d, PERI_ALL, 1)), ASK(peri_on_break(d, NULL, NULL)), with_cracks(d, d);
     ASK(peri_apply_layer_traction(d, PERI_ALL, 1, one3, NULL, NULL));
     ASK(peri_apply_traction(d, PERI_ALL, 1, one3, one3, NULL, NULL)), ASK(peri_remove_load(d, 1)), ASK(peri_remove_obstacle(d, 1));
     ASK(peri_apply_bond_pressure_for_comparison(d, PERI_ALL, 1, NULL, NULL)), ASK(peri_get_reaction(d, 1, numbers));
@@ -221,6 +242,7 @@ static void with_wrong_arguments(void) {
     ASK(peri_matrix_create(b, NULL)), MUST(b, peri_matrix_create(b, &matrix)), ASK(peri_export_matrix_to(matrix, NULL, NULL));
     ASK(peri_export_matrix_to(matrix, take_bytes, b)), ASK(peri_export_history_to(b, 1, NULL, NULL)), ASK(peri_export_history(b, NULL, 0));
     peri_matrix_destroy(matrix);
+    with_cracks(b, NULL);
     peri_body_destroy(d);
     numbers[0] = 0;
     const double beyond[4] = {-1.7e308, 0, 1.7e308, 0}, units[2] = {1, 1};
@@ -305,6 +327,8 @@ static void without_memory(void) {
     fail_in = -1;
     peri_body *b = specimen_make(&s), *t = specimen_make(&solid), *made = NULL;
     peri_matrix *m = NULL;
+    peri_cracks *cracks = NULL;
+    peri_cracks_desc desc;
     peri_memory before, after;
     peri_advance_desc one_step;
     const double corner[3] = {-1, -1, 2}, along[3] = {9, 0, 0}, across[3] = {0, 9, 0}, wall[2] = {0, -9};
@@ -319,6 +343,8 @@ static void without_memory(void) {
     SHORT(peri_cut_triangle(t, PERI_CUT_INITIAL, corner, along, across));
     SHORT(peri_cut_rectangle(t, PERI_CUT_INITIAL, corner, along, across));
     SHORT(peri_set_no_fail(b, PERI_ALL, 1)), SHORT(peri_on_break(b, told_break, NULL));
+    peri_cracks_desc_init(&desc);
+    SHORT(peri_record_breaks(b, 1)), SHORT(peri_cracks_create(b, &desc, &cracks));
     SHORT(peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_X, NULL, NULL, NULL));
     SHORT(peri_prescribe_velocity(b, PERI_ALL, PERI_AXIS_X, NULL, NULL, NULL)), SHORT(peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
     SHORT(peri_apply_layer_traction(b, PERI_ALL, 1, one3, NULL, NULL)), SHORT(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL));
@@ -495,10 +521,12 @@ static void no_others_are(void) {
 static void never_where_it_says_so(void) {
     int never = 0;
     for (int k = 0; k < calls_of_table; ++k) never += table_rows[k].never;
-    CHECK(never == 2 + 7 + 2 + 12);
+    CHECK(never == 2 + 8 + 3 + 12 + 1);
     CHECK(peri_version() > 0 && peri_status_text(12345)[0] != 0);
     peri_body_destroy(NULL);
     peri_matrix_destroy(NULL);
+    peri_cracks_destroy(NULL);
+    CHECK(peri_cracks_size(NULL) == 0);
     CHECK(peri_dimension(NULL) == 0 && peri_point_count(NULL) == 0 && peri_family_width(NULL) == 0 && peri_bond_count(NULL) == 0);
     CHECK(peri_entry_count(NULL) == 0 && peri_cut_count(NULL) == 0 && peri_broken_count(NULL) == 0 && peri_step_count(NULL) == 0);
     CHECK(peri_time(NULL) == 0 && peri_load_factor(NULL) == 0 && peri_kernel_text(NULL)[0] == 0 && peri_stable_step(NULL) == 0);

@@ -72,7 +72,8 @@ static void rows_are_remarked(void) {
                     CHECK(first_flat(law, horizon[k]) == 0);
                 }
     for (int32_t law = PERI_LAW_BOND_BASED; law <= PERI_LAW_LPS; ++law) {
-        const double want = law == PERI_LAW_BOND_BASED ? 12 / (PI * 81) * 12 / 4 : 15.0 / 2.4 / 2 + 3 * (0.2 / (1.2 * 0.6) - 1 / 2.4) * 3 / 2;
+        const double springs = 12 / (PI * 81) * 12 / 4, solid = 15.0 / 2.4 / 2 + 3 * (0.2 / (1.2 * 0.6) - 1 / 2.4) * 3 / 2;
+        const double want = law == PERI_LAW_BOND_BASED ? springs : solid;
         clear_cloud(3);
         put_block(0, 0, 0, 20, 1, 1);
         peri_body *b = cloud_body(law, 3);
@@ -170,7 +171,7 @@ static void the_first_flat_point_is_named(void) {
     }
 }
 
-/* ---- families of the caller ------------------------------------------------------------------------------------------------------------ */
+/* ---- families of the caller ------------------------------------------------------------ */
 
 #define WIDTH 300
 static int32_t rows[MOST * WIDTH];
@@ -277,7 +278,7 @@ static void cells_at_the_edge_may_be_in_or_out(void) {
     }
 }
 
-/* ---- memory ---------------------------------------------------------------------------------------------------------------------------- */
+/* ---- memory ------------------------------------------------------------ */
 
 static int64_t held_bytes, calls, fail_at;
 static void *lend(void *user, uint64_t bytes) {

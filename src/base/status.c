@@ -32,7 +32,7 @@
     X(ERROR_COINCIDENT, -22, "two points are at the same place")                                                       \
     X(ERROR_HORIZON, -23, "the horizon is smaller than the spacing of the points")                                     \
     X(ERROR_FAMILY, -24, "a point has no neighbour, or none with a weight")                                            \
-    X(ERROR_IBOND, -25, "given families: wrong number, not mutual, or not those of the horizon")                       \
+    X(ERROR_IBOND, -25, "given families: wrong number, not mutual, not of the horizon")                                \
     X(ERROR_CRACK, -26, "the crack has no extent, or is not for this space")                                           \
     X(ERROR_PAIR, -27, "the two points share no bond")                                                                 \
     X(ERROR_FIELD, -28, "this field cannot be used in this way: it is not stored")                                     \

@@ -525,6 +525,10 @@ struct peri_body {
     void     *change_f;      /* of the force, both laid out as u with its margins,                                       */
     void     *change_response; /* and of the response                                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
+    int64_t   side_count;    /* pairs i < j of points next to each other, see sides.c; 0 unless they are recorded        */
+    int64_t  *side_start;    /* [points+1] pairs of the points before; NULL, like the next, unless recorded              */
+    int32_t  *side;          /* [side_count] bond of the row of i                                                        */
+    double   *side_time;     /* [side_count] when it broke; HUGE_VAL: it is whole, NaN: it broke before the record       */
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
     peri__contact *contact;  /* NULL where none is declared                                                              */
     peri__derived derived[peri__count_field]; /* by field                                                                */

@@ -35,7 +35,7 @@ typedef struct peri__array {
     int           wanted;
     peri__purpose purpose;
 } peri__array;
-#define PERI_ARRAYS 26       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 29       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
 #define PERI_MODEL_ARRAYS 19 /* with all others                                                                           */
 
@@ -131,6 +131,9 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(pull, bonds * m->dim, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
         PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
         PERI_ARRAY_(node, n, sizeof(double), (m->seen_by & PERI__BY_NODE_ENERGY) != 0, PERI__DAMAGE),
+        PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(side_time, b->side_count, sizeof(double), 0, PERI__DAMAGE),
     };
 #undef PERI_ARRAY_
     memcpy(list, arrays, sizeof arrays);

@@ -88,6 +88,7 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
     b->largest_row_sum = from->largest_row_sum;
     b->sharp = from->sharp;
     b->softens = from->softens;
+    b->side_count = from->side_count;
     b->on_break = from->on_break;
     b->break_user = from->break_user;
     b->now = from->now;

@@ -144,6 +144,7 @@ static int64_t peri__apply_crack(peri_body *b, int32_t standing, const peri__cra
     int64_t cut = peri__total(b->sums, b->model->points).n;
     if (standing == PERI_CUT_INITIAL) b->now.cut += cut;
     else b->now.broken += cut;
+    peri__note_cuts(b, standing);
     if (cut == 0) peri__log(b, 1, "the crack meets no bond that was whole");
     return cut / 2;
 }
@@ -302,6 +303,7 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int32_t standing, int64_t count, c
         cut += peri__cut_one(b, standing, i, peri__find_bond(b->model, i, j));
         (void)peri__cut_one(b, standing, j, peri__find_bond(b->model, j, i));
     }
+    peri__note_cuts(b, standing);
     return cut;
 }
 
@@ -341,6 +343,7 @@ static int64_t peri__cut_chosen(peri_body *b, int32_t standing, const uint32_t *
             (void)peri__cut_one(b, standing, row.ids[k], peri__find_bond(m, row.ids[k], i));
         }
     }
+    peri__note_cuts(b, standing);
     return count;
 }
 

@@ -79,6 +79,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
         peri__set_flags(m, b->alive);
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
     }
+    peri__forget_breaks(b);
     if (b->closing) memset(b->closing, 0, vector);
     peri__forget_contact(b->contact, m);
     if (b->work) {

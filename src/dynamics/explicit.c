@@ -155,6 +155,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         peri__kick(b, &operands, &bad);
     }
     peri__look_in_time(b);
+    if (broke) peri__note_breaks(b, peri__load_time(b));
     if (b->before && broke) peri__report_breaks(b);
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
     if (listed) return PERI_OK;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* agreement.c - do families of the caller belong to the horizon that the constants are for?
 
-   The stiffness of a point is sum w |xi| V over its family, and the constants hold for the family that the horizon gives. Both sums are taken
-   over the same points, so that surfaces, coarse lattices and clouds cancel. Their ratio alone does not decide: a family that a face or a
-   notch cuts off misses as much as one of half the horizon. But what a face cuts off begins near the point, where other bonds go on to the
-   horizon; what a smaller horizon leaves out is all farther away than what it takes. */
+   The stiffness of a point is sum w |xi| V over its family, and the constants hold for the family that the horizon gives. Both sums are
+   taken over the same points, so that surfaces, coarse lattices and clouds cancel. Their ratio alone does not decide: a family that a face
+   or a notch cuts off misses as much as one of half the horizon. But what a face cuts off begins near the point, where other bonds go on to
+   the horizon; what a smaller horizon leaves out is all farther away than what it takes. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -36,7 +36,8 @@ static peri__agreement peri__agreement_of(const peri__cloud *c, int64_t i, peri_
         peri__bond_vector(c, i, m->ids[at], xi);
         bond = sqrt(peri__dot(xi, xi, m->dim));
         if (bond <= horizon) a.given += peri__stiff_of(c, m->ids[at], bond);
-        else if (bond * bond > c->reach2 || !peri__is_family(c, i, m->ids[at])) a.given += fabs(peri__weight_of(m, i, m->weight, at)) * bond;
+        else if (bond * bond > c->reach2 || !peri__is_family(c, i, m->ids[at]))
+            a.given += fabs(peri__weight_of(m, i, m->weight, at)) * bond;
     }
     while (c->order[own] != i) ++own;
     peri__look_around(c, cell, s);

@@ -6,8 +6,8 @@
    less far, root mean square, than a part of the way to the nearest neighbour, a little bent or not. Of two layers of a lattice with bonds
    to the nearest neighbours alone it is 0.45 of that way, of a corner of a cube 0.58.
 
-   They are built, since a chain of springs is what some ask for, with a remark in the log. A part within one family is no row yet, and has no
-   bulk whose stiffness could be wrong. */
+   They are built, since a chain of springs is what some ask for, with a remark in the log. A part within one family is no row yet, and
+   has no bulk whose stiffness could be wrong. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif

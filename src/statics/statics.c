@@ -114,6 +114,7 @@ static int64_t peri__break_static(peri__solver *s) {
     b->now.broken += 2 * count;
     s->report.broken += count;
     peri__changed(b, PERI__BONDS);
+    peri__note_breaks(b, peri__load_time(b));
     if (b->before) peri__report_breaks(b);
     return count;
 }

@@ -75,6 +75,39 @@ PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write
     return peri__without(b, "PERI_NO_OUTPUT");
 }
 
+PERI_API void peri_cracks_desc_init(peri_cracks_desc *desc) {
+    if (desc) memset(desc, 0, sizeof *desc);
+}
+
+PERI_API int32_t peri_cracks_create(peri_body *b, const peri_cracks_desc *desc, peri_cracks **cracks) {
+    (void)desc;
+    if (cracks) *cracks = NULL;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API void peri_cracks_destroy(peri_cracks *c) { (void)c; }
+
+PERI_API int64_t peri_cracks_paths(const peri_cracks *c) { return c ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_cracks_vertices(const peri_cracks *c) { return c ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT; }
+
+PERI_API int64_t peri_cracks_tips(const peri_cracks *c) { return c ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT; }
+
+PERI_API double peri_cracks_size(const peri_cracks *c) {
+    (void)c;
+    return 0.0;
+}
+
+PERI_API int32_t peri_get_cracks(const peri_cracks *c, int64_t *start, double *vertex, double *time, peri_crack_tip *tip) {
+    (void)start, (void)vertex, (void)time, (void)tip;
+    return c ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT;
+}
+
+PERI_API int32_t peri_export_cracks_to(const peri_cracks *c, peri_write_fn write, void *user) {
+    (void)write, (void)user;
+    return c ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT;
+}
+
 #ifndef PERI_NO_STDIO
 PERI_API int32_t peri_export_vtu(peri_body *b, const char *path) {
     (void)path;
