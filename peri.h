@@ -161,7 +161,8 @@ typedef int32_t (*peri_pair_fn)(void *user, int32_t i, int32_t j, const double *
 typedef int32_t (*peri_load_fn)(void *user, double time, int64_t count, const int32_t *points,
     double *value);
 
-/* Writes the place[dim] of a moving obstacle (of a ball its centre) at `time`. > 0: likewise. */
+/* Writes the place[dim] of a moving obstacle (of a ball its centre) at `time`, or the motion of a
+   rigid support. > 0: likewise. */
 typedef int32_t (*peri_motion_fn)(void *user, double time, double *place);
 
 /* A bond i < j broke by its criterion at `time` [T] and this stretch [-]. Called after the step, in
@@ -503,6 +504,13 @@ PERI_API int32_t peri_prescribe_displacement(peri_body *body, int32_t set, int32
 PERI_API int32_t peri_prescribe_velocity(peri_body *body, int32_t set, int32_t axes,
     const double *value, peri_load_fn fn, void *user);
 
+/* Support: the set moves as a rigid body by motion[3] in 2D: displacement [L] and angle of a turn
+   about centre[dim]; motion[6] in 3D: displacement, and the vector along the axis as long as the
+   angle. In linear geometry the turn is a small one. NULL: 0. A constant motion is times the load
+   factor; fn (may be NULL) writes motion instead, given the constant. */
+PERI_API int32_t peri_prescribe_rigid(peri_body *body, int32_t set, const double *centre,
+    const double *motion, peri_motion_fn fn, void *user);
+
 /* Body force density value[dim] [M L^-2 T^-2] on a set; gravity is density times g. */
 PERI_API int32_t peri_apply_body_force(peri_body *body, int32_t set, const double *value,
     peri_load_fn fn, void *user);
@@ -534,6 +542,11 @@ PERI_API int32_t peri_remove_load(peri_body *body, int32_t load); /* ids are not
 /* Force [M L T^-2] to force[dim]: of a support on the body, mean of the last step (or of the
    equilibrium); of a load, its present total. */
 PERI_API int32_t peri_get_reaction(peri_body *body, int32_t load, double *force);
+
+/* Its moment about place[dim] [M L^2 T^-2] to moment[1] (2D) or [3]: of forces at current, in linear
+   geometry at reference positions. */
+PERI_API int32_t peri_get_reaction_moment(peri_body *body, int32_t load, const double *place,
+    double *moment);
 
 /* Rigid obstacles: a point `depth` inside is pushed out along the normal by stiffness*depth [M L^-2
    T^-2]; stiffness [M L^-3 T^-2], 0 = young/spacing^2. Plane: solid on the side away from `normal`.

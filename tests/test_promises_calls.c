@@ -123,6 +123,7 @@ static void without_a_body(void) {
     ASK(peri_prescribe_velocity(n, PERI_ALL, PERI_AXIS_X, NULL, NULL, NULL)), ASK(peri_apply_body_force(n, PERI_ALL, one3, NULL, NULL));
     ASK(peri_apply_layer_traction(n, PERI_ALL, 1, one3, NULL, NULL)), ASK(peri_apply_traction(n, PERI_ALL, 1, one3, one3, NULL, NULL));
     ASK(peri_apply_pressure(n, PERI_ALL, 1, NULL, NULL)), ASK(peri_apply_bond_pressure_for_comparison(n, PERI_ALL, 1, NULL, NULL));
+    ASK(peri_prescribe_rigid(n, PERI_ALL, zero3, NULL, NULL, NULL)), ASK(peri_get_reaction_moment(n, 1, zero3, numbers));
     ASK(peri_remove_load(n, 1)), ASK(peri_get_reaction(n, 1, numbers)), ASK(peri_add_plane_obstacle(n, zero3, up3, 0, NULL, NULL));
     ASK(peri_add_ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers));
     ASK(peri_set_contact(n, 1, 1, NULL));
@@ -170,7 +171,7 @@ static void with_wrong_ids(void) {
         ASK(peri_apply_body_force(b, i, one3, NULL, NULL)), ASK(peri_apply_layer_traction(b, i, 1, one3, NULL, NULL));
         ASK(peri_apply_traction(b, i, 1, one3, one3, NULL, NULL)), ASK(peri_apply_pressure(b, i, 1, NULL, NULL));
         ASK(peri_apply_bond_pressure_for_comparison(b, i, 1, NULL, NULL)), ASK(peri_remove_load(b, l));
-        ASK(peri_get_reaction(b, l, numbers));
+        ASK(peri_get_reaction(b, l, numbers)), ASK(peri_get_reaction_moment(b, l, zero3, numbers));
         ASK(peri_remove_obstacle(b, w)), ASK(peri_get_obstacle_force(b, w, numbers));
         ASK(peri_set_contact(b, k == 1 ? set : m, material, NULL));
         st.curve_load = l;
@@ -196,6 +197,7 @@ static void at_the_wrong_time(void) {
     ASK(peri_apply_layer_traction(d, PERI_ALL, 1, one3, NULL, NULL));
     ASK(peri_apply_traction(d, PERI_ALL, 1, one3, one3, NULL, NULL)), ASK(peri_remove_load(d, 1)), ASK(peri_remove_obstacle(d, 1));
     ASK(peri_apply_bond_pressure_for_comparison(d, PERI_ALL, 1, NULL, NULL)), ASK(peri_get_reaction(d, 1, numbers));
+    ASK(peri_prescribe_rigid(d, PERI_ALL, zero3, NULL, NULL, NULL)), ASK(peri_get_reaction_moment(d, 1, zero3, numbers));
     ASK(peri_get_obstacle_force(d, 1, numbers)), ASK(peri_matrix_create(d, &m)), ASK(peri_size_of_field(d, PERI_FIELD_VOLUME));
     ASK(peri_set_field(d, PERI_FIELD_VELOCITY, numbers, 512)), ASK(peri_view_field(d, PERI_FIELD_VOLUME, &view));
     ASK(peri_get_energy(d, &energy));
@@ -284,7 +286,8 @@ static void with_failing_callbacks(void) {
         const int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, one3, way ? vast_load : fail_load, NULL));
         const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, (const double[2]){0, -9}, up3, 1, way ? NULL : fail_motion, NULL));
         ASK(peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 512)), ASK(peri_view_field(b, PERI_FIELD_FORCE_DENSITY, &view));
-        ASK(peri_get_reaction(b, load, f)), ASK(peri_get_obstacle_force(b, wall, f)), ASK(peri_multiply_stiffness(b, f, f, 240));
+        ASK(peri_get_reaction(b, load, f)), ASK(peri_get_reaction_moment(b, load, zero3, f));
+        ASK(peri_get_obstacle_force(b, wall, f)), ASK(peri_multiply_stiffness(b, f, f, 240));
         peri_body_destroy(b);
     }
     s.desc.precision = PERI_PRECISION_DOUBLE;
@@ -346,6 +349,7 @@ static void without_memory(void) {
     peri_cracks_desc_init(&desc);
     SHORT(peri_record_breaks(b, 1)), SHORT(peri_cracks_create(b, &desc, &cracks));
     SHORT(peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_X, NULL, NULL, NULL));
+    SHORT(peri_prescribe_rigid(b, PERI_ALL, zero3, NULL, NULL, NULL));
     SHORT(peri_prescribe_velocity(b, PERI_ALL, PERI_AXIS_X, NULL, NULL, NULL)), SHORT(peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
     SHORT(peri_apply_layer_traction(b, PERI_ALL, 1, one3, NULL, NULL)), SHORT(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL));
     const int32_t face = (int32_t)MUST(b, peri_select_box(b, NULL, (const double[2]){7.5, 0}, (const double[2]){12, 10}));

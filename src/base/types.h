@@ -293,6 +293,9 @@ typedef struct peri__load {
     uint8_t     *owned;       /* supports: [count] axes that no later support has taken; else NULL                       */
     int64_t      count;
     int32_t      stepped; /* supports: a step has left its mean reaction                                                 */
+    int32_t      rigid;   /* supports: 1: the set moves as a rigid body, by these, user's units; `value` then follows    */
+    double       centre[3], turn[3]; /* about which it turns; rotation vector, of the plane in z. `constant`: how far it goes */
+    peri_motion_fn motion; /* or NULL                                                                                    */
 } peri__load;
 
 typedef enum peri__obstacle_kind { PERI__REMOVED, PERI__PLANE, PERI__BALL } peri__obstacle_kind;

@@ -83,6 +83,35 @@ PERI_API int32_t peri_prescribe_velocity(peri_body *b, int32_t set, int32_t axes
     return peri__prescribe(b, PERI__VELOCITY, set, axes, value, fn, user);
 }
 
+/* Takes the last load back. */
+static void peri__drop_load(peri_body *b) {
+    peri__free_load(b, &b->loads[--b->load_count]);
+    for (int64_t s = 0; s < b->load_count; ++s) peri__assign_support(b, s);
+}
+
+PERI_API int32_t peri_prescribe_rigid(peri_body *b, int32_t id, const double *centre, const double *motion, peri_motion_fn fn, void *user) {
+    PERI_NEED_CHANGEABLE(b);
+    const int32_t dim = b->dim, turns = dim == 3 ? 3 : 1;
+    PERI_NEED_VECTOR(b, centre);
+    const int32_t set = peri__find_set(b, id);
+    if (set < 0) return set;
+    if (motion && !peri__finite_vector(motion, dim + turns))
+        return peri__fail(b, PERI_ERROR_RANGE, "motion", -1, peri__not_finite(motion, dim + turns));
+    const int32_t at = peri__add_load(b, PERI__DISPLACEMENT, set, (1 << dim) - 1, motion, NULL, user);
+    if (at < 0) return at;
+    peri__load *load = &b->loads[at];
+    load->value = (double *)peri__new(&b->memory, load->count * dim, sizeof *load->value);
+    if (!load->value) {
+        peri__drop_load(b);
+        return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+    }
+    load->rigid = 1;
+    load->motion = fn;
+    for (int32_t d = 0; d < dim; ++d) load->centre[d] = centre[d];
+    for (int32_t d = 0; motion && d < turns; ++d) load->turn[3 - turns + d] = motion[dim + d];
+    return peri__load_id(b, at);
+}
+
 PERI_API int32_t peri_apply_body_force(peri_body *b, int32_t set, const double *value, peri_load_fn fn, void *user) {
     PERI_NEED_CHANGEABLE(b);
     const int32_t at = peri__find_set(b, set);

@@ -14,7 +14,7 @@ static int64_t peri__dof(const peri_body *b, const peri__load *load, int64_t k, 
 
 /* Component d of the value of point k of a load, user's units. */
 static double peri__load_value(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
-    if (load->fn) return load->value[k * b->dim + d];
+    if (load->value) return load->value[k * b->dim + d];
     return load->kind == PERI__VELOCITY ? load->constant[d] : b->now.load_factor * load->constant[d];
 }
 
@@ -26,8 +26,42 @@ static double peri__load_force(const peri_body *b, const peri__load *load, int64
     return unit * sum;
 }
 
+/* (R - 1) x of the rotation vector w, by Rodrigues: w x x sin t/t + w x (w x x) (1 - cos t)/t^2, t = |w|; w x x of small motion. */
+static void peri__turn(int linear, const double *w, const double *x, double *out) {
+    double once[3], twice[3];
+    const double t = sqrt(peri__dot(w, w, 3)), half = 0.5 * t > 0.0 ? sin(0.5 * t) / (0.5 * t) : 1.0;
+    peri__cross(w, x, once);
+    peri__cross(w, once, twice);
+    for (int d = 0; d < 3; ++d) out[d] = linear ? once[d] : (t > 0.0 ? sin(t) / t : 1.0) * once[d] + 0.5 * half * half * twice[d];
+}
+
+/* The displacements of a rigid set at a time. */
+static int32_t peri__refresh_rigid(peri_body *b, peri__load *load, double time) {
+    const peri__model *m = b->model;
+    const int32_t dim = m->dim, turns = dim == 3 ? 3 : 1;
+    const double factor = load->motion ? 1.0 : b->now.load_factor;
+    double motion[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }, turn[3] = { 0.0, 0.0, 0.0 };
+    for (int32_t d = 0; d < dim; ++d) motion[d] = factor * load->constant[d];
+    for (int32_t d = 0; d < turns; ++d) motion[dim + d] = factor * load->turn[3 - turns + d];
+    const int32_t said = load->motion ? load->motion(load->user, time, motion) : 0;
+    if (said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_motion_fn", -1, said);
+    if (said > 0) b->stop = 1;
+    if (!peri__finite_vector(motion, dim + turns))
+        return peri__fail(b, PERI_ERROR_CALLBACK, "motion", -1, peri__not_finite(motion, dim + turns));
+    for (int32_t d = 0; d < turns; ++d) turn[3 - turns + d] = motion[dim + d];
+    for (int64_t k = 0; k < load->count; ++k) {
+        double x[3] = { 0.0, 0.0, 0.0 }, way[3];
+        for (int32_t d = 0; d < dim; ++d)
+            x[d] = m->origin[d] + m->length * peri__get_real(m->x, b->f32, peri__dof(b, load, k, d)) - load->centre[d];
+        peri__turn(b->desc.geometry == PERI_GEOMETRY_LINEAR, turn, x, way);
+        for (int32_t d = 0; d < dim; ++d) load->value[k * dim + d] = motion[d] + way[d];
+    }
+    return PERI_OK;
+}
+
 /* Asks the callback for its values at a time. */
 static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
+    if (load->rigid) return peri__refresh_rigid(b, load, time);
     if (!load->fn) return PERI_OK;
     for (int64_t k = 0; k < load->count; ++k)
         for (int32_t d = 0; d < b->dim; ++d) load->value[k * b->dim + d] = load->constant[d];

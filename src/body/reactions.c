@@ -44,20 +44,21 @@ static void peri__read_reactions(const peri_body *b, double *out) {
     }
 }
 
+/* Component d of the force on point k of a load or support, inner units. */
+static double peri__reaction_at(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
+    const double volume = b->model->volume[peri__set_point(b, load->set, k)];
+    if (!load->owned) return peri__load_force(b, load, k, d) * volume;
+    return load->owned[k] >> d & 1 ? *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d) * volume : 0.0;
+}
+
 /* Of the load at an index. */
 static int32_t peri__read_reaction_of(peri_body *b, int64_t at, double *force) {
     const int32_t status = peri__ensure_force(b);
     if (status < 0) return status;
-    const peri__model *m = b->model;
     const peri__load *load = &b->loads[at];
     double total[3] = { 0.0, 0.0, 0.0 };
     for (int64_t k = 0; k < load->count; ++k)
-        for (int32_t d = 0; d < m->dim; ++d) {
-            double volume = m->volume[peri__set_point(b, load->set, k)];
-            if (load->owned && !(load->owned[k] >> d & 1)) continue;
-            if (load->owned) total[d] += *peri__support_at(b, load, PERI__SUPPORT_REACTION, k, d) * volume;
-            else total[d] += peri__load_force(b, load, k, d) * volume;
-        }
+        for (int32_t d = 0; d < b->dim; ++d) total[d] += peri__reaction_at(b, load, k, d);
     return peri__tell_force(b, total, force);
 }
 
@@ -67,4 +68,31 @@ PERI_API int32_t peri_get_reaction(peri_body *b, int32_t load, double *force) {
     if (at < 0) return (int32_t)at;
     PERI_NEED(b, force, "force");
     return peri__read_reaction_of(b, at, force);
+}
+
+PERI_API int32_t peri_get_reaction_moment(peri_body *b, int32_t id, const double *place, double *moment) {
+    PERI_NEED_BUILT(b);
+    const int64_t at = peri__find(b, PERI_KIND_LOAD, id, "load");
+    if (at < 0) return (int32_t)at;
+    PERI_NEED_VECTOR(b, place);
+    PERI_NEED(b, moment, "moment");
+    const int32_t status = peri__ensure_force(b), dim = b->dim, linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
+    if (status < 0) return status;
+    const peri__load *load = &b->loads[at];
+    double about[3] = { 0.0, 0.0, 0.0 }, total[3] = { 0.0, 0.0, 0.0 };
+    peri__inner(b, place, about);
+    for (int64_t k = 0; k < load->count; ++k) {
+        double arm[3] = { 0.0, 0.0, 0.0 }, force[3] = { 0.0, 0.0, 0.0 }, part[3];
+        for (int32_t d = 0; d < dim; ++d) {
+            const int64_t dof = peri__dof(b, load, k, d);
+            arm[d] = peri__get_real(b->model->x, b->f32, dof) + (linear ? 0.0 : peri__get_real(b->u, b->f32, dof)) - about[d];
+            force[d] = peri__reaction_at(b, load, k, d);
+        }
+        peri__cross(arm, force, part);
+        for (int d = 0; d < 3; ++d) total[d] += part[d];
+    }
+    for (int d = 0; d < 3; ++d) total[d] *= b->model->energy;
+    if (!peri__finite_vector(total, 3)) return peri__fail(b, PERI_ERROR_RANGE, "moment", -1, peri__not_finite(total, 3));
+    memcpy(moment, dim == 3 ? total : &total[2], (size_t)(dim == 3 ? 3 : 1) * sizeof *moment);
+    return PERI_OK;
 }
