@@ -476,7 +476,7 @@ PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
    three bits per bond. */
 PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 
-/* on = 1: keeps from now on when bonds between neighbouring points break, for peri_get_cracks.
+/* on = 1: keeps from now on when bonds between adjacent points break, for peri_get_cracks.
    Takes 32 to 44 bytes per point. 0: no longer. */
 PERI_API int32_t peri_record_breaks(peri_body *body, int32_t on);
 
@@ -785,7 +785,7 @@ PERI_API int32_t peri_get_energy(peri_body *body, peri_energy *energy);
    Either may be NULL. */
 PERI_API int32_t peri_get_momentum(peri_body *body, double *linear, double *angular);
 
-/* Cracks: through the broken and cut bonds of neighbouring points, midway. They outlive the body;
+/* Cracks: through the broken and cut bonds of adjacent points, midway. They outlive the body;
    free them by peri_cracks_destroy. */
 typedef struct peri_cracks peri_cracks;
 

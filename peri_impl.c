@@ -102,7 +102,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/loads.c"        /* loads and supports            -> force, work                                 */
 #include "src/body/obstacles.c"    /* obstacles                     -> force, work                                 */
 #include "src/body/stale.c"        /* a change                      -> what is stale -> up to date again           */
-#include "src/body/sides.c"        /* points next to each other, when their bonds broke                              */
+#include "src/body/sides.c"        /* adjacent points, when their bonds broke                                        */
 #include "src/body/motion.c"       /* displacement and velocity from outside, reset                                */
 #include "src/body/cracks.c"       /* initial cracks, no-fail zones, break events                                  */
 #include "src/body/callbacks.c"    /* how runs begin and end; a body that a callback was left in by a jump          */

@@ -123,6 +123,12 @@ static void bent_rows_and_shells_are_remarked(void) {
         bend(3, radius[k], 10);
         CHECK(first_flat(PERI_LAW_BOND_BASED, 3.015) == 0);
     }
+    for (int dim = 2; dim <= 3; ++dim) { /* closed: no point sees bonds on one side alone */
+        clear_cloud(dim);
+        for (int j = 0; j < (dim == 3 ? 9 : 1); ++j)
+            for (int i = 0; i < 75; ++i) put_point(12 * cos(2 * PI * i / 75), 12 * sin(2 * PI * i / 75), j);
+        CHECK(first_flat(PERI_LAW_BOND_BASED, 3.1) == 0);
+    }
 }
 
 /* Two layers of a lattice have bonds in all directions, and so have the corners of coarse lattices; a body within one family is no row. */
@@ -151,6 +157,13 @@ static void nothing_is_said_of_what_spans(void) {
     CHECK(first_flat(PERI_LAW_LPS, 4.1) < 0);
 }
 
+static int32_t in_the_shell(void *user, int64_t index, const double *x) {
+    double out = 0;
+    (void)index;
+    for (int d = 0; d < *(int *)user; ++d) out = fmax(out, fabs(x[d] - 6.5));
+    return out > 5.5;
+}
+
 /* A hair of a part that spans, a row beside it: the first flat point. Boxes, too, of whose inner points none is looked at. */
 static void the_first_flat_point_is_named(void) {
     clear_cloud(2);
@@ -162,6 +175,17 @@ static void the_first_flat_point_is_named(void) {
     put_block(0, 0, 0, 10, 10, 1);
     put_block(0, 30, 0, 30, 1, 1);
     CHECK(first_flat(PERI_LAW_LPS, 3.015) == 100);
+    for (int dim = 2; dim <= 3; ++dim) { /* hollow: what spans is the edges alone */
+        const int32_t space = dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS;
+        specimen s = specimen_of(space, PERI_LAW_BOND_BASED, 0, 1, dim == 3 ? 3.015 : 1, 13, 13, 13);
+        s.desc.log = count_remarks;
+        remarks = 0;
+        peri_body *b = specimen_start(&s);
+        (void)MUST(b, peri_add_shape(b, peri_id(b, PERI_KIND_MATERIAL, 1), s.lo, s.hi, 1, in_the_shell, &dim));
+        (void)MUST(b, peri_build(b));
+        CHECK(remarks == 1 && remarked > 0);
+        peri_body_destroy(b);
+    }
     for (int flat = 0; flat < 2; ++flat) {
         specimen s = specimen_of(PERI_SPACE_SOLID, PERI_LAW_BOND_BASED, 0, 1, 3.015, 12, 12, flat ? 1 : 2);
         s.desc.log = count_remarks;
@@ -239,6 +263,30 @@ static void families_of_another_horizon_are_refused(void) {
             }
 }
 
+/* The same of the nearest points of a cloud, however far they are. */
+static void nearest_points_are_refused(void) {
+    uint64_t seed = 3;
+    clear_cloud(2);
+    for (int k = 0; k < 256; ++k) put_point(k % 16 + 0.9 * test_random(&seed), k / 16 + 0.9 * test_random(&seed), 0);
+    for (int32_t i = 0; i < c.count; ++i)
+        for (int k = 0; k < WIDTH; ++k) rows[i * WIDTH + k] = i;
+    for (int32_t i = 0; i < c.count; ++i)
+        for (int n = 0, next = -1; n < 6; ++n) { /* the next nearest, mutually */
+            const double last = next < 0 ? 0 : apart(i, next);
+            next = -1;
+            for (int32_t j = 0; j < c.count; ++j)
+                if (j != i && apart(i, j) > last && (next < 0 || apart(i, j) < apart(i, next))) next = j;
+            for (int end = 0; end < 2; ++end) {
+                int32_t *row = &rows[(end ? next : i) * WIDTH];
+                while (*row != (end ? next : i) && *row != (end ? i : next)) ++row;
+                *row = end ? i : next;
+            }
+        }
+    CHECK(given_verdict(3.05) == PERI_ERROR_IBOND);
+    choose_rows(3.05, NULL);
+    CHECK(given_verdict(3.05) == PERI_OK);
+}
+
 static int same_half(const double *p, const double *q) { return (p[0] < 7.5) == (q[0] < 7.5); }
 static int same_grain(const double *p, const double *q) {
     return (int)((p[0] + 0.5) / 4) == (int)((q[0] + 0.5) / 4) && (int)((p[1] + 0.5) / 4) == (int)((q[1] + 0.5) / 4);
@@ -264,11 +312,11 @@ static void families_cut_by_faces_are_taken(void) {
 
 /* Cells that the horizon only touches may be in the family or not; with the weights of the quadrature they change little. */
 static void cells_at_the_edge_may_be_in_or_out(void) {
-    for (int beyond = 0; beyond < 2; ++beyond) {
+    for (int beyond = 0; beyond < 3; ++beyond) { /* at a horizon of 1.2 the diagonal cells weigh half as much as those within */
         clear_cloud(2);
         put_block(0, 0, 0, 16, 16, 1);
-        choose_rows(beyond ? 3.5 : 3, NULL);
-        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, 3, 1, 1, 1);
+        choose_rows(beyond == 2 ? 1.5 : beyond ? 3.5 : 3, NULL);
+        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, beyond == 2 ? 1.2 : 3, 1, 1, 1);
         s.desc.quadrature = PERI_QUADRATURE_PARTIAL;
         peri_body *b = specimen_start(&s);
         (void)MUST(b, peri_add_points(b, c.count, c.x, c.volume, NULL));
@@ -328,6 +376,7 @@ int main(int argc, char **argv) {
     RUN(nothing_is_said_of_what_spans);
     RUN(the_first_flat_point_is_named);
     RUN(families_of_another_horizon_are_refused);
+    RUN(nearest_points_are_refused);
     RUN(families_cut_by_faces_are_taken);
     RUN(cells_at_the_edge_may_be_in_or_out);
     RUN(failing_allocations);

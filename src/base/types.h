@@ -48,6 +48,7 @@
      work      done on a bond; pull: its force density at the last count; node: the energy of the ends of bonds
      stale     of derived quantities: they no longer belong to the state. stale.c says which follow from which
      ledger    the sums of energy that balance: external work, damping, fracture, obstacles; contact is stored, like elastic energy
+     side      a pair of adjacent points, and what is between their cells: sides.c
    Contact:
      touch     of a pair: nearer than the distance declared, and than in the reference, and no bond joins them
      exposed   of a point: it is at a surface, or lost a bond, so that it can touch; member: it has a row of candidates
@@ -528,7 +529,7 @@ struct peri_body {
     void     *change_f;      /* of the force, both laid out as u with its margins,                                       */
     void     *change_response; /* and of the response                                                                     */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
-    int64_t   side_count;    /* pairs i < j of points next to each other, see sides.c; 0 unless they are recorded        */
+    int64_t   side_count;    /* pairs i < j of adjacent points, see sides.c; 0 unless they are recorded                 */
     int64_t  *side_start;    /* [points+1] pairs of the points before; NULL, like the next, unless recorded              */
     int32_t  *side;          /* [side_count] bond of the row of i                                                        */
     double   *side_time;     /* [side_count] when it broke; HUGE_VAL: it is whole, NaN: it broke before the record       */

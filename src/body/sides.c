@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* sides.c - pairs of points that are next to each other, and when the bonds between them broke.
+/* sides.c - pairs of adjacent points, and when the bonds between them broke.
 
-   Two points of a bond are next to each other where no other point lies in the ball that has the bond for a diameter (Gabriel's
+   Two points of a bond are adjacent where no other point lies in the ball that has the bond for a diameter (Gabriel's
    neighbours). On lattices these are the points whose cells share a side, in clouds most of those whose Voronoi cells do; in 2D the pairs
    are the edges of a planar graph. What lies on the ball counts as within, so that rounding draws no diagonals. */
 #ifndef PERI_IMPL
@@ -33,7 +33,7 @@ static int peri__open_sorter(const peri_body *b, peri__sorter *s) {
     return 0;
 }
 
-/* Bonds of row i to the points above `after` that are next to i, ascending by point, to the front of s->bond; returns their number. */
+/* Bonds of row i to the points above `after` that are adjacent to i, ascending by point, to the front of s->bond; returns their number. */
 static int64_t peri__sides_of(const peri__model *m, int64_t i, const peri__row *row, int64_t after, peri__sorter *s) {
     int64_t count = 0;
     double xi[3], other[3];

@@ -22,7 +22,7 @@ typedef struct peri__patch { /* cracked sides of a body in 3D                   
     const peri_cracks_desc *desc;
     peri_cracks  *out;
     peri__sorter  sorter;
-    int32_t      *degree; /* [points] how many are next to it                                                            */
+    int32_t      *degree; /* [points] how many are adjacent to it                                                        */
     int64_t      *start;  /* [points+1] cracked sides of the points before, each with its lower point                    */
     int64_t       sides;
     int32_t      *end;    /* [sides][2]                                                                                  */
@@ -54,8 +54,8 @@ static void peri__look_at_point(peri__patch *p, int64_t i, peri__row *row) {
     }
 }
 
-/* The area of the side between two cells: the pyramid on it is a sixth of each of them. Where more than six points are next to one, their
-   sides are smaller. */
+/* The area of the side between two cells: the pyramid on it is a sixth of each of them. Where more than six points are adjacent to one,
+   their sides are smaller. */
 static double peri__area_of_side(const peri__patch *p, int64_t s, double bond) {
     double area = 0.0;
     for (int e = 0; e < 2; ++e) {

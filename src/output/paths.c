@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* paths.c - the cracks of a body in 2D, as polylines.
 
-   Pairs of points that are next to each other (sides.c) are the edges of a planar graph; its faces are the corners between cells. A pair
+   Pairs of adjacent points (sides.c) are the edges of a planar graph; its faces are the corners between cells. A pair
    whose bond is broken is a piece of crack from the face on its one side to that on the other, across the middle between the two points.
    So cracks are the dual graph, and what they are follows from how many pieces meet in a face: one is a tip, two go on, three branch. The
    outside and holes are open faces: there cracks end at a surface. */
