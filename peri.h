@@ -391,8 +391,8 @@ PERI_API int64_t peri_add_points(peri_body *body, int64_t count, const double *p
 PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t *ibond);
 
 /* Finds the families, computes weights and constants, takes the state. Warns of rows of points, and
-   of sheets one cell thick in 3D: no constants are for these. After a failure the body is as it
-   was: add what is missing and build again. */
+   of sheets of them in 3D: no constants are for these. After a failure the body is as it was: add
+   what is missing and build again. */
 PERI_API int32_t peri_build(peri_body *body);
 
 /* ---- the built body: nouns return that number, 0 for NULL */
@@ -476,8 +476,8 @@ PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
    three bits per bond. */
 PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 
-/* on = 1: keeps from now on when bonds between adjacent points break, for peri_get_cracks.
-   Takes 32 to 44 bytes per point. 0: no longer. */
+/* on = 1: keeps when bonds between adjacent points break, for peri_get_cracks: 32 to 44 bytes per
+   point. */
 PERI_API int32_t peri_record_breaks(peri_body *body, int32_t on);
 
 /* ---- initial state, supports, loads, obstacles: ids, or an error ------------ */
@@ -504,10 +504,9 @@ PERI_API int32_t peri_prescribe_displacement(peri_body *body, int32_t set, int32
 PERI_API int32_t peri_prescribe_velocity(peri_body *body, int32_t set, int32_t axes,
     const double *value, peri_load_fn fn, void *user);
 
-/* Support: the set moves as a rigid body by motion[3] in 2D: displacement [L] and angle of a turn
-   about centre[dim]; motion[6] in 3D: displacement, and the vector along the axis as long as the
-   angle. In linear geometry the turn is a small one. NULL: 0. A constant motion is times the load
-   factor; fn (may be NULL) writes motion instead, given the constant. */
+/* Support: the set moves as a rigid body. motion: displacement [L], then in 2D the angle about
+   centre[dim], in 3D a vector along the axis as long as the angle; NULL: 0. The load factor
+   multiplies it; or fn writes it (may be NULL). */
 PERI_API int32_t peri_prescribe_rigid(peri_body *body, int32_t set, const double *centre,
     const double *motion, peri_motion_fn fn, void *user);
 
@@ -543,8 +542,7 @@ PERI_API int32_t peri_remove_load(peri_body *body, int32_t load); /* ids are not
    equilibrium); of a load, its present total. */
 PERI_API int32_t peri_get_reaction(peri_body *body, int32_t load, double *force);
 
-/* Its moment about place[dim] [M L^2 T^-2] to moment[1] (2D) or [3]: of forces at current, in linear
-   geometry at reference positions. */
+/* Its moment about place[dim] [M L^2 T^-2] to moment[1] (2D) or [3]. */
 PERI_API int32_t peri_get_reaction_moment(peri_body *body, int32_t load, const double *place,
     double *moment);
 
@@ -785,22 +783,22 @@ PERI_API int32_t peri_get_energy(peri_body *body, peri_energy *energy);
    Either may be NULL. */
 PERI_API int32_t peri_get_momentum(peri_body *body, double *linear, double *angular);
 
-/* Cracks: through the broken and cut bonds of adjacent points, midway. They outlive the body;
-   free them by peri_cracks_destroy. */
+/* Cracks: midway through the broken bonds of adjacent points. They outlive the body; free them by
+   peri_cracks_destroy. */
 typedef struct peri_cracks peri_cracks;
 
 typedef struct peri_cracks_desc {
     uint64_t cookie;  /* set by init */
     int32_t initial;  /* 1 (default): initial cracks, too */
     int32_t current;  /* 1: where the body is now. Default 0: reference positions */
-    double shortest;  /* [L] >= 0, 2D: shorter branches and cracks with a tip are left out. NaN
+    double shortest;  /* [L] >= 0, 2D: leaves out shorter cracks and branches with a tip. NaN
                          (default): the horizon */
 } peri_cracks_desc;
 
 typedef struct peri_crack_tip { /* 2D: where a path ends within the body */
     double place[3];     /* [L] */
-    double direction[3]; /* of length 1, of the last horizon of the path */
-    double speed;        /* [L T^-1] mean of the last two horizons; NaN: not recorded */
+    double direction[3]; /* of length 1 */
+    double speed;        /* [L T^-1] NaN: not recorded */
     int64_t path;        /* 0, 1, ... */
 } peri_crack_tip;
 
@@ -813,9 +811,9 @@ PERI_API int64_t peri_cracks_vertices(const peri_cracks *cracks);
 PERI_API int64_t peri_cracks_tips(const peri_cracks *cracks);
 PERI_API double peri_cracks_size(const peri_cracks *cracks); /* length [L]; 3D: area [L^2] */
 
-/* Path p: vertices start[p] to start[p+1], of start[paths+1]; in 3D 4, the triangles 0 1 2 and
-   0 2 3. vertex[vertices*dim] [L], time[vertices] when it broke [T] (peri_solve: load factor; NaN:
-   not recorded), tip[tips]. Any may be NULL. */
+/* Path p: vertices start[p] to start[p+1], of start[paths+1]; in 3D 4: triangles 0 1 2, 0 2 3.
+   vertex[vertices*dim] [L], time[vertices] of breaking [T] (peri_solve: load factor; NaN: not
+   recorded), tip[tips]. Any may be NULL. */
 PERI_API int32_t peri_get_cracks(const peri_cracks *cracks, int64_t *start, double *vertex,
     double *time, peri_crack_tip *tip);
 

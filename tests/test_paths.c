@@ -109,6 +109,22 @@ static void straight_cuts(void) {
         }
 }
 
+/* However long a cut, of steps that a cut of 20 spacings does not show. */
+static void long_cuts(void) {
+    for (int k = 0; k < 4; ++k) {
+        const double a = (k % 2 ? 14.8 : 3.7) * PI / 180;
+        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, 1.5, 170, 50, 1);
+        s.scatter = k / 2 ? 0.9 : 0;
+        peri_body *b = specimen_make(&s);
+        turned_by = 0;
+        cut(b, PERI_CUT_INITIAL, 5, 5.3, 5 + 160 * cos(a), 5.3 + 160 * sin(a));
+        find(b, NAN, 1, 0);
+        CHECK(f.paths == 1 && f.tips == 2);
+        CHECK_NEAR(f.size, 160, k / 2 ? 0.015 : 0.01, 0);
+        peri_body_destroy(b);
+    }
+}
+
 /* Truth: the length of the arc. */
 static void arcs(void) {
     for (int k = 0; k < 6; ++k) {
@@ -522,6 +538,7 @@ static void failing_allocations(void) {
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(straight_cuts);
+    RUN(long_cuts);
     RUN(arcs);
     RUN(surfaces_and_holes);
     RUN(branches);

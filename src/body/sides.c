@@ -33,21 +33,34 @@ static int peri__open_sorter(const peri_body *b, peri__sorter *s) {
     return 0;
 }
 
+/* The bonds of row i by length: shell sort. */
+static void peri__sort_by_length(const peri__model *m, int64_t i, const peri__row *row, peri__sorter *s) {
+    static const int64_t gaps[] = { 132, 57, 23, 10, 4, 1 };
+    double xi[3];
+    for (int64_t k = 0; k < row->count; ++k) {
+        peri__bond_of(m, m->f32, i, row->ids[k], xi);
+        s->square[k] = peri__dot(xi, xi, m->dim);
+        s->bond[k] = (int32_t)k;
+    }
+    for (int g = 0; g < 6; ++g)
+        for (int64_t k = gaps[g]; k < row->count; ++k) {
+            const double square = s->square[k];
+            const int32_t bond = s->bond[k];
+            int64_t at = k;
+            for (; at >= gaps[g] && s->square[at - gaps[g]] > square; at -= gaps[g]) {
+                s->square[at] = s->square[at - gaps[g]];
+                s->bond[at] = s->bond[at - gaps[g]];
+            }
+            s->square[at] = square;
+            s->bond[at] = bond;
+        }
+}
+
 /* Bonds of row i to the points above `after` that are adjacent to i, ascending by point, to the front of s->bond; returns their number. */
 static int64_t peri__sides_of(const peri__model *m, int64_t i, const peri__row *row, int64_t after, peri__sorter *s) {
     int64_t count = 0;
     double xi[3], other[3];
-    for (int64_t k = 0; k < row->count; ++k) { /* what is in the way of a long bond is mostly near */
-        int64_t at = k;
-        peri__bond_of(m, m->f32, i, row->ids[k], xi);
-        const double square = peri__dot(xi, xi, m->dim);
-        for (; at > 0 && s->square[at - 1] > square; --at) {
-            s->square[at] = s->square[at - 1];
-            s->bond[at] = s->bond[at - 1];
-        }
-        s->square[at] = square;
-        s->bond[at] = (int32_t)k;
-    }
+    peri__sort_by_length(m, i, row, s); /* what is in the way of a long bond is mostly near */
     for (int64_t c = row->count - 1; c >= 0; --c) { /* from the longest down: what is written lies behind all that is still asked for */
         int free = row->ids[s->bond[c]] > after;
         peri__bond_of(m, m->f32, i, row->ids[s->bond[c]], xi);
