@@ -204,8 +204,10 @@ static void branches(void) {
     }
     peri_body *b = plate(20, 0, 0); /* around a block of cells */
     const double square[10] = {5, 5, 14, 5, 14, 14, 5, 14, 5, 5};
-    (void)MUST(b, peri_cut_polyline(b, PERI_CUT_INITIAL, 5, square));
+    (void)MUST(b, peri_record_breaks(b, 1));
+    (void)MUST(b, peri_cut_polyline(b, PERI_CUT_NOW, 5, square));
     find(b, NAN, 1, 0);
+    for (int64_t n = 0; n < f.vertices; ++n) CHECK(f.time[n] == 0);
     CHECK(f.paths == 1 && f.tips == 0 && f.vertices == 4 * 9 + 1);
     CHECK(f.vertex[0] == f.vertex[2 * 36] && f.vertex[1] == f.vertex[2 * 36 + 1]);
     CHECK_NEAR(f.size, 36, 0.1, 0); /* corners are cut short */
