@@ -362,12 +362,13 @@ static void without_memory(void) {
     peri_contact_desc touch;
     peri_contact_desc_init(&touch);
     SHORT(peri_set_contact(b, PERI_ALL, PERI_ALL, &touch)); /* whose lists forces and energies are made with */
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < 7; ++k) {
         const int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
         const int32_t wall_of = (int32_t)MUST(b, peri_add_plane_obstacle(b, wall, up3, 0, NULL, NULL));
         MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, &touch));
         if (k == 0) SHORT(peri_get_field(b, PERI_FIELD_FORCE_DENSITY, numbers, 512));
         if (k == 1) SHORT(peri_get_reaction(b, load, numbers));
+        if (k == 6) SHORT(peri_get_reaction_moment(b, load, zero3, numbers));
         if (k == 2) SHORT(peri_get_obstacle_force(b, wall_of, numbers));
         if (k == 3) SHORT(peri_get_energy(b, &energy));
         if (k == 4) SHORT(peri_export_history_to(b, 0, take_bytes, NULL));
