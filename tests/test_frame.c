@@ -274,9 +274,9 @@ static void mirrored(void) {
     int32_t space;
     int k;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space) {
-        const int solid = space == PERI_SPACE_SOLID, count = solid && !test_long ? 3 : 5;
+        const int deep = space == PERI_SPACE_SOLID, count = deep && !test_long ? 3 : 5;
         for (k = 0; k < 5; ++k) table[k] = signed_permutation(dim_of(space), numbers[k]);
-        all_of(space, PERI_QUADRATURE_PARTIAL, PERI_QUADRATURE_PARTIAL_MOMENT, solid ? 7 : 3, count, table);
+        all_of(space, PERI_QUADRATURE_PARTIAL, PERI_QUADRATURE_PARTIAL_MOMENT, deep ? 7 : 3, count, table);
     }
 }
 /* ---- lattices along the axes by columns, and turned ones by the list ----------------------------------------------- */

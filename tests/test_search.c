@@ -509,7 +509,8 @@ static void constants_shared(void) {
         dim = 2 + k / 6;
         ball = k / 3 % 2;
         for (reference = 0; reference < 2; ++reference) {
-            const double lo[3] = { 0, 0, 0 }, hi[3] = { dim == 2 ? 37.0 : 13.0, dim == 2 ? 21.0 : test_long ? 14.0 : 9.0, 8 }, centre[3] = { 0.1, 0.2, 0.3 };
+            const double lo[3] = { 0, 0, 0 }, hi[3] = { dim == 2 ? 37.0 : 13.0, dim == 2 ? 21.0 : test_long ? 14.0 : 9.0, 8 };
+            const double centre[3] = { 0.1, 0.2, 0.3 };
             const double from[3] = { 0, 3.1, 0 }, to[3] = { 5, 3.1, 0 }, up[3] = { 0, 1, 0 };
             peri_body_desc d;
             peri_material_desc m;

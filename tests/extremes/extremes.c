@@ -197,7 +197,7 @@ static const char *status_name(int32_t status) {
 
 /* Rows play in one precision, in turn. Those of a scene with three or more go round by themselves, and the turn moves on every three
    rows, for rows go by threes where laws, spaces or kernels do; the others by their place in the table. Of a scene with four rows or
-   more every other one plays, with eight or more every third. What takes longest plays where `longest` says. */
+   more every other one plays, with six or more every third. What takes longest plays where `longest` says. */
 static int is_spared(const extreme_table *table, int at, int precision) {
     static const char *const longest[] = {"a reset after fracture", /* test_stale, test_states */
                                           "weights of clouds", "weights at 1 spacing", /* test_families, test_quadrature */
@@ -213,7 +213,7 @@ static int is_spared(const extreme_table *table, int at, int precision) {
             before += row < at;
         }
     if (rows >= 4) {
-        const int every = rows >= 8 ? 3 : 2;
+        const int every = rows >= 6 ? 3 : 2;
         return before % every || (before / every + before / every / 3) % 3 != precision;
     }
     return (rows == 3 ? before : at) % 3 != precision;
