@@ -33,8 +33,8 @@ printf '#define PERI_IMPLEMENTATION\n#include "../../dist/peri.h"\n' > $dir/user
 printf '#define PERI_IMPLEMENTATION\n#include "other_name.h"\n' > $dir/other.c
 compilers="gcc clang tcc x86_64-w64-mingw32-gcc"
 if [ -n "$quick" ]; then
-    compilers="gcc tcc"
-    if command -v clang > /dev/null; then compilers="clang tcc"; fi
+    compilers="tcc gcc"
+    if command -v clang > /dev/null; then compilers="tcc clang"; fi
 fi
 for compiler in $compilers; do
     command -v $compiler > /dev/null || { echo "skip $compiler: not on this machine"; continue; }
@@ -49,9 +49,12 @@ for compiler in $compilers; do
     cmp $dir/tokens $dir/tree
 done
 cc_of_tokens=$cc
-if [ -n "$quick" ]; then cc_of_tokens=${compilers% *}; fi
-tokens peri_impl.c
-mv $dir/tokens $dir/tree
+if [ -n "$quick" ]; then # whose tokens of the tree are there
+    cc_of_tokens=${compilers#* }
+else
+    tokens peri_impl.c
+    mv $dir/tokens $dir/tree
+fi
 for header in peri.h $file; do
     tokens -DPERI_IMPLEMENTATION -x c $header
     cmp $dir/tokens $dir/tree

@@ -23,7 +23,7 @@ objects() {
     quick=$cc
     [ -z "$on_x86" ] || quick=gcc
     $quick $strict $plane -DPERI_NO_STDIO '-DPERI_API=__attribute__((visibility("hidden"))) extern' -c peri_impl.c -o $out/one.o
-    $quick $strict $plane $openmp -DPERI_NO_OPENMP -DPERI_KERNELS=2 -fno-asynchronous-unwind-tables -c peri_impl.c -o $out/other.o
+    $quick $strict $plane -DPERI_NO_STATICS -DPERI_NO_OUTPUT $openmp -DPERI_NO_OPENMP -DPERI_KERNELS=2 -fno-asynchronous-unwind-tables -c peri_impl.c -o $out/other.o
     for name in one other; do $quick $strict tests/promises/threads.c $out/$name.o -lm -o $out/$name; done
     $cc $strict tests/promises/threads.c build/libperi.a $openmp -lm -o $out/library
 }
@@ -78,7 +78,7 @@ vectors() {
     fits "$($out/library 40 1)" '.*columns, \(SSE2\|AVX2\|AVX-512\)'
     fits "$($out/one 40 1)" '.*columns, plain'
     fits "$($out/other 40 1)" '.*columns, 16 bytes'
-    chosen() { gcc -std=c99 "$@" -E -dD peri_impl.c | sed -n 's/^#define PERI_KERNELS //p' | tail -n 1; }
+    chosen() { gcc -std=c99 -DPERI_IMPL "$@" -E -dD src/base/compiler.h | sed -n 's/^#define PERI_KERNELS //p' | tail -n 1; }
     same "$(chosen -O0) $(chosen -O1) $(chosen -O2) $(chosen -O1 -fsanitize=address)" "1 3 3 1"
     command -v tcc > /dev/null || { echo "skip tcc: not on this machine"; return; }
     tcc -I. $plane tests/promises/threads.c peri_impl.c -lm -o $out/tcc
@@ -103,7 +103,8 @@ fork() {
 # -fno-asynchronous-unwind-tables and without -fexceptions the same program was ended by std::terminate."
 exceptions() {
     [ -n "$on_x86" ] && command -v g++ > /dev/null || { echo "skip exceptions: no g++ for x86-64"; return; }
-    for name in one other; do g++ -std=c++11 -I. tests/cxx_throws.cpp $out/$name.o -o $out/throws_$name -lm; done
+    g++ -std=c++11 -I. -c tests/cxx_throws.cpp -o $out/throws.o
+    for name in one other; do g++ $out/throws.o $out/$name.o -o $out/throws_$name -lm; done
     $out/throws_one
     if $out/throws_other > $out/throws.log 2>&1; then echo "the exception passed"; exit 1; fi
     grep -q "terminate called" $out/throws.log

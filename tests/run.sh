@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Runs every test, shows the five that took longest and closes with "N passed, N failed". What a machine lacks is skipped with a message.
+# Runs every test, shows the five that took longest and the seconds of all, and closes with "N passed, N failed". What a machine lacks is
+# skipped with a message.
 #   run.sh          the tests of `make test`
 #   run.sh --long   the test programs with their long tables (make validate)
 # Seconds are those of the processors, of all threads and children together: they hold on a busy machine, too. Every case's are in
-# build/NAME.log; cases below a second are not shown.
+# build/NAME.log, those of all programs and checks, the longest first, in build/sums; cases below a second are not shown.
 cd "$(dirname "$0")/.." || exit 1
 
 # ---- one job: build/NAME.log is what it said; in build/queue, NAME.sh is its command where it waits for its turn, NAME.program is there
@@ -18,12 +19,12 @@ timed() { # timed NAME COMMAND...
     times > "build/queue/$job.times")
 }
 
-# from "0m0.01s 0m0.00s", those of the shell itself, and a second line, those of its children
-seconds() { awk -F '[ms ]+' '{s += 60 * $1 + $2 + 60 * $3 + $4} END {printf "%.1f", s}' "build/queue/$1.times"; }
+# seconds FILE: from "0m0.01s 0m0.00s", those of the shell itself, and a second line, those of its children
+seconds() { awk -F '[ms ]+' '{s += 60 * $1 + $2 + 60 * $3 + $4} END {printf "%.1f", s}' "$1"; }
 
 report() { # report NAME: what a job that has ended did, in one piece, for others end at the same time
     log=build/$1.log
-    took=$(seconds "$1")
+    took=$(seconds "build/queue/$1.times")
     if [ -f "build/queue/$1.program" ]; then
         sum=$(tail -n 1 "$log" | sed -n 's/^[^:]*: \([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p')
         {
@@ -117,8 +118,8 @@ else
         queue_program "test_oracles_$part" "build/tests/test_oracles $part"
     done
     queue_programs $(for name in $longest $shorter; do [ "$name" = test_oracles ] || echo "$name"; done)
-    run_queue
     . tests/bits.sh
+    run_queue
     check dist sh tests/check_dist.sh
     check builds sh tests/check_builds.sh
     rm -f build/clang/peri.o build/fast/peri.o build/fast/core.o
@@ -144,7 +145,10 @@ else
     . tests/sanitizers.sh
 fi
 
-for name in $all; do cat "build/queue/$name.sum" 2> /dev/null || echo "0 1 0 $name"; done > build/sums
+for name in $all; do cat "build/queue/$name.sum" 2> /dev/null || echo "0 1 0 $name"; done | sort -k 3 -n -r > build/sums
 echo "the longest:"
-sort -k 3 -n -r build/sums | head -n 5 | awk '{printf "%8.1f s  %s\n", $3, $4}'
+head -n 5 build/sums | awk '{printf "%8.1f s  %s\n", $3, $4}'
+times > build/queue/times
+awk -v all="$(seconds build/queue/times)" -v built="$([ ! -f build/build.times ] || seconds build/build.times)" \
+    'BEGIN {printf "%.1f s of the processors, and %.1f s to build\n", all, built}'
 awk '{passed += $1; failed += $2} END {printf "%d passed, %d failed\n", passed, failed; exit failed > 0}' build/sums

@@ -170,7 +170,7 @@ static void try_advice(const peri_body_desc *d, const peri_material_desc *m, con
 
 /* A box that is pulled apart, then at rest under its grips. */
 static void scene(int32_t law, int p, int dim) {
-    const double lo[3] = { 0, 0, 0 }, hi[3] = { 12, 6, 4 }, half[3] = { 6, 6, 4 }, left[3] = { 1, 6, 4 }, right[3] = { 11, 0, 0 };
+    const double lo[3] = { 0, 0, 0 }, hi[3] = { 10, 5, 3 }, half[3] = { 5, 5, 3 }, left[3] = { 1, 5, 3 }, right[3] = { 9, 0, 0 };
     const double pull[3] = { 0.4, 0.02, 0 }, way[3] = { 0.01, 0, 0 };
     const char *without = without_space(dim) ? without_space(dim) : without_precision(p);
     peri_body_desc d;

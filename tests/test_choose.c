@@ -383,7 +383,7 @@ static void deformation(void) {
         keeps("beam", beam, PERI_SPACE_PLANE_STRAIN, PERI_QUANTITY_DEFORMATION, 0.4, preset);
         if (preset == PERI_PRESET_REFERENCE && !test_long) continue;
         keeps("bar", bar, PERI_SPACE_SOLID, PERI_QUANTITY_DEFORMATION, 0, preset);
-        keeps("bar", bar, PERI_SPACE_SOLID, PERI_QUANTITY_DEFORMATION, 0.4, preset);
+        if (preset == PERI_PRESET_GAME || test_long) keeps("bar", bar, PERI_SPACE_SOLID, PERI_QUANTITY_DEFORMATION, 0.4, preset);
     }
 }
 static void stress(void) {
@@ -400,8 +400,8 @@ static void waves(void) {
         keeps("S wave", wave, PERI_SPACE_PLANE_STRAIN, PERI_QUANTITY_WAVES, 0, preset);
         if (preset == PERI_PRESET_REFERENCE && !test_long) continue;
         keeps("S wave", wave, PERI_SPACE_PLANE_STRESS, PERI_QUANTITY_WAVES, 0.2, preset);
-        if (preset >= PERI_PRESET_ENGINEERING && !test_long) continue;
-        keeps("S wave", wave, PERI_SPACE_SOLID, PERI_QUANTITY_WAVES, 0, preset);
+        if (preset > PERI_PRESET_GAME && !test_long) continue;
+        if (test_long) keeps("S wave", wave, PERI_SPACE_SOLID, PERI_QUANTITY_WAVES, 0, preset);
         keeps("S wave", wave, PERI_SPACE_SOLID, PERI_QUANTITY_WAVES, 0.2, preset);
     }
 }

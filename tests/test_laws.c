@@ -218,6 +218,7 @@ static void bulk_sweep(int32_t space, int influences, const int32_t *functions, 
         scene s = scene_of(space, PERI_GEOMETRY_LINEAR, functions[k], PERI_CORRECTION_NONE, reach);
         for (; s.correction < peri__end_correction; ++s.correction) {
             int same = s.correction == PERI_CORRECTION_VOLUME || s.correction == PERI_CORRECTION_ENERGY, large = space == PERI_SPACE_SOLID;
+            if (large && same && !test_long) continue; /* planes have them */
             if (!(same && large && k > 0)) bulk_of_mixture(&s);
             if (!(large && k > 0 && (same || reach > 3))) bulk_of(&s, PERI_LAW_BOND_BASED, 0);
         }

@@ -32,6 +32,8 @@ static void pairs_of_laws_in_uniform_strain(void) {
         for (first = PERI_LAW_BOND_BASED; first < peri__end_law; ++first)
             for (second = PERI_LAW_BOND_BASED; second < peri__end_law; ++second)
                 for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; correction += 3) {
+                    /* in solids each pair in one order without correction, in the other with it; all with --long */
+                    if (!test_long && space == PERI_SPACE_SOLID && (first < second) == (correction != PERI_CORRECTION_NONE)) continue;
                     solid a = solid_of(space, first, correction), z = solid_of(space, second, correction);
                     int dim = dim_of(space), springs = first == PERI_LAW_BOND_BASED && second == first, k, seen = 0;
                     int n = dim == 2 ? 13 : springs ? 9 : 6;

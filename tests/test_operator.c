@@ -70,6 +70,8 @@ static void derivatives(int32_t space) {
         for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction)
             for (k = 0; k <= LAWS; ++k)
                 for (broken = 0; broken < 2; ++broken) {
+                    /* in solids whole and broken by turns; all with --long */
+                    if (!test_long && space == PERI_SPACE_SOLID && (geometry + correction + k + broken) % 2) continue;
                     scene s = small_scene(space, geometry, correction);
                     derivative(&s, k ? laws[k - 1] : 0, 0.15 + 0.2 * broken, broken, 0);
                     if (k && correction == PERI_CORRECTION_NONE) derivative(&s, laws[k - 1], 0.15 + 0.2 * broken, broken, 1);

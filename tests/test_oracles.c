@@ -166,7 +166,7 @@ static void nothing_is_left_out(void) {
 }
 
 static void scenes(void) {
-    judge_scenes(1, 2000);
+    judge_scenes(1, test_long ? 2000 : 700);
     nothing_is_left_out();
 }
 

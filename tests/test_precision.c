@@ -21,6 +21,8 @@ static void statics_as_in_double(void) {
     const double aside[3] = {0, 1e-7, 0};
     for (int32_t law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
         for (int32_t way = 0; way < 4; ++way) {
+            /* lattices in one geometry, clouds in the other; all with --long */
+            if (!test_long && (way + way / 2 + law) % 2) continue;
             const int32_t geometry = way & 1 ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR;
             double *u[2];
             int64_t n = 0;

@@ -16,10 +16,10 @@
 #endif
 #endif
 #ifdef SANITIZED
-#define RANDOM_PROGRAMS 300
+#define RANDOM_PROGRAMS 200
 #define MANY_PROGRAMS   12000
 #else
-#define RANDOM_PROGRAMS 2000
+#define RANDOM_PROGRAMS 900
 #define MANY_PROGRAMS   200000
 #endif
 #define LONGEST 240

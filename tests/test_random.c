@@ -194,8 +194,8 @@ static void compare(uint64_t first, int count, double safety) {
     CHECK(10 * built > 9 * count && 2 * broke > count);
 }
 
-static void scenes_at_the_stable_step(void) { compare(1, 60, 0.9); }
-static void scenes_at_a_tenth(void) { compare(1000, 60, 0.1); }
+static void scenes_at_the_stable_step(void) { compare(1, test_long ? 60 : 30, 0.9); }
+static void scenes_at_a_tenth(void) { compare(1000, test_long ? 60 : 30, 0.1); }
 static void many_scenes(void) { compare(5000, 2000, 0.1); }
 
 int main(int argc, char **argv) {

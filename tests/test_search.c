@@ -509,7 +509,8 @@ static void constants_shared(void) {
         dim = 2 + k / 6;
         ball = k / 3 % 2;
         for (reference = 0; reference < 2; ++reference) {
-            const double lo[3] = { 0, 0, 0 }, hi[3] = { dim == 2 ? 37.0 : 13.0, dim == 2 ? 41.0 : 14.0, 12 }, centre[3] = { 0.1, 0.2, 0.3 };
+            const double lo[3] = { 0, 0, 0 }, hi[3] = { dim == 2 ? 37.0 : 13.0, dim == 2 ? 21.0 : test_long ? 14.0 : 9.0, 8 };
+            const double centre[3] = { 0.1, 0.2, 0.3 };
             const double from[3] = { 0, 3.1, 0 }, to[3] = { 5, 3.1, 0 }, up[3] = { 0, 1, 0 };
             peri_body_desc d;
             peri_material_desc m;
@@ -524,7 +525,7 @@ static void constants_shared(void) {
             m.young = m.density = 1.0;
             m.poisson = 0.4; /* theta adds to the stiffness */
             MUST(body, peri_add_material(body, &m));
-            if (ball) MUST(body, peri_add_ball(body, peri_id(body, PERI_KIND_MATERIAL, 1), centre, dim == 2 ? 20.0 : 7.5, 1.0));
+            if (ball) MUST(body, peri_add_ball(body, peri_id(body, PERI_KIND_MATERIAL, 1), centre, dim == 2 ? 14.0 : 6.0, 1.0));
             else MUST(body, peri_add_box(body, peri_id(body, PERI_KIND_MATERIAL, 1), lo, hi, 1.0));
             MUST(body, peri_build(body));
             n = peri_point_count(body);

@@ -249,17 +249,17 @@ static void grids_of_the_paper(void) {
     const int last = test_long ? 3 : 0;
     int k;
     if (test_long) printf("    error %% (opening at the middle over Sneddon's)\n");
-    (void)series(study_of(&SILLING, CUBIC, 3.5, 0), grids, silling);
+    (void)series(study_of(&SILLING, CUBIC, 3.5, 0), test_long ? many : coarse, silling);
     (void)series(study_of(&OTERKUS, CUBIC, 3.5, 0), test_long ? many : coarse, oterkus);
-    CHECK(silling[at].error < 0.05 && (!test_long || oterkus[at].error < 0.05)); /* [C]: below 5 % is feasible */
+    CHECK(!test_long || (silling[at].error < 0.05 && oterkus[at].error < 0.05)); /* [C]: below 5 % is feasible */
     (void)series(study_of(&GRADIENT, CUBIC, 1.5, 0), test_long ? once : coarse, gradient);
     for (k = 0; k <= last; ++k) CHECK(gradient[k].error > silling[k].error && gradient[k].error > oterkus[k].error);
     (void)series(study_of(&STABLE, CUBIC, 2, 1), grids, o);
     CHECK(o[at].error <= 0.02 && o[at].face <= 0.02);
     CHECK(fabs(o[at].opening - 1) <= 0.02);
+    if (!test_long) return;
     (void)series(study_of(&MOMENT, CUBIC, 3.5, 0), grids, o);
     CHECK(o[at].error <= 0.02);
-    if (!test_long) return;
     (void)series(study_of(&MOMENT, CUBIC, 3.5, 1), grids, o);
     CHECK(o[at].error <= 0.02);
     (void)series(study_of(&STABLE, CUBIC, 2, 0), grids, o);

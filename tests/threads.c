@@ -84,7 +84,7 @@ static void at_once(job *jobs, int count) {
 
 /* Each thread a body of its own law, while clones of one body are in use, its points shared. */
 static void bodies_at_once(void) {
-    for (int32_t law = peri__first_law; law < peri__end_law; law += test_long ? 1 : 3) {
+    for (int32_t law = test_long ? peri__first_law : PERI_LAW_CORRESPONDENCE; law < peri__end_law; ++law) {
         const specimen s = plate(law, 12, 8);
         peri_body *b = specimen_make(&s);
         job jobs[WORKERS], alone[WORKERS];
