@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* node_energy.inl - a bond breaks when the mean energy of its ends, 2 W over the volume of the family, passes w0 ([T] 1.102). */
+/* node_energy.inl - a bond breaks when the mean energy of its ends, 2 W over the volume of the family, passes w0 ([T] 1.102).
+
+   Few of the bonds of a point cross the crack that it is near, the fewer the farther it is: the mean of a family that is to break the last
+   of them is far above what the bonds in the plane need, and with the w0 of a bond a crack takes many times G0. So w0 is less. */
 #ifdef PERI_CRITERION_ROLE_TRAITS
 enum { PERI__SEEN_node_energy = PERI__BY_NODE_ENERGY };
 #endif
 
 #ifdef PERI_CRITERION_ROLE_LIMIT
 static double peri__limit_node_energy(const peri__fracture *g) {
-    return peri__critical_energy(g->material, g->space, g->horizon) / g->unit;
+    return peri__critical_energy(g->material, g->space, g->horizon) / g->unit / peri__node_share(g->space, g->across, g->live);
 }
 #endif
 
