@@ -245,10 +245,9 @@ typedef enum peri_correction {
     PERI_CORRECTION_MOMENT = 704  /* weights, as little as makes uniform strain exact on lattices */
 } peri_correction;
 
-/* On which bonds LPS and Oterkus are calibrated; correspondence takes those left. */
-typedef enum peri_moments {
-    PERI_MOMENTS_LIVE = 2501, /* those left: they take over what broken and cut ones carried */
-    PERI_MOMENTS_WHOLE = 2502 /* the whole family: a bond that breaks or is cut is left out */
+typedef enum peri_moments { /* which bonds calibrate LPS and Oterkus */
+    PERI_MOMENTS_LIVE = 2501, /* those left: they take over what others carried */
+    PERI_MOMENTS_WHOLE = 2502 /* all, broken and cut ones included */
 } peri_moments;
 
 typedef enum peri_kernel { /* results agree to the rounding of sums */

@@ -141,7 +141,8 @@ static void takes(strip s, double most_off) {
 #define STRIP(space, law, criterion, moments, m, nu)                                                                   \
     { PERI_SPACE_PLANE_##space, PERI_LAW_##law, PERI_CRITERION_##criterion, PERI_MOMENTS_##moments, PERI_INFLUENCE_CONSTANT, m, nu }
 
-/* Whole families: 5 % over the range of Poisson's ratio of plane stress, and in plane strain, where G0 goes with E/(1 - nu^2), up to 0.25. */
+/* Whole families: 5 % over the range of Poisson's ratio of plane stress, and up to 0.25 in plane strain, where s0 goes with
+   E/(1 - nu^2). */
 static void stretch(void) {
     static const strip s[] = {STRIP(STRESS, LPS, STRETCH, WHOLE, 3, 0.1), STRIP(STRESS, LPS, STRETCH, WHOLE, 3, 0.4),
                               STRIP(STRESS, OTERKUS, STRETCH, WHOLE, 3, 0.25), STRIP(STRAIN, LPS, STRETCH, WHOLE, 3, 0.1)};

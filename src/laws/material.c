@@ -107,8 +107,9 @@ static double peri__critical_energy(const peri_material_desc *m, int32_t space, 
 }
 
 /* What a crack takes over G0 where the energy of points is held to the w0 of a bond, `across` spacings to the horizon; live: see
-   peri__takes_over. What is taken goes with w0. Fitted to strips torn slowly, constant w, 2 to 9 spacings in the plane and 2 to 4 in 3D:
-   docs/accuracy.md, Fracture energy. */
+   peri__takes_over. Few of the bonds of a point cross the crack beside it, the fewer the farther it is: the mean of a family that is to
+   break the last of them is far above what the bonds in the plane need. What is taken goes with w0. Fitted to strips torn slowly, constant
+   w, 2 to 9 spacings in the plane and 2 to 4 in 3D: docs/accuracy.md, Fracture energy. */
 static double peri__node_share(int32_t space, double across, int32_t live) {
     const double most = space == PERI_SPACE_SOLID ? (live ? 12.0 : 15.5) : live ? 9.4 : 13.3;
     const double lost = space == PERI_SPACE_SOLID ? (live ? 1.4 : 1.35) : live ? 1.45 : 1.42;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* node_energy.inl - a bond breaks when the mean energy of its ends, 2 W over the volume of the family, passes w0 ([T] 1.102).
-
-   Few of the bonds of a point cross the crack that it is near, the fewer the farther it is: the mean of a family that is to break the last
-   of them is far above what the bonds in the plane need, and with the w0 of a bond a crack takes many times G0. So w0 is less. */
+/* node_energy.inl - a bond breaks when the mean energy of its ends, 2 W over the volume of the family, passes w0 ([T] 1.102). */
 #ifdef PERI_CRITERION_ROLE_TRAITS
 enum { PERI__SEEN_node_energy = PERI__BY_NODE_ENERGY };
 #endif
