@@ -246,6 +246,11 @@ typedef enum peri_correction {
     PERI_CORRECTION_MOMENT = 704  /* weights, as little as makes uniform strain exact on lattices */
 } peri_correction;
 
+typedef enum peri_moments { /* which bonds calibrate LPS and Oterkus */
+    PERI_MOMENTS_LIVE = 2501, /* those left: they take over what others carried */
+    PERI_MOMENTS_WHOLE = 2502 /* all, broken and cut ones included */
+} peri_moments;
+
 typedef enum peri_kernel { /* results agree to the rounding of sums */
     PERI_KERNEL_BEST = 801,      /* columns on lattices where that serves, else a list */
     PERI_KERNEL_REFERENCE = 802, /* every quantity by its formula, bond by bond: slow */
@@ -269,11 +274,13 @@ typedef struct peri_body_desc {
     int32_t quadrature;                /* Default PERI_QUADRATURE_FULL */
     int32_t correction;                /* Default PERI_CORRECTION_NONE */
     int32_t break_timing;              /* Default PERI_BREAK_WITHIN_STEP */
+    int32_t moments;                   /* Default PERI_MOMENTS_LIVE */
     int32_t kernel;                    /* Default PERI_KERNEL_BEST */
     int32_t instructions;              /* Default PERI_INSTRUCTIONS_BEST */
     int32_t threads;                   /* 0 (default): as OpenMP says; 1: serial; n: n threads */
     int32_t ledger;                    /* 1 (default): account for work while running; 0: not */
     int32_t number;                    /* 1..127, in its ids; 0 (default): from its address */
+    int32_t reserved;                  /* 0 */
     double horizon;                    /* [L] > 0. Required. 3 to 4 spacings */
     double thickness;                  /* [L] > 0, of planes. Default 1 */
     peri_influence_fn influence_fn;    /* for PERI_INFLUENCE_USER */
@@ -359,7 +366,7 @@ PERI_API int32_t peri_get_bond_constants(peri_body *body, int32_t i, int32_t j, 
     double *s0);
 
 /* Critical bond energy w0 [M L^-4 T^-2] of a material whose criterion is an energy; HUGE_VAL:
-   none. */
+   none. PERI_CRITERION_NODE_ENERGY: after peri_build. */
 PERI_API int32_t peri_get_critical_energy(peri_body *body, int32_t material, double *w0);
 
 /* ---- points, before peri_build; each returns the number of points added, or an error  */

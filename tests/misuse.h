@@ -89,6 +89,7 @@ SET(ERROR, CHOICE, "influence", 501, bd, influence, PERI_QUADRATURE_FULL, peri_b
 SET(ERROR, CHOICE, "quadrature", 401, bd, quadrature, PERI_INFLUENCE_CONSTANT, peri_body_create(bd, made, error))
 SET(ERROR, CHOICE, "break_timing", 701, bd, break_timing, PERI_CORRECTION_NONE, peri_body_create(bd, made, error))
 SET(ERROR, CHOICE, "correction", 601, bd, correction, PERI_BREAK_WITHIN_STEP, peri_body_create(bd, made, error))
+SET(ERROR, CHOICE, "moments", 601, bd, moments, PERI_BREAK_WITHIN_STEP, peri_body_create(bd, made, error))
 SET(ERROR, CHOICE, "kernel", 901, bd, kernel, PERI_INSTRUCTIONS_BEST, peri_body_create(bd, made, error))
 SET(ERROR, CHOICE, "instructions", 801, bd, instructions, PERI_KERNEL_BEST, peri_body_create(bd, made, error))
 SET(draft, CHOICE, "law", 1101, md, law, PERI_CRITERION_STRETCH, peri_add_material(draft, md))

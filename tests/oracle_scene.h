@@ -104,6 +104,7 @@ static void choose_desc(scene *s) {
     d->threads = below(s, 64) ? 1 : 2;
     d->ledger = below(s, 8) > 0;
     d->number = 1 + below(s, 127);
+    d->moments = peri__first_moments + d->number % peri__count_moments;
     d->thickness = between(s, 0.3, 3) * s->spacing;
 }
 

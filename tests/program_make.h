@@ -51,6 +51,7 @@ static void fill_desc(program *p, int s, peri_body_desc *d) {
     d->correction = p->mood == MOOD_CHOICES ? choice(p, PERI_CORRECTION_NONE, 4) : PERI_CORRECTION_NONE + corrections[more % 8];
     if (p->mood == 0 && d->quadrature >= PERI_QUADRATURE_PARTIAL_CENTROID) d->correction = PERI_CORRECTION_NONE;
     d->break_timing = p->mood == MOOD_CHOICES ? choice(p, PERI_BREAK_WITHIN_STEP, 2) : PERI_BREAK_WITHIN_STEP + more / 8 % 2;
+    d->moments = p->mood == MOOD_CHOICES ? choice(p, PERI_MOMENTS_LIVE, 2) : PERI_MOMENTS_LIVE + more / 4 % 2;
     d->ledger = more / 16 % 4 != 3;
     d->threads = 1;
     d->horizon = number(p, o->length, 3.5 * o->length);

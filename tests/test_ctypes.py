@@ -28,7 +28,8 @@ class Error(C.Structure):
 class BodyDesc(C.Structure):
     _fields_ = ([("cookie", C.c_uint64)]
                 + [(n, C.c_int32) for n in ("space", "precision", "geometry", "influence", "quadrature", "correction",
-                                            "break_timing", "kernel", "instructions", "threads", "ledger", "number")]
+                                            "break_timing", "moments", "kernel", "instructions", "threads", "ledger",
+                                            "number", "reserved")]
                 + [("horizon", C.c_double), ("thickness", C.c_double)]
                 + [(n, C.c_void_p) for n in ("influence_fn", "influence_user")]
                 + [("allocate", ALLOC), ("release", RELEASE)]

@@ -55,6 +55,7 @@ static void bad_body_descriptors(void) {
     BAD_DESC(PERI_ERROR_CHOICE, "quadrature", d.quadrature = -1);
     BAD_DESC(PERI_ERROR_CHOICE, "break_timing", d.break_timing = PERI_BREAK_AFTER_DRIFT + 1);
     BAD_DESC(PERI_ERROR_CHOICE, "correction", d.correction = PERI_CORRECTION_NONE - 1);
+    BAD_DESC(PERI_ERROR_CHOICE, "moments", d.moments = PERI_MOMENTS_WHOLE + 1);
     BAD_DESC(PERI_ERROR_CHOICE, "kernel", d.kernel = 1);
     BAD_DESC(PERI_ERROR_CHOICE, "instructions", d.instructions = PERI_KERNEL_BEST);
     BAD_DESC(PERI_ERROR_CHOICE, "ledger", d.ledger = 2);

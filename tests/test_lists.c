@@ -16,12 +16,12 @@ typedef struct group {
 } group;
 
 #define GROUP(name) {#name, peri__first_##name, peri__end_##name, peri__count_##name}
-#define GROUPS      23
+#define GROUPS      24
 static const group groups[GROUPS] = {
     GROUP(status),      GROUP(space),      GROUP(precision), GROUP(geometry),     GROUP(influence), GROUP(quadrature), GROUP(break_timing),
     GROUP(correction),  GROUP(kernel),     GROUP(law),       GROUP(instructions), GROUP(criterion), GROUP(integrator), GROUP(method),
     GROUP(preconditioner), GROUP(loose),   GROUP(type),      GROUP(source),       GROUP(quantity),  GROUP(preset),     GROUP(field),
-    GROUP(standing),    GROUP(kind)};
+    GROUP(standing),    GROUP(kind),       GROUP(moments)};
 
 static int group_of(const char *name) {
     for (int k = 0; k < GROUPS; ++k)
@@ -256,6 +256,7 @@ static void bodies_take_every_choice(void) {
     CREATES(quadrature);
     CREATES(break_timing);
     CREATES(correction);
+    CREATES(moments);
     CREATES(kernel);
     CREATES(instructions);
 }

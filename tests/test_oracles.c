@@ -33,6 +33,7 @@ OF(influence, s->desc.influence)
 OF(quadrature, s->desc.quadrature)
 OF(break_timing, s->desc.break_timing)
 OF(correction, s->desc.correction)
+OF(moments, s->desc.moments)
 OF(kernel, s->desc.kernel)
 OF(instructions, s->desc.instructions)
 OF(integrator, s->integrator)
@@ -53,6 +54,7 @@ static int32_t storage_of(const scene *s, int k) {
 #define GROUP(name) {#name, peri__first_##name, peri__count_##name, name##_of}
 static const choice choices[] = {
     GROUP(space), GROUP(precision), GROUP(geometry), GROUP(influence), GROUP(quadrature), GROUP(break_timing), GROUP(correction),
+    GROUP(moments),
     GROUP(kernel), GROUP(instructions), GROUP(integrator), GROUP(law), GROUP(criterion),
     {"origin", 0, ORIGINS, origin_of}, {"act", 0, ACTS, act_of}, {"cracks", 0, CRACKS + 1, cracks_of},
     {"materials", 1, MATERIALS, materials_of}, {"interface", 0, 2, interface_of}, {"obstacles", 0, 4, obstacles_of},

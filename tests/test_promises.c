@@ -134,6 +134,7 @@ static void defaults(void) {
     CHECK(d.precision == PERI_PRECISION_DOUBLE && d.geometry == PERI_GEOMETRY_NONLINEAR && d.influence == PERI_INFLUENCE_CONSTANT);
     CHECK(d.quadrature == PERI_QUADRATURE_FULL && d.correction == PERI_CORRECTION_NONE && d.break_timing == PERI_BREAK_WITHIN_STEP);
     CHECK(d.kernel == PERI_KERNEL_BEST && d.instructions == PERI_INSTRUCTIONS_BEST && d.threads == 0 && d.ledger == 1 && d.number == 0);
+    CHECK(d.moments == PERI_MOMENTS_LIVE && d.reserved == 0);
     CHECK(d.thickness == 1 && !d.influence_fn && !d.influence_user && !d.allocate && !d.release && !d.memory_user);
     CHECK(!d.parallel_for && !d.parallel_user && !d.log && !d.log_user);
     peri_material_desc_init(&m, PERI_LAW_CORRESPONDENCE);

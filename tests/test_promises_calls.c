@@ -270,6 +270,10 @@ static void with_wrong_arguments(void) {
     d = specimen_start(&s);
     ASK(peri_get_critical_energy(d, peri_id(d, PERI_KIND_MATERIAL, 1), numbers));
     peri_body_destroy(d);
+    s.material.criterion = PERI_CRITERION_NODE_ENERGY;
+    d = specimen_start(&s);
+    ASK(peri_get_critical_energy(d, peri_id(d, PERI_KIND_MATERIAL, 1), numbers));
+    peri_body_destroy(d);
     peri_body_destroy(b);
     peri_body_destroy(t);
 }

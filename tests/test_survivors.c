@@ -186,9 +186,9 @@ static void constants_have_a_range(void) {
         peri_material_desc_init(&m, PERI_LAW_LPS);
         m.young = m.density = m.fracture_energy = 1;
         m.poisson = 0.3;
-        m.criterion = PERI_CRITERION_NODE_ENERGY;
-        const int32_t nodes = (int32_t)MUST(b, peri_add_material(b, &m));
-        REFUSE(b, PERI_ERROR_RANGE, peri_get_critical_energy(b, nodes, &number));
+        m.criterion = PERI_CRITERION_BOND_ENERGY;
+        const int32_t states = (int32_t)MUST(b, peri_add_material(b, &m));
+        REFUSE(b, PERI_ERROR_RANGE, peri_get_critical_energy(b, states, &number));
         CHECK(strcmp(seen.field, "w0") == 0 && number == 7);
         peri_body_destroy(b);
     }

@@ -136,7 +136,7 @@ static void work_by_columns(void) {
         for (i = 0; kind == 4 && i < 2 * cloud.count; ++i) cloud.x[i] += 0.1 * test_random(&seed); /* no lattice: a list */
         d.quadrature = kind % 4 == 3 ? PERI_QUADRATURE_PARTIAL : PERI_QUADRATURE_FULL;
         most_broken = 100;
-        for (; most_broken > 30 && critical < 1; critical *= 1.5)
+        for (; most_broken > 30 && critical < 1; critical *= kind < 5 ? 1.5 : 1.2)
             check_kernels(d, states, kind == 0 || kind % 4 == 3 ? 1 : 2, kind == 4 ? NULL : "columns", critical, 0.05);
     }
 }

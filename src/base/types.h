@@ -36,7 +36,7 @@
    Laws, for a point and its live family:
      gauge     g of a law, |xi| or 1: theta weighs bonds with it
      gather    the pass that makes theta, or H, of the displacements; the response is what the law makes of them: p, or Q
-     calibration   the constants of the law on the bonds that are left: theta_factor, pressure_factor, spring, stabilization, shape_inverse
+     calibration   the constants of the law on the bonds left, or all: theta_factor, pressure_factor, spring, stabilization, shape_inverse
      pairwise  of a law: its bonds know of no other bond (bond-based). ordinary: theta is gathered; tensor: H is, a law with a gradient
      collapsed stress   the stress that the bonds of a point carry: sum T xi V, T its half of their force densities
      row sum   of the absolute stiffness of a point over rho: bounds the square of the highest frequency
@@ -141,7 +141,7 @@ typedef struct peri__law { /* the elasticity of a material, inner units         
     double  stabilization;
 } peri__law;
 
-/* What the live family of a point makes of its law: planes of body->constant. The half of a bond that point i gives is
+/* What the family of a point makes of its law: planes of body->constant. The half of a bond that point i gives is
    w [(p g + q e) M + Q xi + k eta] with g = |xi|, Oterkus 1. */
 typedef enum peri__constant {
     PERI__THETA_FACTOR,  /* theta = theta_factor * sum w g e V                                                           */

@@ -16,6 +16,7 @@ PERI_API void peri_body_desc_init(peri_body_desc *d) {
     d->quadrature = PERI_QUADRATURE_FULL;
     d->break_timing = PERI_BREAK_WITHIN_STEP;
     d->correction = PERI_CORRECTION_NONE;
+    d->moments = PERI_MOMENTS_LIVE;
     d->kernel = PERI_KERNEL_BEST;
     d->instructions = PERI_INSTRUCTIONS_BEST;
     d->ledger = 1;
@@ -35,6 +36,7 @@ static int32_t peri__check_choices(const peri_body_desc *d, peri_error *error) {
     PERI_CHOICE_(correction, PERI_IS_ONE_OF(correction, d->correction));
     PERI_CHOICE_(correction, d->correction == PERI_CORRECTION_NONE || !peri__is_planar(d->quadrature));
     PERI_CHOICE_(break_timing, PERI_IS_ONE_OF(break_timing, d->break_timing));
+    PERI_CHOICE_(moments, PERI_IS_ONE_OF(moments, d->moments));
     PERI_CHOICE_(kernel, PERI_IS_ONE_OF(kernel, d->kernel));
     PERI_CHOICE_(instructions, PERI_IS_ONE_OF(instructions, d->instructions));
     PERI_CHOICE_(ledger, d->ledger == 0 || d->ledger == 1);

@@ -26,13 +26,14 @@ typedef struct peri__deformation {
 static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
+    const int live = law->pairwise || peri__counts_live(b, law);
     double sum = 0.0, whole = 0.0;
     for (int64_t k = 0; k < row->count; ++k) {
         double w = peri__weight_of(m, i, row->weight, k), bond = peri__get_real(row->bond, b->b32, k);
-        if (!peri__is_alive(b, i, k)) continue;
+        const int alive = peri__is_alive(b, i, k);
         if (law->gauge) w *= bond;
-        sum += w * bond * peri__stretch(b, i, row, k);
-        whole += w * bond;
+        if (alive) sum += w * bond * peri__stretch(b, i, row, k);
+        if (alive || !live) whole += w * bond;
     }
     return whole > 0.0 ? m->dim * sum / whole : 0.0;
 }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* calibration.c - what the live family of a point makes of its state-based law: the constants of peri__constant.
+/* calibration.c - what the family of a point makes of its state-based law: the constants of peri__constant.
 
-   Every law is calibrated on the bonds that are left, so a cut crack and a gap between points act alike. The price is that few
-   short bonds carry what many did; stiffness.c bounds the frequency that follows. */
+   Under PERI_MOMENTS_LIVE every law is calibrated on the bonds that are left, so a cut crack and a gap between points act alike. The price
+   is that few short bonds carry what many did; stiffness.c bounds the frequency that follows. Under PERI_MOMENTS_WHOLE the constants of
+   ordinary laws are those of the whole family, for good: a bond that is cut or breaks is in none of the sums over e, and nothing else
+   changes. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -22,6 +24,11 @@ static void peri__add_moments(peri__moments *sum, int32_t dim, const double *xi,
     sum->plain += weight;
     for (int a = 0; a < dim; ++a)
         for (int c = a; c < dim; ++c) sum->shape[peri__packed(dim, a, c)] += weight * xi[a] * xi[c];
+}
+
+/* Is a law calibrated on the live bonds alone? K of a gradient must be that of the bonds it is gathered over. */
+PERI_INLINE int peri__counts_live(const peri_body *b, const peri__law *law) {
+    return b->desc.moments == PERI_MOMENTS_LIVE || law->gather & PERI__GRADIENT;
 }
 
 /* Is m all that the law of all points is calibrated on? */
@@ -92,7 +99,7 @@ static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
     const peri__law *law = &m->laws[m->material[i]];
     if (law->pairwise) return;
     peri__calibration r;
-    peri__moments sum = peri__family_moments(b, i, row, 1);
+    peri__moments sum = peri__family_moments(b, i, row, peri__counts_live(b, law));
     if (!peri__calibrate(law, m->dim, &sum, &r)) r.spring = law->b / peri__family_moments(b, i, row, 0).m;
     peri__put_constant(b, i, PERI__THETA_FACTOR, r.theta_factor);
     peri__put_constant(b, i, PERI__PRESSURE_FACTOR, r.pressure_factor);

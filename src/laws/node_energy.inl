@@ -6,7 +6,7 @@ enum { PERI__SEEN_node_energy = PERI__BY_NODE_ENERGY };
 
 #ifdef PERI_CRITERION_ROLE_LIMIT
 static double peri__limit_node_energy(const peri__fracture *g) {
-    return peri__critical_energy(g->material, g->space, g->horizon) / g->unit;
+    return peri__critical_energy(g->material, g->space, g->horizon) / g->unit / peri__node_share(g->space, g->across, g->live);
 }
 #endif
 

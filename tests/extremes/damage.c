@@ -303,7 +303,7 @@ static outcome threshold(const extreme *row, int32_t precision) {
         for (law = row->choice == PERI_CRITERION_STRETCH ? PERI_LAW_BOND_BASED : PERI_LAW_LPS; law < peri__end_law; ++law)
             for (side = 0; side < 2 && o.status >= 0; ++side) {
                 const int dim = space == PERI_SPACE_SOLID ? 3 : 2;
-                double x[6] = {0, 0, 0, 0, 0, 0}, u[6] = {0, 0, 0, 0, 0, 0}, stiff, w0, s = 0.01;
+                double x[6] = {0, 0, 0, 0, 0, 0}, u[6] = {0, 0, 0, 0, 0, 0}, stiff = 0, w0 = 0, s = 0.01;
                 dense_moduli moduli;
                 peri_body_desc d;
                 peri_material_desc m;
@@ -318,12 +318,14 @@ static outcome threshold(const extreme *row, int32_t precision) {
                     m.fracture_energy = row->value;
                     stiff = law == PERI_LAW_CORRESPONDENCE ? dim * (dim + 2) * moduli.mu : dim * dim * moduli.bulk;
                     w0 = (dim == 3 ? 4 / (pi * h) : 1.5) * row->value / (h * h * h);
-                    s = sqrt(2 * w0 / (stiff * (1 / v[0] + 1 / v[1])));
                 }
                 x[dim] = 0.9;
-                u[dim] = 0.9 * s * (side ? 1 + 1e-4 : 1 - 1e-4);
                 t.o = &o;
                 t.body = b = dense_cloud(&o, &d, &m, 2, x, v);
+                if (b && row->choice == PERI_CRITERION_NODE_ENERGY) /* of the spacing, too */
+                    (void)extreme_fails(&o, b, peri_get_critical_energy(b, material_id(b, 1), &w0));
+                if (row->choice != PERI_CRITERION_STRETCH) s = sqrt(2 * w0 / (stiff * (1 / v[0] + 1 / v[1])));
+                u[dim] = 0.9 * s * (side ? 1 + 1e-4 : 1 - 1e-4);
                 if (b && !extreme_fails(&o, b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, 2 * dim))) {
                     (void)advance(&t, 1, 0.9, 1e-9 * peri_stable_step(b));
                     dense_note(&o, peri_broken_count(b) == side ? 0 : 1, space, law);
