@@ -633,10 +633,22 @@ typedef enum peri_preconditioner {
 } peri_preconditioner;
 
 typedef enum peri_loose { /* parts that no support holds against some rigid-body mode */
-    PERI_LOOSE_REFUSED = 1501, /* PERI_ERROR_LOOSE, index: a point of the part */
+    PERI_LOOSE_REFUSED = 1501, /* PERI_ERROR_LOOSE, index: a point of it; see lost_parts */
     PERI_LOOSE_PINNED = 1502,  /* just enough is held; exact where loads balance */
     PERI_LOOSE_BALANCED = 1503 /* the part of the loads that drives the mode is left out */
 } peri_loose;
+
+typedef enum peri_control { /* what sets the load factor */
+    PERI_CONTROL_LOAD = 2601,    /* the load steps */
+    PERI_CONTROL_FRACTURE = 2602 /* where the next bond meets its criterion: through snap-back */
+} peri_control;
+
+typedef enum peri_ended { /* why a solve ended */
+    PERI_ENDED_LOAD = 2701,    /* load_to is reached */
+    PERI_ENDED_SEVERED = 2702, /* a part that bears a load or a support broke off */
+    PERI_ENDED_BREAKS = 2703,
+    PERI_ENDED_STOPPED = 2704
+} peri_ended;
 
 /* After each iteration of the linear solver, with the residual over its scale. > 0 stops there,
    short of the equilibrium. */
@@ -648,21 +660,22 @@ typedef struct peri_solve_desc {
     int32_t preconditioner;         /* of Newton. Default PERI_PRECONDITIONER_MULTILEVEL */
     int32_t loose;                  /* Default PERI_LOOSE_REFUSED */
     int32_t fracture;               /* 1 (default): bonds break by their criterion; 0: none */
+    int32_t control;                /* Default PERI_CONTROL_LOAD */
+    int32_t curve_load;             /* load or support whose curve is recorded. Default 0: none */
     double criticality;             /* [0, 1]: break those over this part of the largest excess.
-                                       Default 0: all */
+                                       Default 0.98; 1: one by one */
     double tolerance;               /* [0, 1): |residual| over |loads| or |reactions|. 0
                                        (default): 1e-8, mixed 1e-5, single 1e-4 */
     double energy_tolerance;        /* > 0, of Newton: this fall of the residual's energy is
                                        enough, too. Default 0: never */
     int64_t iterations;             /* most for one equilibrium, linear. Default 20000 */
     int64_t newton;                 /* most Newton iterations for one equilibrium. Default 60 */
-    int64_t breaks;                 /* most rounds of breaking at one factor. Default 100000 */
+    int64_t breaks;                 /* most rounds of breaking at one factor, or of fracture
+                                       control. Default 100000 */
     double load_from;               /* factor to begin at. NaN (default): peri_load_factor */
     double load_to;                 /* factor at the end. Default 1 */
     int64_t steps;                  /* load steps >= 1. Default 1 */
     int64_t halvings;               /* most halvings of a failing step, 0..60. Default 8 */
-    int32_t curve_load;             /* load or support whose curve is recorded. Default 0: none */
-    int32_t reserved;               /* 0 */
     double *curve;                  /* [curve_rows][2 + 2*dim]: load factor, mean displacement
                                        [L], peri_get_reaction, broken bonds */
     int64_t curve_rows;             /* rows that fit; more are counted in the report */
@@ -679,7 +692,11 @@ typedef struct peri_solve_report {
     int64_t broken;     /* bonds broken */
     int64_t curve_rows; /* rows of the curve, written or not */
     int64_t loose;      /* rigid-body modes pinned or balanced in the last equilibrium */
+    int64_t lost_parts; /* broke off, bear nothing and are left where they are */
+    int64_t lost_points;
     int64_t bytes;      /* most memory of the solver at a time, beside the body */
+    int32_t ended;      /* peri_ended; 0 where the solve failed */
+    int32_t reserved;   /* 0 */
     double residual;    /* of the last equilibrium, over its scale; 0 where nothing acts */
     double load_factor; /* of the last equilibrium */
 } peri_solve_report;
@@ -689,7 +706,7 @@ PERI_API void peri_solve_desc_init(peri_solve_desc *desc);
 /* Equilibrium under supports and loads, constant values times a factor from load_from to load_to,
    callbacks at time = factor, prescribed velocities at rest; bonds over their limit break until
    none does. A later run goes on at load_to. A failed step leaves the last equilibrium, or, after
-   breaks, how far it came. */
+   breaks, how far it came; so does PERI_ENDED_SEVERED. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_solve_desc *desc,
     peri_solve_report *report);
 

@@ -127,6 +127,9 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/statics/matrix.c"    /* the tangent assembled, BiCGSTAB                                              */
 #include "src/statics/equilibrium.c" /* Newton's method                                                            */
 #include "src/statics/relax.c"     /* adaptive dynamic relaxation                                                  */
+#include "src/statics/fracture.c"  /* which bonds break at an equilibrium                                          */
+#include "src/statics/step.c"      /* an equilibrium, its work, its row of the curve                               */
+#include "src/statics/path.c"      /* the load factor that the next bond to break asks for                         */
 #include "src/statics/statics.c"   /* load steps, quasi-static fracture                                            */
 #include "src/statics/surface.c"   /* tractions and pressures that pass the patch test                             */
 #endif

@@ -98,6 +98,7 @@ SET(b, CHOICE, "integrator", 1301, ad, integrator, PERI_METHOD_NEWTON, peri_adva
 SET(b, CHOICE, "method", 1201, sd, method, PERI_INTEGRATOR_VELOCITY_VERLET, peri_solve(b, sd, NULL))
 SET(b, CHOICE, "preconditioner", 1501, sd, preconditioner, PERI_LOOSE_REFUSED, peri_solve(b, sd, NULL))
 SET(b, CHOICE, "loose", 1403, sd, loose, PERI_PRECONDITIONER_NONE, peri_solve(b, sd, NULL))
+SET(b, CHOICE, "control", 1502, sd, control, PERI_LOOSE_PINNED, peri_solve(b, sd, NULL))
 SET(ERROR, CHOICE, "source", 1801, pd, source, PERI_QUANTITY_DEFORMATION, peri_plan(pd, plan, error))
 SET(ERROR, CHOICE, "preset", 1801, cd, preset, PERI_QUANTITY_DEFORMATION, peri_choose(cd, bd, md, choice, error))
 SET(ERROR, CHOICE, "quantity", 1903, cd, quantity, PERI_PRESET_TEACHING, peri_choose(cd, bd, md, choice, error))

@@ -386,6 +386,31 @@ static void curves_are_those_of_the_network(void) {
     CHECK_NEAR(few, many, 1.5e-6, 0);
     if (test_long) (void)network_agrees(&whole, 68e-6, 4, 0);
 }
+/* Rows are the deflections and loads at which the network's next spring breaks, back and forth. */
+static void the_controlled_path_is_that_of_the_network(void) {
+    beam b = beam_of(0.015, 3, 0.2);
+    bending *t = bending_of(&b, 62e-6, PERI_GEOMETRY_LINEAR);
+    network n = network_of(&b);
+    peri_solve_report r;
+    peri_solve_desc st;
+    double curve[60 * WIDE];
+    (void)MUST(t->body, peri_on_break(t->body, NULL, NULL)); /* bonds break at their limit, not over it */
+    peri_solve_desc_init(&st);
+    st.control = PERI_CONTROL_FRACTURE;
+    st.breaks = test_long ? 59 : 24;
+    st.criticality = 1;
+    st.curve_load = t->load;
+    st.curve_rows = 60, st.curve = curve;
+    (void)MUST(t->body, peri_solve(t->body, &st, &r));
+    CHECK(r.ended == PERI_ENDED_BREAKS && r.curve_rows > 0);
+    for (int k = 0; k < r.curve_rows; ++k, network_break(&n, (1 - 1e-6) * network_worst(&n))) {
+        network_solve(&n);
+        CHECK_NEAR(-curve[k * WIDE + MOVE_Y] * network_worst(&n), 1, 2e-6, 0);
+        CHECK_NEAR(load_of(curve, k) * network_worst(&n), n.stiffness, 2e-6, 0);
+        CHECK(curve[k * WIDE + BROKEN] == (double)n.broken && r.curve_rows == st.breaks + 1);
+    }
+    network_free(&n), bending_free(t);
+}
 static void bonds_break_at_their_limit(void) {
     beam b = beam_of(0.01, 3, 0.5);
     network n = network_of(&b);
@@ -563,6 +588,7 @@ static void strength_without_a_notch(void) {
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(curves_are_those_of_the_network);
+    RUN(the_controlled_path_is_that_of_the_network);
     RUN(bonds_break_at_their_limit);
     LONG_RUN(so_is_that_of_the_thesis);
     RUN(finite_turns_change_little);

@@ -50,16 +50,18 @@ class Run(C.Structure):
 
 class Statics(C.Structure):
     _fields_ = ([("cookie", C.c_uint64)]
-                + [(n, C.c_int32) for n in ("method", "preconditioner", "loose", "fracture")]
+                + [(n, C.c_int32) for n in ("method", "preconditioner", "loose", "fracture", "control", "curve_load")]
                 + [(n, C.c_double) for n in ("criticality", "tolerance", "energy_tolerance")]
                 + [(n, C.c_int64) for n in ("iterations", "newton", "breaks")]
                 + [("load_from", C.c_double), ("load_to", C.c_double), ("steps", C.c_int64), ("halvings", C.c_int64),
-                   ("curve_load", C.c_int32), ("reserved", C.c_int32), ("curve", C.POINTER(C.c_double)), ("curve_rows", C.c_int64),
+                   ("curve", C.POINTER(C.c_double)), ("curve_rows", C.c_int64),
                    ("on_iteration", ITERATION), ("on_step", FRAME), ("user", C.c_void_p)])
 
 
 class Report(C.Structure):
-    _fields_ = ([(n, C.c_int64) for n in ("iterations", "passes", "newton", "steps", "broken", "curve_rows", "loose", "bytes")]
+    _fields_ = ([(n, C.c_int64) for n in ("iterations", "passes", "newton", "steps", "broken", "curve_rows", "loose", "lost_parts",
+                                        "lost_points", "bytes")]
+                + [("ended", C.c_int32), ("reserved", C.c_int32)]
                 + [("residual", C.c_double), ("load_factor", C.c_double)])
 
 

@@ -145,9 +145,10 @@ static void defaults(void) {
     CHECK(a.load_factor != a.load_factor && a.frame_steps == 0 && !a.on_frame && !a.user);
     peri_solve_desc_init(&s);
     CHECK(s.method == PERI_METHOD_NEWTON && s.preconditioner == PERI_PRECONDITIONER_MULTILEVEL && s.loose == PERI_LOOSE_REFUSED);
-    CHECK(s.fracture == 1 && s.criticality == 0 && s.tolerance == 0 && s.energy_tolerance == 0 && s.iterations == 20000 && s.newton == 60);
+    CHECK(s.fracture == 1 && s.criticality == 0.98 && s.control == PERI_CONTROL_LOAD && s.tolerance == 0 && s.energy_tolerance == 0);
+    CHECK(s.iterations == 20000 && s.newton == 60);
     CHECK(s.breaks == 100000 && s.load_from != s.load_from && s.load_to == 1 && s.steps == 1 && s.halvings == 8 && s.curve_load == 0);
-    CHECK(s.reserved == 0 && !s.curve && s.curve_rows == 0 && !s.on_iteration && !s.on_step && !s.user);
+    CHECK(!s.curve && s.curve_rows == 0 && !s.on_iteration && !s.on_step && !s.user);
     peri_plan_desc_init(&p);
     CHECK(!p.body && !p.material && p.source == PERI_SOURCE_BOX && p.measure == 0 && p.amount == 1);
     peri_choose_desc_init(&c);

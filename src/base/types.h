@@ -379,6 +379,7 @@ typedef struct peri__floating_part { /* connected points that some rigid motions
 typedef struct peri__multilevel peri__multilevel;
 
 #define PERI_SINGULAR 8 /* in constrained: the bonds of the point resist only in some of the free directions             */
+#define PERI_LOADED 16  /* in constrained: a load acts on the point                                                      */
 
 typedef struct peri__solver { /* what a static solve takes, and gives back at its end                                     */
     peri_body          *body;
@@ -389,10 +390,11 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     peri__tangent       t;
     void               *blocks;   /* real [packed][stride]                                                               */
     void               *before;   /* real [dim][stride] displacement at the last equilibrium; NULL where it is not needed */
+    void               *rate;     /* real [dim][stride] change of the displacement with the load factor; NULL without fracture control */
     void               *from;     /* real [dim][stride] displacement before the last solve; NULL, like the next, without a ledger */
     void               *load;     /* real [dim][stride] force density of loads and reactions then               */
-    uint8_t            *constrained;     /* [points] axes, and PERI_SINGULAR                                             */
-    int32_t            *part_of;  /* [points] part, or -1                                                                */
+    uint8_t            *constrained;     /* [points] axes, PERI_SINGULAR, PERI_LOADED                                    */
+    int32_t            *part_of;  /* [points] part, or less than 0: rigid_modes.c                                        */
     int32_t            *queue;    /* [points] scratch                                                                    */
     peri__floating_part     *parts;
     int64_t             part_count, part_capacity;
@@ -405,12 +407,14 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     double              top;      /* the largest scale of this call                                                      */
     double              widest;   /* the longest way that a constrained component still had to go                        */
     double              floor;    /* |r| that is rounding, of bonds over displacements                                   */
+    double              rough;    /* a tolerance that will do for now: more bonds are to break; else 0                   */
     double              energy0;  /* r.z at the start of this equilibrium                                                */
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
     int32_t             begun;    /* 1: the body has been changed                                                        */
     int32_t             disturbed; /* 1: on_step has changed what acts, or the bonds                                      */
     peri_error          failure;  /* why the last step ended: the body's record only where it is not halved               */
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
+    int64_t             broken_before; /* report.broken when this load step began                                         */
     int64_t             bytes;    /* taken now                                                                           */
     int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
 } peri__solver;

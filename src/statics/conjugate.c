@@ -34,7 +34,7 @@ static size_t peri__vector_bytes(const peri_body *b) { return (size_t)(b->model-
 static void peri__free_solver(peri__solver *s) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
-    void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->from, s->load };
+    void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->rate, s->from, s->load };
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, &b->scratch, vectors[k]);
     peri__delete(&b->scratch, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
     peri__delete(&b->scratch, s->t.change, peri__response_reals(m), peri__bond_real(b));

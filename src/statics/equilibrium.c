@@ -13,7 +13,9 @@ static int32_t peri__fail_step(peri__solver *s, int32_t code, const char *field,
 }
 
 static double peri__solve_tolerance(const peri__solver *s) {
-    return s->settings->tolerance > 0.0 ? s->settings->tolerance : s->body->f32 ? 1e-4 : s->body->b32 ? 1e-5 : 1e-8;
+    const double fit = s->body->f32 ? 1e-4 : s->body->b32 ? 1e-5 : 1e-8;
+    const double tolerance = s->settings->tolerance > 0.0 ? s->settings->tolerance : fit;
+    return tolerance > s->rough ? tolerance : s->rough;
 }
 
 static int32_t peri__take_solver(peri__solver *s) {
@@ -22,7 +24,9 @@ static int32_t peri__take_solver(peri__solver *s) {
     int ok = 1;
     void **vectors[] = { &s->k.d, &s->k.r, &s->k.p, &s->k.q, &s->k.z };
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) ok = ok && (*vectors[k] = peri__take_vector(s)) != NULL;
-    if (!peri__is_linear(b) || s->settings->steps > 1) ok = ok && (s->before = peri__take_vector(s)) != NULL;
+    const int controlled = s->settings->control == PERI_CONTROL_FRACTURE;
+    if (!peri__is_linear(b) || s->settings->steps > 1 || controlled) ok = ok && (s->before = peri__take_vector(s)) != NULL;
+    if (controlled) ok = ok && (s->rate = peri__take_vector(s)) != NULL;
     if (b->desc.ledger) {
         s->from = peri__take_vector(s);
         s->load = peri__take_vector(s);
@@ -136,7 +140,11 @@ static void peri__mark_supports(peri__solver *s) {
     memset(s->constrained, 0, (size_t)b->model->points);
     for (int64_t l = 0; l < b->load_count; ++l) {
         const peri__load *load = &b->loads[l];
+        int acts = load->fn != NULL;
+        for (int32_t d = 0; d < b->dim; ++d) acts = acts || load->constant[d] != 0.0;
+        acts = acts && load->kind == PERI__FORCE;
         for (int64_t k = 0; load->owned && k < load->count; ++k) s->constrained[peri__set_point(b, load->set, k)] |= load->owned[k];
+        for (int64_t k = 0; acts && k < load->count; ++k) s->constrained[peri__set_point(b, load->set, k)] |= PERI_LOADED;
     }
 }
 

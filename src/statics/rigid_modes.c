@@ -11,6 +11,9 @@
 
 #define PERI_RESISTED(b) ((b)->f32 ? 1e-5 : 1e-9) /* stiffness of a point in a direction, over its largest, that counts as some */
 
+/* In part_of: points not looked at, of parts that hold, of the part under way, of parts that broke off and are left where they are. */
+enum { PERI_UNSEEN = -2, PERI_HELD = -1, PERI_UNDER_WAY = -3, PERI_LOST = -4 };
+
 #define PERI_WEIGHTLESS 1e-7 /* of the heaviest bond of a family: w vanishes at the horizon, but for rounding             */
 
 static double peri__place(const peri_body *b, int64_t i, int32_t d) {
@@ -78,7 +81,7 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
         peri__read_row(b, i, &row);
         const double heaviest = peri__heaviest(b, &row);
         for (int64_t k = 0; k < row.count; ++k)
-            if (s->part_of[row.ids[k]] < -1 && peri__is_alive(b, i, k)
+            if (s->part_of[row.ids[k]] == PERI_UNSEEN && peri__is_alive(b, i, k)
                 && fabs(peri__get_real(row.weight, b->b32, k)) + fabs(peri__get_real(row.back, b->b32, k)) > PERI_WEIGHTLESS * heaviest) {
                 s->part_of[row.ids[k]] = mark;
                 s->queue[count++] = row.ids[k];
@@ -240,20 +243,75 @@ static void peri__weigh_modes(peri__solver *s) {
     }
 }
 
+/* Has point i a bond that broke, to a point that is not of the part under way, or to `any`? */
+static int peri__came_off(const peri__solver *s, int64_t i, int any) {
+    const peri_body *b = s->body;
+    const int64_t words = b->model->words;
+    peri__row row;
+    if (!b->alive) return 0;
+    peri__read_row(b, i, &row);
+    for (int64_t k = 0; k < row.count; ++k)
+        if (!peri__is_alive(b, i, k) && (!b->uncut || b->uncut[i * words + k / 32] >> (k % 32) & 1)
+            && (any || s->part_of[row.ids[k]] != PERI_UNDER_WAY))
+            return 1;
+    return 0;
+}
+
+/* Does a load act on point i, a support or an obstacle? */
+static int peri__bears(const peri__solver *s, int64_t i) {
+    const peri_body *b = s->body;
+    double normal[3];
+    int bears = s->constrained[i] != 0;
+    for (int64_t k = 0; k < b->obstacle_count && !bears; ++k) bears = peri__touches(b, &b->obstacles[k], i, normal);
+    return bears;
+}
+
+/* Is the part in s->queue one that broke off, and that nothing acts on? */
+static int peri__broke_off(const peri__solver *s, int64_t count) {
+    int off = 0;
+    for (int64_t n = 0; n < count; ++n) {
+        if (peri__bears(s, s->queue[n])) return 0;
+        off = off || peri__came_off(s, s->queue[n], 0);
+    }
+    return off;
+}
+
+/* In linear geometry the part in s->queue is held by as little as stops its motions, and frees itself of stress. Else it is held as it is:
+   what is left of a torn body may fold in ways that have no equilibrium near. */
+static void peri__leave_part(peri__solver *s, int64_t count, peri__floating_part *part) {
+    const peri_body *b = s->body;
+    const int whole = b->desc.geometry != PERI_GEOMETRY_LINEAR;
+    for (int64_t n = 0; n < count; ++n) {
+        s->part_of[s->queue[n]] = PERI_LOST;
+        if (whole) s->constrained[s->queue[n]] = (uint8_t)(s->constrained[s->queue[n]] | ((1 << b->dim) - 1));
+    }
+    if (!whole) peri__pin(s, count, part);
+    s->report.lost_parts++;
+    s->report.lost_points += count;
+}
+
 /* Finds the floating parts and deals with them as the settings say. s->constrained holds the supports. */
 static int32_t peri__find_floating_parts(peri__solver *s) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
+    const int refused = s->settings->loose == PERI_LOOSE_REFUSED;
+    int held = 0;
     s->part_count = 0;
-    s->report.loose = 0;
-    for (int64_t i = 0; i < m->points; ++i) s->part_of[i] = -2;
+    s->report.loose = s->report.lost_parts = s->report.lost_points = 0;
+    for (int64_t i = 0; i < m->points; ++i) s->part_of[i] = PERI_UNSEEN;
     for (int64_t i = 0; i < m->points; ++i) {
         peri__floating_part part;
-        if (s->part_of[i] > -2) continue;
-        int64_t count = peri__connected(s, i, -1);
+        if (s->part_of[i] != PERI_UNSEEN) continue;
+        int64_t count = peri__connected(s, i, PERI_UNDER_WAY);
         peri__free_modes(s, count, &part);
+        held = held || part.modes == 0;
+        if (part.modes > 0 && refused && peri__broke_off(s, count)) {
+            peri__leave_part(s, count, &part);
+            continue;
+        }
+        for (int64_t n = 0; n < count; ++n) s->part_of[s->queue[n]] = PERI_HELD;
         if (part.modes == 0) continue;
-        if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "loose", i, (double)part.modes);
+        if (refused) return peri__set_error(&s->failure, PERI_ERROR_LOOSE, "loose", i, (double)part.modes);
         s->report.loose += part.modes;
         if (s->settings->loose == PERI_LOOSE_PINNED) {
             peri__pin(s, count, &part);
@@ -264,7 +322,7 @@ static int32_t peri__find_floating_parts(peri__solver *s) {
         for (int64_t n = 0; n < count; ++n) s->part_of[s->queue[n]] = (int32_t)s->part_count;
         s->parts[s->part_count++] = part;
     }
-    return PERI_OK;
+    return refused && !held ? peri__set_error(&s->failure, PERI_ERROR_LOOSE, "loose", 0, (double)(m->dim * (m->dim + 1) / 2)) : PERI_OK;
 }
 
 /* Takes the free modes out of a vector of forces (spread by mass, as inertia would) or of displacements. */
@@ -332,7 +390,8 @@ static int32_t peri__invert_blocks(peri__solver *s) {
             memset(last, 0, sizeof last);
             spanned = 0;
         } else if (spanned < frees) {
-            if (s->settings->loose == PERI_LOOSE_REFUSED) return peri__fail(b, PERI_ERROR_LOOSE, "loose", i, 0.0);
+            if (s->settings->loose == PERI_LOOSE_REFUSED && (s->constrained[i] & PERI_LOADED || !peri__came_off(s, i, 1)))
+                return peri__set_error(&s->failure, PERI_ERROR_LOOSE, "loose", i, 0.0);
             s->constrained[i] |= PERI_SINGULAR;
             s->singular++;
         }

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/* fracture.c - which bonds break at an equilibrium: those over their limit, of them the most overloaded, down to `criticality` of the
+   largest excess. The others may be relieved by what breaks now. */
+#ifndef PERI_IMPL
+#error "a part of peri_impl.c; compile that"
+#endif
+
+#define PERI_EQUAL(b) ((b)->b32 ? 1e-4 : 1e-6) /* excesses that are no further apart are equal: both sides of a symmetric body */
+
+#define PERI_CRITERION_ROLE_EXCESS
+#include "../laws/criteria.inl"
+#undef PERI_CRITERION_ROLE_EXCESS
+
+/* By how much the criterion of bond k of row i is passed, as a ratio that goes with the load factor: stretch over its limit, or the root of
+   an energy over its limit; 0 where the bond is not longer than at rest. */
+static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, int64_t k) {
+    const int64_t j = row->ids[k];
+    const peri__pair *pair = b->point_class ? &b->pairs[b->point_class[i] * b->classes + b->point_class[j]] : b->pairs;
+    double excess = 0.0;
+    if (!(peri__stretch(b, i, row, k) > 0.0)) return 0.0;
+#define PERI_CASE(name, number)                                                                                        \
+    if (pair->limit[(number) - peri__first_criterion] < PERI_NEVER) {                                                  \
+        const double passed = peri__excess_##name(b, i, row, k, pair->limit[(number) - peri__first_criterion]);        \
+        excess = fmax(excess, (int)PERI__SEEN_##name == PERI__BY_STRETCH ? passed : sqrt(passed));                     \
+    }
+    PERI_CRITERION_LIST(PERI_CASE)
+#undef PERI_CASE
+    return excess;
+}
+
+static int peri__may_break(const peri__solver *s) {
+    return s->body->alive && s->body->model->breakable && s->settings->fracture;
+}
+
+/* sums->a: the largest excess, of bonds with j > i. Both directions of a bond are decided by the row of its lower id. */
+static void peri__excess_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri_body *b = (const peri_body *)context;
+    for (int64_t i = begin; i < end; ++i) {
+        peri__row row;
+        peri__read_row(b, i, &row);
+        for (int64_t k = 0; k < row.count; ++k)
+            if (row.ids[k] > i && peri__is_alive(b, i, k)) sums->a = fmax(sums->a, peri__excess(b, &row, i, k));
+    }
+}
+
+static double peri__most_excess(peri_body *b) {
+    const peri__model *m = b->model;
+    double most = 0.0;
+    peri__for_points(b, m->points, 2 * m->width, peri__excess_block, b, b->sums);
+    for (int64_t k = 0; k < m->blocks; ++k) most = fmax(most, b->sums[k].a);
+    return most;
+}
+
+/* Of the bonds whose excess passes `limit` breaks those of `criticality` of the largest, `most`, or more; returns their number. The ledger
+   is up to the caller. */
+static int64_t peri__break_static(peri__solver *s, double most, double limit) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    const double least = s->settings->criticality * most * (1.0 - PERI_EQUAL(b));
+    int64_t count = 0;
+    if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
+    for (int64_t i = 0; i < m->points; ++i) {
+        peri__row row;
+        peri__read_row(b, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            int64_t j = row.ids[k], back;
+            if (j < i || !peri__is_alive(b, i, k)) continue;
+            double excess = peri__excess(b, &row, i, k);
+            if (!(excess > limit && excess >= least)) continue;
+            back = peri__find_bond(m, j, i);
+            b->alive[i * m->words + k / 32] &= ~((uint32_t)1 << (k % 32));
+            b->alive[j * m->words + back / 32] &= ~((uint32_t)1 << (back % 32));
+            count++;
+        }
+    }
+    b->now.broken += 2 * count;
+    s->report.broken += count;
+    peri__changed(b, PERI__BONDS);
+    peri__note_breaks(b, peri__load_time(b));
+    if (b->before) peri__report_breaks(b);
+    return count;
+}
