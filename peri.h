@@ -161,9 +161,17 @@ typedef int32_t (*peri_pair_fn)(void *user, int32_t i, int32_t j, const double *
 typedef int32_t (*peri_load_fn)(void *user, double time, int64_t count, const int32_t *points,
     double *value);
 
-/* Writes the place[dim] of a moving obstacle (of a ball its centre) at `time`, or the motion of a
-   rigid support. > 0: likewise. */
-typedef int32_t (*peri_motion_fn)(void *user, double time, double *place);
+/* Writes where the frame of an obstacle is at `time`: place[dim] [L], and its turn, in 2D an angle
+   turn[1], in 3D a quaternion turn[4] (w x y z). They hold those of the start. > 0: likewise. */
+typedef int32_t (*peri_motion_fn)(void *user, double time, double *place, double *turn);
+
+/* A shape: *distance [L] of x[dim] from its surface, < 0 inside, and there the outward normal[dim],
+   of any length; in the frame of the obstacle */
+typedef int32_t (*peri_distance_fn)(void *user, const double *x, double *distance, double *normal);
+
+/* Writes the motion of a rigid support at `time`. > 0: likewise. */
+typedef int32_t (*peri_rigid_fn)(void *user, double time, double *motion);
+
 
 /* A bond i < j broke by its criterion at `time` [T] and this stretch [-]. Called after the step, in
    ascending (i, j). > 0 ends the run with PERI_STOPPED. */
@@ -515,7 +523,7 @@ PERI_API int32_t peri_prescribe_velocity(peri_body *body, int32_t set, int32_t a
    centre[dim], in 3D a vector along the axis as long as the angle; NULL: 0. The load factor
    multiplies it; or fn writes it (may be NULL). */
 PERI_API int32_t peri_prescribe_rigid(peri_body *body, int32_t set, const double *centre,
-    const double *motion, peri_motion_fn fn, void *user);
+    const double *motion, peri_rigid_fn fn, void *user);
 
 /* Body force density value[dim] [M L^-2 T^-2] on a set; gravity is density times g. */
 PERI_API int32_t peri_apply_body_force(peri_body *body, int32_t set, const double *value,
@@ -553,17 +561,78 @@ PERI_API int32_t peri_get_reaction(peri_body *body, int32_t load, double *force)
 PERI_API int32_t peri_get_reaction_moment(peri_body *body, int32_t load, const double *place,
     double *moment);
 
-/* Rigid obstacles: a point `depth` inside is pushed out along the normal by stiffness*depth [M L^-2
-   T^-2]; stiffness [M L^-3 T^-2], 0 = young/spacing^2. Plane: solid on the side away from `normal`.
-   `motion` (NULL: at rest) moves it. */
-PERI_API int32_t peri_add_plane_obstacle(peri_body *body, const double *place,
-    const double *normal, double stiffness, peri_motion_fn motion, void *user);
-PERI_API int32_t peri_add_ball_obstacle(peri_body *body, const double *centre, double radius,
-    double stiffness, peri_motion_fn motion, void *user);
+typedef enum peri_shape { /* of an obstacle, solid, in its own frame */
+    PERI_SHAPE_PLANE = 2601,    /* all behind the plane through 0 with `normal` */
+    PERI_SHAPE_BALL = 2602,     /* radius; 2D: a disc */
+    PERI_SHAPE_BOX = 2603,      /* size, about 0 */
+    PERI_SHAPE_CAPSULE = 2604,  /* within radius of a line of `length` along `axis`, about 0 */
+    PERI_SHAPE_CYLINDER = 2605, /* 3D: the same with flat ends */
+    PERI_SHAPE_MESH = 2606,     /* within the closed surface of vertices and faces */
+    PERI_SHAPE_DISTANCE = 2607  /* where `distance` is below 0 */
+} peri_shape;
+
+/* Pushes points within it out along the normal by stiffness*depth [M L^-2 T^-2]. A free one (of a
+   mass) is moved by that and by gravity, not by other obstacles. */
+typedef struct peri_obstacle_desc {
+    uint64_t cookie;           /* set by init */
+    int32_t shape;             /* peri_shape, set by init */
+    int32_t reserved;          /* 0 */
+    double place[3];           /* of the frame, and */
+    double turn[4];            /* see peri_motion_fn. Default 0: the frame of the body */
+    double normal[3];          /* of a plane, */
+    double axis[3];            /* of capsule and cylinder, of any length */
+    double radius;             /* [L] > 0; PERI_SHAPE_DISTANCE: all lies within it, 0: unknown */
+    double length;             /* [L] > 0 */
+    double size[3];            /* [L] > 0 */
+    int64_t vertex_count;
+    int64_t face_count;
+    const double *vertices;    /* [vertex_count*dim] [L]; 2D: of a polygon, counter-clockwise */
+    const int32_t *faces;      /* 3D: [face_count*3], counter-clockwise from outside */
+    peri_distance_fn distance;
+    double stiffness;          /* [M L^-3 T^-2]. 0 (default): young/spacing^2 */
+    double friction;           /* mu [-] >= 0, Coulomb. Default 0 */
+    double friction_speed;     /* [L T^-1] >= 0: slower slip is resisted less. 0 (default): 1e-6
+                                  sqrt(young/density) */
+    double restitution;        /* (0, 1], of what is stiff beside the obstacle. Default 1 */
+    double mass;               /* [M] > 0: a free rigid body. Default 0; or */
+    double density;            /* [M L^-3] > 0: likewise. Default 0 */
+    double inertia[3];         /* [M L^2] about the axes of the frame, 2D: inertia[0]; HUGE_VAL:
+                                  never turns. 0 (default): of the shape, uniform */
+    double velocity[3];        /* [L T^-1] of a free one at the start */
+    double spin[3];            /* [T^-1] likewise; 2D: spin[0] */
+    double gravity[3];         /* [L T^-2] of a free one */
+    peri_motion_fn motion;     /* of others. Default NULL: at rest */
+    void *user;                /* of distance and motion */
+} peri_obstacle_desc;
+
+PERI_API void peri_obstacle_desc_init(peri_obstacle_desc *desc, int32_t shape);
+
+/* A mesh is copied, and must be closed. */
+PERI_API int32_t peri_add_obstacle(peri_body *body, const peri_obstacle_desc *desc);
 PERI_API int32_t peri_remove_obstacle(peri_body *body, int32_t obstacle);
 
-/* Force [M L T^-2] of the obstacle on the body now, to force[dim]. */
-PERI_API int32_t peri_get_obstacle_force(peri_body *body, int32_t obstacle, double *force);
+/* On the body: force[dim] [M L T^-2]; moment[3], in 2D [1], [M L^2 T^-2] about its place. Either
+   may be NULL. */
+PERI_API int32_t peri_get_obstacle_force(peri_body *body, int32_t obstacle, double *force,
+    double *moment);
+
+typedef struct peri_obstacle_state { /* of its frame; components beyond dim are 0 */
+    double place[3];
+    double turn[4];
+    double velocity[3]; /* mean of the last step; of a free one now; and */
+    double spin[3];     /* [T^-1] likewise; 2D: spin[0] */
+    double mass;        /* [M] of a free one, else 0 */
+    double kinetic;     /* [M L^2 T^-2] likewise */
+    double stored;      /* [M L^2 T^-2] in its springs */
+    double lost;        /* to friction and restitution since build or reset */
+} peri_obstacle_state;
+
+PERI_API int32_t peri_get_obstacle_state(peri_body *body, int32_t obstacle,
+    peri_obstacle_state *state);
+
+/* Sets place, turn, velocity and spin of a free one. */
+PERI_API int32_t peri_set_obstacle_state(peri_body *body, int32_t obstacle,
+    const peri_obstacle_state *state);
 
 /* ---- contact ---------------------------------------------------------------- */
 

@@ -24,6 +24,7 @@
 #include "src/base/compiler.h"     /* what compilers and machines differ in                                        */
 #include "src/base/enums.h"        /* where the values of each enum begin and end                                     */
 #include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
+#include "src/base/obstacles.h"    /* shapes, places and motion of obstacles                                           */
 #include "src/base/inline.h"       /* what is small and used everywhere                                            */
 #include "src/laws/law.h"          /* what laws differ in, and the list of them                                    */
 #include "src/laws/criteria.h"     /* when bonds break, and the list of criteria                              */
@@ -40,6 +41,8 @@
 #include "src/geometry/points.c"   /* boxes, balls, shapes, arrays    -> points and cells                          */
 #include "src/geometry/overlap.c"  /* disk and polygon, ball and box  -> exact partial areas and volumes           */
 #include "src/geometry/partial_volumes.c"    /* a cell and a horizon            -> the part within                           */
+#include "src/geometry/mesh.c"     /* a closed mesh and a place       -> how deep that is in it                    */
+#include "src/geometry/solids.c"   /* a shape and a place             -> the same; volume, inertia                 */
 
 /* ---- families: who is bonded, with what weight, and where that is kept ----------------- */
 #include "src/families/influence.c"  /* w(q) and its moments                                                       */
@@ -100,13 +103,15 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/sets.c"         /* selections of points                                                         */
 #include "src/body/state.c"        /* units; the force of bonds, energies                                          */
 #include "src/body/loads.c"        /* loads and supports            -> force, work                                 */
+#include "src/body/free_bodies.c"  /* places of obstacles, and how free ones move                                  */
 #include "src/body/obstacles.c"    /* obstacles                     -> force, work                                 */
 #include "src/body/stale.c"        /* a change                      -> what is stale -> up to date again           */
 #include "src/body/sides.c"        /* adjacent points, when their bonds broke                                        */
 #include "src/body/motion.c"       /* displacement and velocity from outside, reset                                */
 #include "src/body/cracks.c"       /* initial cracks, no-fail zones, break events                                  */
 #include "src/body/callbacks.c"    /* how runs begin and end; a body that a callback was left in by a jump          */
-#include "src/body/boundary.c"     /* supports, loads and obstacles, added and removed                             */
+#include "src/body/boundary.c"     /* supports and loads, added and removed                                        */
+#include "src/body/obstacle_desc.c" /* obstacles, added, removed, read and set                                     */
 #include "src/body/touch.c"        /* contact between materials, declared                                          */
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
@@ -120,6 +125,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 /* ---- statics --------------------------------------------------------------------------- */
 #ifndef PERI_NO_STATICS
 #include "src/statics/tangent.c"   /* products with the tangent stiffness, its diagonal                            */
+#include "src/statics/touch.c"     /* obstacles in equilibria: what holds, and what may come to hold              */
 #include "src/statics/rigid_modes.c"     /* parts and points that can move without resistance                            */
 #include "src/statics/grids.c"     /* regular grids: smoothing, V-cycle                                            */
 #include "src/statics/multilevel.c" /* elasticity on coarser grids, as a preconditioner                            */

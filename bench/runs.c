@@ -171,7 +171,7 @@ static void play(bench_run *run, table *t, double speed) {
     static const char *const names[] = { "whole", "breaking", "in pieces" };
     const bench_case c = { PERI_LAW_BOND_BASED, PERI_SPACE_SOLID, PERI_PRECISION_SINGLE, PERI_GEOMETRY_NONLINEAR, 1, 0.02, 0,
                           { 22, 22, 21 }, 3 };
-    const double floor_at[3] = { 0, 0, -0.5 }, up[3] = { 0, 0, 1 }, down[3] = { 0, 0, -speed };
+    const double down[3] = { 0, 0, -speed };
     double best[FRAMES], mean[3] = { 0, 0, 0 }, worst[3] = { 0, 0, 0 }, *rest;
     int64_t broken[FRAMES + 1], frames[3] = { 0, 0, 0 };
     bench_facts facts;
@@ -182,7 +182,11 @@ static void play(bench_run *run, table *t, double speed) {
     rest = doubles(size);
     if (!place) exit(1);
     need(body, peri_get_field(body, PERI_FIELD_POSITION, rest, size));
-    need(body, peri_add_plane_obstacle(body, floor_at, up, 0.0, NULL, NULL));
+    peri_obstacle_desc ground;
+    peri_obstacle_desc_init(&ground, PERI_SHAPE_PLANE);
+    ground.place[2] = -0.5;
+    ground.normal[2] = 1;
+    need(body, peri_add_obstacle(body, &ground));
     for (int k = 0; k < FRAMES; ++k) best[k] = 1e300;
     for (int64_t r = 0; r < run->repeats; ++r) {
         need(body, peri_reset(body));

@@ -146,10 +146,10 @@ static void add_acts(const scene *s, peri_body *b, const frame *f, acting *a) {
     a->load = add_load(s, b, f, &a->own);
     placed(s, f, s->ball, place);
     if (s->has_ball)
-        a->ball = (int32_t)MUST(b, peri_add_ball_obstacle(b, place, s->ball_radius * s->spacing * f->length, hard, NULL, NULL));
+        a->ball = (int32_t)MUST(b, ball_obstacle(b, place, s->ball_radius * s->spacing * f->length, hard, NULL, NULL));
     placed(s, f, s->plane, place);
     turned(f, s->dim, 1, s->plane_normal, normal);
-    if (s->has_plane) a->plane = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, hard, NULL, NULL));
+    if (s->has_plane) a->plane = (int32_t)MUST(b, plane_obstacle(b, place, normal, hard, NULL, NULL));
 }
 
 /* ---- two bodies ---------------------------------------------------------------------------------------------------- */
@@ -251,8 +251,8 @@ static void reactions_agree(const pair *t) {
     for (int k = 0; k < 2; ++k) {
         const int32_t own = k ? t->acts.plane : t->acts.ball, other = k ? t->other_acts.plane : t->other_acts.ball;
         if (!own) continue;
-        MUST(t->body, peri_get_obstacle_force(t->body, own, a));
-        MUST(t->other, peri_get_obstacle_force(t->other, other, b));
+        MUST(t->body, peri_get_obstacle_force(t->body, own, a, NULL));
+        MUST(t->other, peri_get_obstacle_force(t->other, other, b, NULL));
         vector_agrees(t, a, b, unit, bound, "force of an obstacle");
     }
 }

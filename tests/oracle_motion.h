@@ -12,7 +12,8 @@ typedef struct place { /* of an obstacle: the middle of a ball, a place of a pla
     int    dim;
 } place;
 
-static int32_t ride(void *user, double time, double *where) {
+static int32_t ride(void *user, double time, double *where, double *turn) {
+    (void)turn;
     const place *own = (const place *)user;
     for (int d = 0; d < own->dim; ++d) where[d] = own->at[d] + time * own->velocity[d];
     return 0;
@@ -40,9 +41,9 @@ static void set_out(march *m, scene *s, const double *velocity, int obstacles) {
     placed(s, &f, s->plane, m->plane.at);
     for (int d = 0; velocity && d < s->dim; ++d) m->ball.velocity[d] = m->plane.velocity[d] = velocity[d];
     if (obstacles && s->has_ball)
-        MUST(m->body, peri_add_ball_obstacle(m->body, m->ball.at, s->ball_radius * s->spacing, 0, ride, &m->ball));
+        MUST(m->body, ball_obstacle(m->body, m->ball.at, s->ball_radius * s->spacing, 0, ride, &m->ball));
     if (obstacles && s->has_plane)
-        MUST(m->body, peri_add_plane_obstacle(m->body, m->plane.at, s->plane_normal, 0, ride, &m->plane));
+        MUST(m->body, plane_obstacle(m->body, m->plane.at, s->plane_normal, 0, ride, &m->plane));
     m->dt = fmin(m->dt, 0.7 * peri_stable_step(m->body));
     m->stiff = stiffness(m->body);
     for (int64_t k = 0; k < s->dofs; ++k) m->v[k] = m->speed * s->v[k] + (velocity ? velocity[k % s->dim] : 0);
@@ -198,7 +199,7 @@ static void force_from_outside(const march *m, const acting *a, double *loads, d
     for (int k = 0; k < 2; ++k) {
         const int32_t id = k ? a->plane : a->ball;
         if (!id) continue;
-        MUST(m->body, peri_get_obstacle_force(m->body, id, push));
+        MUST(m->body, peri_get_obstacle_force(m->body, id, push, NULL));
         for (int d = 0; d < m->s->dim; ++d) obstacles[d] += push[d];
     }
 }

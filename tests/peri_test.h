@@ -126,4 +126,31 @@ static inline int32_t note_time(void *user, double time, int64_t count, const in
     return 0;
 }
 
+/* The obstacles that most tests want: smooth, at rest or where `motion` says. NULL vectors: no descriptor. */
+static inline int32_t plane_obstacle(peri_body *body, const double *place, const double *normal, double stiffness, peri_motion_fn motion,
+                                     void *user) {
+    peri_obstacle_desc desc;
+    if (!place || !normal) return peri_add_obstacle(body, NULL);
+    peri_obstacle_desc_init(&desc, PERI_SHAPE_PLANE);
+    memcpy(desc.place, place, (size_t)peri_dimension(body) * sizeof *place);
+    memcpy(desc.normal, normal, (size_t)peri_dimension(body) * sizeof *normal);
+    desc.stiffness = stiffness;
+    desc.motion = motion;
+    desc.user = user;
+    return peri_add_obstacle(body, &desc);
+}
+
+static inline int32_t ball_obstacle(peri_body *body, const double *centre, double radius, double stiffness, peri_motion_fn motion,
+                                    void *user) {
+    peri_obstacle_desc desc;
+    if (!centre) return peri_add_obstacle(body, NULL);
+    peri_obstacle_desc_init(&desc, PERI_SHAPE_BALL);
+    memcpy(desc.place, centre, (size_t)peri_dimension(body) * sizeof *centre);
+    desc.radius = radius;
+    desc.stiffness = stiffness;
+    desc.motion = motion;
+    desc.user = user;
+    return peri_add_obstacle(body, &desc);
+}
+
 #endif

@@ -320,9 +320,10 @@ static int32_t on_load(void *user, double time, int64_t count, const int32_t *po
 
 enum { MOVE_RESTS, MOVE_SWINGS, MOVE_MEDDLES, MOVE_FAILS, MOVE_KINDS };
 
-static int32_t on_motion(void *user, double time, double *where) {
+static int32_t on_motion(void *user, double time, double *where, double *turn) {
     const hook *h = (const hook *)user;
     if (h->kind == MOVE_SWINGS) where[0] += h->size * sin(time);
+    if (h->kind == MOVE_SWINGS) turn[0] += sin(time);
     if (h->kind == MOVE_MEDDLES) meddle(h->p);
     if (h->kind == MOVE_FAILS && time > 0.0) where[0] = (double)NAN;
     return 0;

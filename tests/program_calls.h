@@ -236,13 +236,27 @@ static int64_t some_obstacle(program *p, int s) {
     const int kind = draw(p), moves = draw(p) % 3 == 0;
     const double stiffness = kind / 2 % 2 ? 0.0 : o->stress / (o->length * o->length) * number(p, 0.0, 2.0);
     hook *h = moves ? new_hook(p, s, MOVE_KINDS) : NULL;
-    double x[3], n[3];
+    double x[3] = {0, 0, 0}, n[3] = {0, 0, 0};
     place(p, o, x);
     vector(p, 1.0, n);
     if (moves) h->size *= 0.1 * o->length;
-    if (kind % 2) return CALL(p, s, peri_add_plane_obstacle(o->body, GIVEN(0, x), GIVEN(1, n), stiffness, moves ? on_motion : NULL, h));
-    return CALL(p, s, peri_add_ball_obstacle(o->body, GIVEN(0, x), number(p, 0.5 * o->length, 3.0 * o->length), stiffness,
-                                             moves ? on_motion : NULL, h));
+    static const int32_t shapes[4] = {PERI_SHAPE_BALL, PERI_SHAPE_BALL, PERI_SHAPE_BOX, PERI_SHAPE_CAPSULE};
+    peri_obstacle_desc d;
+    peri_obstacle_desc_init(&d, kind % 2 ? PERI_SHAPE_PLANE : shapes[kind / 32 % 4]);
+    memcpy(d.place, x, (size_t)o->dim * sizeof *x);
+    for (int k = 0; k < o->dim; ++k) {
+        d.normal[k] = d.axis[k] = n[k];
+        d.size[k] = 3.0 * o->length;
+    }
+    d.length = 2.0 * o->length;
+    d.radius = kind % 2 ? 0.0 : number(p, 0.5 * o->length, 3.0 * o->length);
+    d.stiffness = stiffness;
+    d.motion = moves ? on_motion : NULL;
+    d.user = h;
+    if (kind / 4 % 4 == 1) d.friction = 0.5;
+    if (kind / 4 % 4 == 2) d.restitution = 0.5;
+    if (kind / 4 % 4 == 3 && !moves) d.density = o->density; /* of a plane: refused */
+    return CALL(p, s, peri_add_obstacle(o->body, GIVEN(0, &d)));
 }
 
 static int64_t add_obstacle(program *p, int s) {
@@ -263,7 +277,7 @@ static int64_t look_at_forces(program *p, int s) {
     const int of_load = draw(p) % 2;
     const int32_t id = some_id(p, s, of_load ? PERI_KIND_LOAD : PERI_KIND_OBSTACLE);
     const int64_t status = of_load ? CALL(p, s, peri_get_reaction(o->body, id, GIVEN(0, force)))
-                                   : CALL(p, s, peri_get_obstacle_force(o->body, id, GIVEN(1, force)));
+                                   : CALL(p, s, peri_get_obstacle_force(o->body, id, GIVEN(1, force), NULL));
     if (status == PERI_OK && !o->lost && !o->wild) HOLDS(p, finite_all(force, o->dim));
     return status;
 }

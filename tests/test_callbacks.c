@@ -66,8 +66,8 @@ static int32_t still(void *user, double time, int64_t count, const int32_t *poin
     (void)user, (void)time, (void)count, (void)points, (void)value;
     return say(SUPPORT);
 }
-static int32_t motion(void *user, double time, double *place) {
-    (void)user;
+static int32_t motion(void *user, double time, double *place, double *turn) {
+    (void)user, (void)turn;
     place[1] = -0.52 + 0.04 * rate * time;
     return say(MOTION);
 }
@@ -163,7 +163,7 @@ static void equip(peri_body *b) {
     MUST(b, peri_set_no_fail(b, grip[0], 1));
     MUST(b, peri_set_no_fail(b, grip[1], 1));
     MUST(b, peri_apply_body_force(b, PERI_ALL, NULL, load, NULL));
-    MUST(b, peri_add_plane_obstacle(b, below, up, 0.1, motion, NULL));
+    MUST(b, plane_obstacle(b, below, up, 0.1, motion, NULL));
     MUST(b, peri_on_break(b, on_break, NULL));
 }
 static peri_body *whole(int form) {
@@ -264,7 +264,7 @@ static int64_t call(peri_body *b, int which) {
     case HISTORY: return peri_export_history_to(b, 1, write_bytes, NULL);
     case FORCE: return peri_get_field(b, PERI_FIELD_FORCE_DENSITY, x, 2 * 112);
     case REACTION: return peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, 3), f);
-    case PUSH: return peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, 1), f);
+    case PUSH: return peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, 1), f, NULL);
     case VIEW: return peri_view_field(b, PERI_FIELD_REACTION, &view);
     case MATRIX: {
         const int32_t made = peri_matrix_create(b, &matrix);

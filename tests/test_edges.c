@@ -152,7 +152,7 @@ static void callbacks_before_build(void) {
 
 static int32_t add_stiff_plane(void *user, peri_body *b) {
     const double place[2] = {0, -5}, normal[2] = {0, 1};
-    if (peri_step_count(b) == 5) *(int32_t *)user = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, 1e3, NULL, NULL));
+    if (peri_step_count(b) == 5) *(int32_t *)user = (int32_t)MUST(b, plane_obstacle(b, place, normal, 1e3, NULL, NULL));
     return 0;
 }
 

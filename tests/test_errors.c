@@ -317,7 +317,7 @@ static peri_body *tell(int wrong) {
     if (wrong) wrong_loads(b, left);
     CHECK(PERI_ID_INDEX(MUST(b, peri_prescribe_displacement(b, left, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL))) == 1);
     CHECK(PERI_ID_INDEX(MUST(b, peri_apply_body_force(b, PERI_ALL, pull, NULL, NULL))) == 2);
-    CHECK(PERI_ID_INDEX(MUST(b, peri_add_plane_obstacle(b, lo, up, 0, NULL, NULL))) == 1);
+    CHECK(PERI_ID_INDEX(MUST(b, plane_obstacle(b, lo, up, 0, NULL, NULL))) == 1);
     if (wrong) wrong_runs_and_reads(b, mat);
     peri_advance_desc_init(&r);
     r.steps = 60;

@@ -114,8 +114,8 @@ static int32_t swaying(void *user, double time, int64_t count, const int32_t *po
     for (i = 0; i < count; ++i) value[2 * i + 1] = 0.03 * sin(2.5 * time);
     return 0;
 }
-static int32_t heaving(void *user, double time, double *place) {
-    (void)user;
+static int32_t heaving(void *user, double time, double *place, double *turn) {
+    (void)user, (void)turn;
     place[1] = H + 0.01 * sin(2 * time);
     return 0;
 }
@@ -166,8 +166,8 @@ static watch run_ledger(int what, int integrator, int64_t n) {
     }
     if (what & DAMPED) r.damping = 1.5;
     /* a soft plane through the lowest row's cells' upper faces: that row is in it all the time, no other ever is */
-    if (what & PLANE) (void)MUST(b, peri_add_plane_obstacle(b, place, up, 0.5, heaving, NULL));
-    if (what & BALL) (void)MUST(b, peri_add_ball_obstacle(b, centre, 0.6, 0.5, NULL, NULL)); /* some in, some out */
+    if (what & PLANE) (void)MUST(b, plane_obstacle(b, place, up, 0.5, heaving, NULL));
+    if (what & BALL) (void)MUST(b, ball_obstacle(b, centre, 0.6, 0.5, NULL, NULL)); /* some in, some out */
     r.integrator = integrator;
     r.steps = n;
     r.time_step = 1.6 / (double)n;
@@ -260,7 +260,7 @@ static void without_a_ledger(void) {
         b = specimen_make(&s);
         (void)MUST(b, peri_apply_body_force(b, strip(b, 6 * H, 12 * H), b2, NULL, NULL));
         (void)MUST(b, peri_prescribe_velocity(b, strip(b, 0, 2 * H), PERI_AXIS_X | PERI_AXIS_Y, NULL, swaying, NULL));
-        (void)MUST(b, peri_add_plane_obstacle(b, corner, up, 0, NULL, NULL));
+        (void)MUST(b, plane_obstacle(b, corner, up, 0, NULL, NULL));
         (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 60, 0, 0.1);
         CHECK(peri_broken_count(b) > 5);
         (void)MUST(b, peri_get_energy(b, &e[k]));

@@ -16,12 +16,12 @@ typedef struct group {
 } group;
 
 #define GROUP(name) {#name, peri__first_##name, peri__end_##name, peri__count_##name}
-#define GROUPS      24
+#define GROUPS      25
 static const group groups[GROUPS] = {
     GROUP(status),      GROUP(space),      GROUP(precision), GROUP(geometry),     GROUP(influence), GROUP(quadrature), GROUP(break_timing),
     GROUP(correction),  GROUP(kernel),     GROUP(law),       GROUP(instructions), GROUP(criterion), GROUP(integrator), GROUP(method),
     GROUP(preconditioner), GROUP(loose),   GROUP(type),      GROUP(source),       GROUP(quantity),  GROUP(preset),     GROUP(field),
-    GROUP(standing),    GROUP(kind),       GROUP(moments)};
+    GROUP(standing),    GROUP(kind),       GROUP(moments),   GROUP(shape)};
 
 static int group_of(const char *name) {
     for (int k = 0; k < GROUPS; ++k)
@@ -292,6 +292,9 @@ static void other_choices_are_refused(void) {
     BEYOND(st, method, peri_solve(b, &st, NULL));
     BEYOND(st, preconditioner, peri_solve(b, &st, NULL));
     BEYOND(st, loose, peri_solve(b, &st, NULL));
+    peri_obstacle_desc obstacle;
+    peri_obstacle_desc_init(&obstacle, PERI_SHAPE_BALL);
+    BEYOND(obstacle, shape, peri_add_obstacle(b, &obstacle));
     for (int k = 0; k < 3; ++k) {
         const int32_t standings[3] = {1, peri__first_standing - 1, peri__end_standing};
         const int32_t kinds[3] = {1, peri__first_kind - 1, peri__end_kind};

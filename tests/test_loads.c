@@ -416,7 +416,8 @@ static int32_t spoil(void *user, double time, int64_t count, const int32_t *poin
     if (time >= *when && count > 1) value[2 * 1 + 1] = NAN;
     return 0;
 }
-static int32_t spoil_motion(void *user, double time, double *place) {
+static int32_t spoil_motion(void *user, double time, double *place, double *turn) {
+    (void)turn;
     if (time >= *(const double *)user) place[0] = HUGE_VAL;
     return 0;
 }
@@ -438,7 +439,7 @@ static void callbacks_that_write_nan(void) {
         if (k == 0) load = peri_apply_layer_traction(b, set, 1, origin, spoil, &when);
         if (k == 1) load = peri_prescribe_velocity(b, set, PERI_AXIS_Y, NULL, spoil, &when);
         if (k == 2) load = peri_prescribe_displacement(b, set, PERI_AXIS_Y, NULL, spoil, &when);
-        if (k == 3) (void)MUST(b, peri_add_plane_obstacle(b, below, up, 0, spoil_motion, &when));
+        if (k == 3) (void)MUST(b, plane_obstacle(b, below, up, 0, spoil_motion, &when));
         CHECK(peri_advance(b, &r) == PERI_ERROR_CALLBACK);
         CHECK(peri_get_error(b, &e) == PERI_OK && e.code == PERI_ERROR_CALLBACK && e.text && e.field);
         if (k < 3) CHECK(e.index == 9);
@@ -461,8 +462,8 @@ static void obstacle_force_by_brute_force(void) {
     for (kind = 0; kind < 2; ++kind) {
         peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 10, 6, 1);
         double *u = random_field(120, 0.3 * H, 9), *x, stiffness = kind ? 40 : YOUNG / (H * H), want[2] = {0, 0}, got[2], sum[2];
-        int32_t id = (int32_t)MUST(b, kind ? peri_add_ball_obstacle(b, centre, radius, stiffness, NULL, NULL)
-                                           : peri_add_plane_obstacle(b, place, normal, 0, NULL, NULL));
+        int32_t id = (int32_t)MUST(b, kind ? ball_obstacle(b, centre, radius, stiffness, NULL, NULL)
+                                           : plane_obstacle(b, place, normal, 0, NULL, NULL));
         int touched = 0;
         put(b, PERI_FIELD_DISPLACEMENT, u);
         x = get(b, PERI_FIELD_CURRENT_POSITION);
@@ -476,7 +477,7 @@ static void obstacle_force_by_brute_force(void) {
             want[1] += stiffness * depth * ny * H * H * THICK;
         }
         CHECK(touched >= 3 && touched < 60);
-        (void)MUST(b, peri_get_obstacle_force(b, id, got));
+        (void)MUST(b, peri_get_obstacle_force(b, id, got, NULL));
         resultant(b, PERI_SPACE_PLANE_STRESS, sum); /* the bonds' own forces cancel in the sum */
         for (k = 0; k < 2; ++k) {
             CHECK_NEAR(got[k], want[k], 1e-12, 1e-14);
@@ -505,13 +506,13 @@ static void a_disc_bounces(void) {
     peri_body *b = disc(PERI_PRECISION_DOUBLE);
     double p0[2], p1[2], f[2];
     peri_energy e;
-    int32_t plane = (int32_t)MUST(b, peri_add_plane_obstacle(b, origin, up, 3, NULL, NULL));
+    int32_t plane = (int32_t)MUST(b, plane_obstacle(b, origin, up, 3, NULL, NULL));
     int touched = 0, k;
     (void)MUST(b, peri_add_velocity(b, PERI_ALL, v0));
     (void)MUST(b, peri_get_momentum(b, p0, NULL));
     for (k = 0; k < 25; ++k) {
         (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 50, 0.02, 0);
-        (void)MUST(b, peri_get_obstacle_force(b, plane, f));
+        (void)MUST(b, peri_get_obstacle_force(b, plane, f, NULL));
         CHECK(f[0] == 0 && f[1] >= 0);
         if (f[1] > 0) touched++;
     }
@@ -529,7 +530,8 @@ static void a_disc_bounces(void) {
 }
 
 /* Places: y = 0.01 t - 0.02 (plane); z = 0.01 t - 1.02 (ball of radius 1). */
-static int32_t rise(void *user, double time, double *place) {
+static int32_t rise(void *user, double time, double *place, double *turn) {
+    (void)turn;
     place[*(const int *)user] = 0.01 * time - (*(const int *)user == 2 ? 1.02 : 0.02);
     return 0;
 }
@@ -553,10 +555,10 @@ static void moving_obstacles_push(void) {
             (void)MUST(b, peri_add_box(b, unbreakable(b, YOUNG, DENSITY), lo, hi, H));
             (void)MUST(b, peri_build(b));
         }
-        id = (int32_t)MUST(b, dim == 2 ? peri_add_plane_obstacle(b, under, up, 3, rise, &axis)
-                                       : peri_add_ball_obstacle(b, under, 1, 4, rise, &axis));
+        id = (int32_t)MUST(b, dim == 2 ? plane_obstacle(b, under, up, 3, rise, &axis)
+                                       : ball_obstacle(b, under, 1, 4, rise, &axis));
         (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 1250, 0.02, 0);
-        (void)MUST(b, peri_get_obstacle_force(b, id, f));
+        (void)MUST(b, peri_get_obstacle_force(b, id, f, NULL));
         (void)MUST(b, peri_get_momentum(b, p, l));
         (void)MUST(b, peri_get_energy(b, &e));
         vol = get(b, PERI_FIELD_VOLUME);

@@ -495,9 +495,9 @@ static int32_t jump(void *user, double time, int64_t count, const int32_t *point
     if (time > 0.6) value[count] = *(const double *)user;
     return 0;
 }
-static int32_t wander(void *user, double time, double *place) {
+static int32_t wander(void *user, double time, double *place, double *turn) {
     if (time > 0.6) place[1] = *(const double *)user;
-    return 0;
+    return (void)turn, 0;
 }
 static void nan_from_callbacks(void) {
     int32_t geometry;
@@ -515,7 +515,7 @@ static void nan_from_callbacks(void) {
             if (who == 0) id = (int32_t)MUST(p.body, peri_apply_body_force(p.body, slab(p.body, 0, 6 * H, 9 * H), NULL, jump, &bad));
             if (who == 1)
                 id = (int32_t)MUST(p.body, peri_prescribe_displacement(p.body, slab(p.body, 0, 0, H), PERI_AXIS_XY, NULL, jump, &bad));
-            if (who == 2) id = (int32_t)MUST(p.body, peri_add_plane_obstacle(p.body, at, up, 0, wander, &bad));
+            if (who == 2) id = (int32_t)MUST(p.body, plane_obstacle(p.body, at, up, 0, wander, &bad));
             CHECK(peri_solve(p.body, &st, &r) == PERI_ERROR_CALLBACK);
             CHECK(peri_get_error(p.body, &e) == PERI_OK && e.code == PERI_ERROR_CALLBACK);
             CHECK(r.steps == 2 && r.load_factor == 0.5);

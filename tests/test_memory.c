@@ -200,8 +200,8 @@ static int64_t live(life *l, int step) {
     case 17: return l->support = peri_prescribe_displacement(l->body, l->set, PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL);
     case 18: return l->load = peri_apply_layer_traction(l->body, peri_find_set(l->body, "middle"), 0.2, v, lift, &l->dim);
     case 19: return peri_apply_body_force(l->body, PERI_ALL, v, NULL, NULL);
-    case 20: return peri_add_plane_obstacle(l->body, lo, up, 0, NULL, NULL);
-    case 21: return peri_add_ball_obstacle(l->body, far, l->dim == 2 ? 1.07 : 1.5, 0, NULL, NULL);
+    case 20: return plane_obstacle(l->body, lo, up, 0, NULL, NULL);
+    case 21: return ball_obstacle(l->body, far, l->dim == 2 ? 1.07 : 1.5, 0, NULL, NULL);
     case 22: return advance(l, l->body, 20, 0);
     case 23: return readings(l);
     case 24: return all_views(l);
@@ -403,9 +403,9 @@ static void null_body_everywhere(void) {
     NO(peri_apply_layer_traction(NULL, PERI_ALL, 1, d, NULL, NULL));
     NO(peri_remove_load(NULL, 0));
     NO(peri_get_reaction(NULL, 0, d));
-    NO(peri_add_plane_obstacle(NULL, d, d, 0, NULL, NULL));
-    NO(peri_add_ball_obstacle(NULL, d, 1, 0, NULL, NULL));
-    NO(peri_get_obstacle_force(NULL, 0, d));
+    NO(plane_obstacle(NULL, d, d, 0, NULL, NULL));
+    NO(ball_obstacle(NULL, d, 1, 0, NULL, NULL));
+    NO(peri_get_obstacle_force(NULL, 0, d, NULL));
     NO(peri_advance(NULL, &r));
     NO(peri_size_of_field(NULL, PERI_FIELD_VELOCITY));
     NO(peri_get_field(NULL, PERI_FIELD_VELOCITY, d, 8));

@@ -26,6 +26,8 @@ static peri_solve_desc solve_desc, *sd = &solve_desc;
 static peri_plan_desc plan_desc, *pd = &plan_desc;
 static peri_choose_desc choose_desc, *cd = &choose_desc;
 static peri_contact_desc contact_desc, *kd = &contact_desc;
+static peri_obstacle_desc obstacle_desc, *od = &obstacle_desc;
+static peri_obstacle_state placed, *state = &placed;
 
 static int32_t take_all(void *user, int64_t index, const double *x) {
     (void)user, (void)index, (void)x;
@@ -73,6 +75,9 @@ static void good_settings(void) {
     cd->quantity = PERI_QUANTITY_DEFORMATION;
     cd->feature = 1;
     cd->hi[0] = cd->hi[1] = 6;
+    peri_obstacle_desc_init(od, PERI_SHAPE_PLANE);
+    od->place[1] = -1;
+    od->normal[1] = 1;
 }
 
 static peri_body *begin(int32_t number, int32_t space, int32_t *id) {
@@ -91,13 +96,13 @@ static peri_body *build(int32_t number, int32_t space, int32_t *id) {
     return body;
 }
 static void load_body(peri_body *body, int32_t *its) { /* a set, a load, a support, an obstacle; a load and an obstacle that are gone */
-    const double left[2] = {2, 4}, below[2] = {0, -1};
+    const double left[2] = {2, 4};
     its[0] = (int32_t)MUST(body, peri_select_box(body, "left", lo, left));
     its[1] = (int32_t)MUST(body, peri_apply_body_force(body, its[0], small, NULL, NULL));
     its[2] = (int32_t)MUST(body, peri_prescribe_velocity(body, its[0], PERI_AXIS_X, NULL, NULL, NULL));
-    its[3] = (int32_t)MUST(body, peri_add_plane_obstacle(body, below, up, 0, NULL, NULL));
+    its[3] = (int32_t)MUST(body, peri_add_obstacle(body, od));
     its[4] = (int32_t)MUST(body, peri_apply_body_force(body, PERI_ALL, small, NULL, NULL));
-    its[5] = (int32_t)MUST(body, peri_add_plane_obstacle(body, below, up, 0, NULL, NULL));
+    its[5] = (int32_t)MUST(body, peri_add_obstacle(body, od));
     MUST(body, peri_remove_load(body, its[4]));
     MUST(body, peri_remove_obstacle(body, its[5]));
 }

@@ -81,6 +81,7 @@ class Scene:
             choice=types["peri_choose_report"](), view=types["peri_view"](), bd=types["peri_body_desc"](),
             md=types["peri_material_desc"](), ad=types["peri_advance_desc"](), sd=types["peri_solve_desc"](),
             pd=types["peri_plan_desc"](), cd=types["peri_choose_desc"](), kd=types["peri_contact_desc"](),
+            od=types["peri_obstacle_desc"](), state=types["peri_obstacle_state"](),
             take_all=callback(lambda user, index, x: 1, *point), take_none=callback(lambda user, index, x: 0, *point),
             fail_point=callback(lambda user, index, x: -7 if index == 5 else 1, *point),
             cut_all=callback(lambda user, i, j, xi, xj: 1, *pair),
@@ -124,6 +125,8 @@ class Scene:
         self.lib.peri_choose_desc_init(C.addressof(n["cd"]))
         n["cd"].preset, n["cd"].quantity = c["PERI_PRESET_TEACHING"], c["PERI_QUANTITY_DEFORMATION"]
         n["cd"].feature, n["cd"].hi[0], n["cd"].hi[1] = 1, 6, 6
+        self.lib.peri_obstacle_desc_init(C.addressof(n["od"]), c["PERI_SHAPE_PLANE"])
+        n["od"].place[1], n["od"].normal[1] = -1, 1
 
     def begin(self, number, space):
         body = C.c_void_p()
@@ -140,13 +143,13 @@ class Scene:
         return body, material
 
     def load_body(self, body):
-        left, below = (C.c_double * 2)(2, 4), (C.c_double * 2)(0, -1)
+        left = (C.c_double * 2)(2, 4)
         its = [self.must("peri_select_box(body, 'left', lo, left)", body=body, left=left)]
         its.append(self.must("peri_apply_body_force(body, set, small, NULL, NULL)", body=body, set=its[0]))
         its.append(self.must("peri_prescribe_velocity(body, set, PERI_AXIS_X, NULL, NULL, NULL)", body=body, set=its[0]))
-        its.append(self.must("peri_add_plane_obstacle(body, below, up, 0, NULL, NULL)", body=body, below=below))
+        its.append(self.must("peri_add_obstacle(body, od)", body=body))
         its.append(self.must("peri_apply_body_force(body, PERI_ALL, small, NULL, NULL)", body=body))
-        its.append(self.must("peri_add_plane_obstacle(body, below, up, 0, NULL, NULL)", body=body, below=below))
+        its.append(self.must("peri_add_obstacle(body, od)", body=body))
         self.must("peri_remove_load(body, load)", body=body, load=its[4])
         self.must("peri_remove_obstacle(body, wall)", body=body, wall=its[5])
         return its

@@ -293,7 +293,7 @@ static void grow(scene *s, int families) {
     (void)MUST(s->body, peri_prescribe_displacement(s->body, left, PERI_AXIS_X, NULL, twist, NULL));
     (void)MUST(s->body, peri_apply_body_force(s->body, PERI_ALL, up, twist, NULL));
     if (s->desc.quadrature != PERI_QUADRATURE_PARTIAL_CENTROID) (void)MUST(s->body, peri_apply_pressure(s->body, left, 0.01, NULL, NULL));
-    (void)MUST(s->body, peri_add_plane_obstacle(s->body, far, up, 0, NULL, NULL));
+    (void)MUST(s->body, plane_obstacle(s->body, far, up, 0, NULL, NULL));
     m = HELD(s);
     CHECK(m.loads > before.loads && m.damage == before.damage && m.laws == before.laws && m.state == before.state);
     before = m;

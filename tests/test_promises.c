@@ -87,8 +87,8 @@ static void described_bodies(void) {
         NOT_YET(peri_apply_layer_traction(b, PERI_ALL, 1, v, NULL, NULL));
         NOT_YET(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL));
         NOT_YET(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL));
-        NOT_YET(peri_add_plane_obstacle(b, lo3, v, 0, NULL, NULL));
-        NOT_YET(peri_add_ball_obstacle(b, lo3, 1, 0, NULL, NULL));
+        NOT_YET(plane_obstacle(b, lo3, v, 0, NULL, NULL));
+        NOT_YET(ball_obstacle(b, lo3, 1, 0, NULL, NULL));
         NOT_YET(peri_advance(b, &a));
         NOT_YET(peri_solve(b, &st, NULL));
         NOT_YET(peri_multiply_stiffness(b, out, out, 64));
@@ -375,7 +375,7 @@ static void layout_of_ids(void) {
         MUST(b, peri_build(b));
         for (int k = 0; k < 3; ++k) {
             id[1][k] = (int32_t)MUST(b, peri_select_box(b, NULL, lo3, hi));
-            id[3][k] = (int32_t)MUST(b, peri_add_plane_obstacle(b, far_, v, 0, NULL, NULL));
+            id[3][k] = (int32_t)MUST(b, plane_obstacle(b, far_, v, 0, NULL, NULL));
         }
         id[2][0] = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, v, NULL, NULL));
         id[2][1] = load = (int32_t)MUST(b, peri_prescribe_velocity(b, PERI_ALL, PERI_AXIS_X, NULL, NULL, NULL)); /* supports are loads */

@@ -485,12 +485,12 @@ static void limits_of_starts(void) {
                 MUST(b, peri_add_velocity(b, PERI_ALL, slow));
                 REFUSE(b, PERI_ERROR_RANGE, peri_add_velocity(b, PERI_ALL, fast));
                 const double near_ball[2] = {0.45e15, 0}, far_ball[2] = {0.55e15, 0}, farther[2] = {1e30, 0}, up[2] = {0, 1};
-                MUST(b, peri_add_ball_obstacle(b, near_ball, 1, 1, NULL, NULL));
-                REFUSE(b, PERI_ERROR_RANGE, peri_add_ball_obstacle(b, far_ball, 1, 1, NULL, NULL));
-                FIELD_IS("centre");
-                REFUSE(b, PERI_ERROR_RANGE, peri_add_ball_obstacle(b, near_ball, 0.55e15, 1, NULL, NULL));
+                MUST(b, ball_obstacle(b, near_ball, 1, 1, NULL, NULL));
+                REFUSE(b, PERI_ERROR_RANGE, ball_obstacle(b, far_ball, 1, 1, NULL, NULL));
+                FIELD_IS("place");
+                REFUSE(b, PERI_ERROR_RANGE, ball_obstacle(b, near_ball, 0.55e15, 1, NULL, NULL));
                 FIELD_IS("radius");
-                MUST(b, peri_add_plane_obstacle(b, farther, up, 1, NULL, NULL));
+                MUST(b, plane_obstacle(b, farther, up, 1, NULL, NULL));
                 peri_body_destroy(b);
             }
 }

@@ -52,7 +52,7 @@ static int lesser_changes(peri_body *b, int32_t code) {
     TRY(peri_on_break(b, NULL, NULL));
     TRY(peri_apply_body_force(b, PERI_ALL, v, NULL, NULL));
     TRY(peri_prescribe_velocity(b, PERI_ALL, PERI_AXIS_Y, NULL, NULL, NULL));
-    TRY(peri_add_plane_obstacle(b, far_, up, 1, NULL, NULL));
+    TRY(plane_obstacle(b, far_, up, 1, NULL, NULL));
     TRY(peri_remove_load(b, load));
     TRY(peri_remove_obstacle(b, wall));
     TRY(peri_multiply_stiffness(b, product, product, 2 * 80));
@@ -122,7 +122,7 @@ static peri_body *watched(caller *c) {
     s.desc.log_user = c;
     peri_body *b = c->b = specimen_make(&s);
     MUST(b, peri_apply_body_force(b, PERI_ALL, v, NULL, NULL));
-    MUST(b, peri_add_plane_obstacle(b, far_, up, 1, NULL, NULL));
+    MUST(b, plane_obstacle(b, far_, up, 1, NULL, NULL));
     MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, "left", lo2, hi)), PERI_AXIS_XY, NULL, NULL, NULL));
     return b;
 }
@@ -267,7 +267,9 @@ static int32_t on_influence(void *user, double q, double *w) { return *w = 1 - 0
 static int32_t on_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
     return (void)user, (void)time, (void)count, (void)points, (void)value, note(LOAD);
 }
-static int32_t on_motion(void *user, double time, double *place) { return (void)user, (void)time, (void)place, note(MOTION); }
+static int32_t on_motion(void *user, double time, double *place, double *turn) {
+    return (void)user, (void)time, (void)place, (void)turn, note(MOTION);
+}
 static int32_t on_break(void *user, int32_t i, int32_t j, double time, double stretch) {
     return (void)user, (void)i, (void)j, (void)time, (void)stretch, note(BREAK);
 }
@@ -299,7 +301,7 @@ static void callbacks_come_outside_of_tasks(void) {
     MUST(b, peri_cut_if(b, PERI_CUT_INITIAL, on_pair, NULL));
     MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, nowhere, gone));
     MUST(b, peri_apply_body_force(b, PERI_ALL, v, on_load, NULL));
-    MUST(b, peri_add_plane_obstacle(b, below, up, 1e-3, on_motion, NULL));
+    MUST(b, plane_obstacle(b, below, up, 1e-3, on_motion, NULL));
     MUST(b, peri_on_break(b, on_break, NULL));
     pull_apart(b, 0.5);
     MUST(b, peri_advance(b, &a));
@@ -502,7 +504,8 @@ static int32_t ask_time(void *user, double time, int64_t count, const int32_t *p
     k->wrong += value[0] != 1e-6; /* the constant, without the load factor */
     return 0;
 }
-static int32_t note_place(void *user, double time, double *place) {
+static int32_t note_place(void *user, double time, double *place, double *turn) {
+    (void)turn;
     asked *k = (asked *)user;
     k->calls++;
     k->time = time;
@@ -521,7 +524,7 @@ static void times_of_callbacks(void) {
     peri_body *b = plate(10, 8, 0);
     MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo2, hi)), PERI_AXIS_XY, NULL, NULL, NULL));
     MUST(b, peri_apply_body_force(b, PERI_ALL, pull, ask_time, &load));
-    const int32_t plane = (int32_t)MUST(b, peri_add_plane_obstacle(b, at, up, 1e-3, note_place, &wall));
+    const int32_t plane = (int32_t)MUST(b, plane_obstacle(b, at, up, 1e-3, note_place, &wall));
     MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 160));
     CHECK(load.calls > 0 && load.time == 0 && wall.time == 0);
     peri_solve_desc_init(&s);
@@ -534,7 +537,7 @@ static void times_of_callbacks(void) {
         load.calls = 0;
         MUST(b, peri_add_displacement(b, PERI_ALL, lo2));
         MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 160));
-        MUST(b, peri_get_obstacle_force(b, plane, force));
+        MUST(b, peri_get_obstacle_force(b, plane, force, NULL));
         CHECK(load.calls > 0 && load.time == want && wall.time == want);
         if (k == 0) MUST(b, peri_advance(b, &a));
         CHECK_NEAR(load.time, peri_time(b), 1e-14, 0);

@@ -48,7 +48,10 @@ static int32_t vast_load(void *user, double time, int64_t count, const int32_t *
     for (int64_t k = 0; k < count; ++k) value[k] = 1e300;
     return 0;
 }
-static int32_t fail_motion(void *user, double time, double *place) { return (void)user, (void)time, (void)place, -7; }
+static peri_obstacle_state placed;
+static int32_t fail_motion(void *user, double time, double *place, double *turn) {
+    return (void)user, (void)time, (void)place, (void)turn, -7;
+}
 static int32_t fail_influence(void *user, double q, double *w) { return *w = 1, (void)q, *(int *)user; }
 static int32_t no_influence(void *user, double q, double *w) { return (void)user, (void)q, *w = 0, 0; }
 static int32_t bad_influence(void *user, double q, double *w) { return (void)user, (void)q, *w = (double)NAN, 0; }
@@ -124,8 +127,9 @@ static void without_a_body(void) {
     ASK(peri_apply_layer_traction(n, PERI_ALL, 1, one3, NULL, NULL)), ASK(peri_apply_traction(n, PERI_ALL, 1, one3, one3, NULL, NULL));
     ASK(peri_apply_pressure(n, PERI_ALL, 1, NULL, NULL)), ASK(peri_apply_bond_pressure_for_comparison(n, PERI_ALL, 1, NULL, NULL));
     ASK(peri_prescribe_rigid(n, PERI_ALL, zero3, NULL, NULL, NULL)), ASK(peri_get_reaction_moment(n, 1, zero3, numbers));
-    ASK(peri_remove_load(n, 1)), ASK(peri_get_reaction(n, 1, numbers)), ASK(peri_add_plane_obstacle(n, zero3, up3, 0, NULL, NULL));
-    ASK(peri_add_ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers));
+    ASK(peri_remove_load(n, 1)), ASK(peri_get_reaction(n, 1, numbers)), ASK(plane_obstacle(n, zero3, up3, 0, NULL, NULL));
+    ASK(ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers, NULL));
+    ASK(peri_get_obstacle_state(n, 1, &placed)), ASK(peri_set_obstacle_state(n, 1, &placed));
     ASK(peri_set_contact(n, 1, 1, NULL));
     ASK(peri_multiply_stiffness(n, numbers, numbers, 2)), ASK(peri_matrix_create(n, &m)), ASK(peri_matrix_rows(m));
     ASK(peri_matrix_entries(m)), with_cracks(n, n);
@@ -152,11 +156,18 @@ static void with_wrong_ids(void) {
     const int32_t set = (int32_t)MUST(b, peri_select_ball(b, NULL, zero3, 9)),
         theirs = (int32_t)MUST(other, peri_select_ball(other, NULL, zero3, 9));
     const int32_t their_load = (int32_t)MUST(other, peri_apply_body_force(other, PERI_ALL, one3, NULL, NULL));
-    const int32_t their_wall = (int32_t)MUST(other, peri_add_plane_obstacle(other, zero3, up3, 0, NULL, NULL));
+    const int32_t their_wall = (int32_t)MUST(other, plane_obstacle(other, zero3, up3, 0, NULL, NULL));
     const int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
-    const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, zero3, up3, 0, NULL, NULL));
+    const int32_t wall = (int32_t)MUST(b, plane_obstacle(b, zero3, up3, 0, NULL, NULL));
     const int32_t sets[4] = {3, material, theirs, set + 50}, loads[4] = {3, set, their_load, load + 50};
     const int32_t walls[4] = {3, set, their_wall, wall + 50};
+    peri_obstacle_desc ball;
+    peri_obstacle_desc_init(&ball, PERI_SHAPE_BALL);
+    ball.radius = ball.mass = 1;
+    const int32_t stone = (int32_t)MUST(b, peri_add_obstacle(b, &ball));
+    placed.velocity[0] = HUGE_VAL;
+    ASK(peri_set_obstacle_state(b, stone, &placed)), ASK(peri_set_obstacle_state(b, stone, NULL));
+    placed.velocity[0] = 0;
     const int32_t materials[4] = {3, PERI_ALL, peri_id(other, PERI_KIND_MATERIAL, 1), material + 50};
     for (int k = 0; k < 4; ++k) {
         const int32_t m = materials[k], i = sets[k], l = loads[k], w = walls[k], of_points[2] = {m, m};
@@ -172,7 +183,8 @@ static void with_wrong_ids(void) {
         ASK(peri_apply_traction(b, i, 1, one3, one3, NULL, NULL)), ASK(peri_apply_pressure(b, i, 1, NULL, NULL));
         ASK(peri_apply_bond_pressure_for_comparison(b, i, 1, NULL, NULL)), ASK(peri_remove_load(b, l));
         ASK(peri_get_reaction(b, l, numbers)), ASK(peri_get_reaction_moment(b, l, zero3, numbers));
-        ASK(peri_remove_obstacle(b, w)), ASK(peri_get_obstacle_force(b, w, numbers));
+        ASK(peri_remove_obstacle(b, w)), ASK(peri_get_obstacle_force(b, w, numbers, NULL));
+        ASK(peri_get_obstacle_state(b, w, &placed)), ASK(peri_set_obstacle_state(b, w, &placed));
         ASK(peri_set_contact(b, k == 1 ? set : m, material, NULL));
         st.curve_load = l;
         st.curve = numbers;
@@ -198,7 +210,8 @@ static void at_the_wrong_time(void) {
     ASK(peri_apply_traction(d, PERI_ALL, 1, one3, one3, NULL, NULL)), ASK(peri_remove_load(d, 1)), ASK(peri_remove_obstacle(d, 1));
     ASK(peri_apply_bond_pressure_for_comparison(d, PERI_ALL, 1, NULL, NULL)), ASK(peri_get_reaction(d, 1, numbers));
     ASK(peri_prescribe_rigid(d, PERI_ALL, zero3, NULL, NULL, NULL)), ASK(peri_get_reaction_moment(d, 1, zero3, numbers));
-    ASK(peri_get_obstacle_force(d, 1, numbers)), ASK(peri_matrix_create(d, &m)), ASK(peri_size_of_field(d, PERI_FIELD_VOLUME));
+    ASK(peri_get_obstacle_state(d, 1, &placed)), ASK(peri_set_obstacle_state(d, 1, &placed));
+    ASK(peri_get_obstacle_force(d, 1, numbers, NULL)), ASK(peri_matrix_create(d, &m)), ASK(peri_size_of_field(d, PERI_FIELD_VOLUME));
     ASK(peri_set_field(d, PERI_FIELD_VELOCITY, numbers, 512)), ASK(peri_view_field(d, PERI_FIELD_VOLUME, &view));
     ASK(peri_get_energy(d, &energy));
     ASK(peri_get_momentum(d, numbers, NULL)), ASK(peri_export_vtu_to(d, take_bytes, NULL)), ASK(peri_export_vtu(d, "build/x"));
@@ -288,10 +301,11 @@ static void with_failing_callbacks(void) {
         s.desc.precision = PERI_PRECISION_SINGLE;
         peri_body *b = specimen_make(&s);
         const int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, one3, way ? vast_load : fail_load, NULL));
-        const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, (const double[2]){0, -9}, up3, 1, way ? NULL : fail_motion, NULL));
+        const int32_t wall = (int32_t)MUST(b, plane_obstacle(b, (const double[2]){0, -9}, up3, 1, way ? NULL : fail_motion, NULL));
         ASK(peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 512)), ASK(peri_view_field(b, PERI_FIELD_FORCE_DENSITY, &view));
         ASK(peri_get_reaction(b, load, f)), ASK(peri_get_reaction_moment(b, load, zero3, f));
-        ASK(peri_get_obstacle_force(b, wall, f)), ASK(peri_multiply_stiffness(b, f, f, 240));
+        ASK(peri_get_obstacle_force(b, wall, f, NULL)), ASK(peri_get_obstacle_state(b, wall, &placed));
+        ASK(peri_multiply_stiffness(b, f, f, 240));
         peri_body_destroy(b);
     }
     s.desc.precision = PERI_PRECISION_DOUBLE;
@@ -359,7 +373,11 @@ static void without_memory(void) {
     const int32_t face = (int32_t)MUST(b, peri_select_box(b, NULL, (const double[2]){7.5, 0}, (const double[2]){12, 10}));
     SHORT(peri_apply_traction(b, face, 10, one3, one3, NULL, NULL));
     SHORT(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL));
-    SHORT(peri_add_plane_obstacle(b, wall, up3, 0, NULL, NULL)), SHORT(peri_add_ball_obstacle(b, wall, 1, 0, NULL, NULL));
+    peri_obstacle_desc plane;
+    peri_obstacle_desc_init(&plane, PERI_SHAPE_PLANE);
+    plane.place[1] = wall[1];
+    plane.normal[1] = 1;
+    SHORT(peri_add_obstacle(b, &plane)), SHORT(ball_obstacle(b, wall, 1, 0, NULL, NULL));
     SHORT(peri_multiply_stiffness(b, numbers, numbers, 240)), SHORT(peri_matrix_create(b, &m));
     SHORT(peri_view_field(b, PERI_FIELD_DAMAGE, &view)), SHORT(peri_advance(b, &one_step));
     SHORT(peri_export_vtu_to(b, take_bytes, NULL)), SHORT(peri_export_vtu(b, "build/short.vtu"));
@@ -368,12 +386,12 @@ static void without_memory(void) {
     SHORT(peri_set_contact(b, PERI_ALL, PERI_ALL, &touch)); /* whose lists forces and energies are made with */
     for (int k = 0; k < 7; ++k) {
         const int32_t load = (int32_t)MUST(b, peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
-        const int32_t wall_of = (int32_t)MUST(b, peri_add_plane_obstacle(b, wall, up3, 0, NULL, NULL));
+        const int32_t wall_of = (int32_t)MUST(b, plane_obstacle(b, wall, up3, 0, NULL, NULL));
         MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, &touch));
         if (k == 0) SHORT(peri_get_field(b, PERI_FIELD_FORCE_DENSITY, numbers, 512));
         if (k == 1) SHORT(peri_get_reaction(b, load, numbers));
         if (k == 6) SHORT(peri_get_reaction_moment(b, load, zero3, numbers));
-        if (k == 2) SHORT(peri_get_obstacle_force(b, wall_of, numbers));
+        if (k == 2) SHORT(peri_get_obstacle_force(b, wall_of, numbers, NULL)), SHORT(peri_get_obstacle_state(b, wall_of, &placed));
         if (k == 3) SHORT(peri_get_energy(b, &energy));
         if (k == 4) SHORT(peri_export_history_to(b, 0, take_bytes, NULL));
         if (k == 5) SHORT(peri_export_history(b, "build/short.csv", 0));
@@ -444,8 +462,8 @@ static void fill_loads(peri_body *b) {
     ASK(peri_prescribe_velocity(b, set, PERI_AXIS_X, NULL, NULL, NULL));
     ASK(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL)), ASK(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL));
     ASK(peri_apply_traction(b, face, 10, one3, one3, NULL, NULL));
-    for (last = 0; last >= 0;) last = peri_add_plane_obstacle(b, zero3, up3, 1e-9, NULL, NULL);
-    ASK(peri_add_plane_obstacle(b, zero3, up3, 1e-9, NULL, NULL)), ASK(peri_add_ball_obstacle(b, far3, 1, 1e-9, NULL, NULL));
+    for (last = 0; last >= 0;) last = plane_obstacle(b, zero3, up3, 1e-9, NULL, NULL);
+    ASK(plane_obstacle(b, zero3, up3, 1e-9, NULL, NULL)), ASK(ball_obstacle(b, far3, 1, 1e-9, NULL, NULL));
 }
 
 /* A tangent that is not positive: nearest neighbours that push. */
@@ -530,7 +548,7 @@ static void no_others_are(void) {
 static void never_where_it_says_so(void) {
     int never = 0;
     for (int k = 0; k < calls_of_table; ++k) never += table_rows[k].never;
-    CHECK(never == 2 + 8 + 3 + 12 + 1);
+    CHECK(never == 2 + 9 + 3 + 12 + 1);
     CHECK(peri_version() > 0 && peri_status_text(12345)[0] != 0);
     peri_body_destroy(NULL);
     peri_matrix_destroy(NULL);

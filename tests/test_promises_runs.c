@@ -323,8 +323,8 @@ static void stiffest_material_of_an_obstacle(void) {
     s.material.young = 1000;
     MUST(b, peri_add_material(b, &s.material));
     MUST(b, peri_build(b));
-    const int32_t plane = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, up, 0, NULL, NULL));
-    MUST(b, peri_get_obstacle_force(b, plane, force));
+    const int32_t plane = (int32_t)MUST(b, plane_obstacle(b, place, up, 0, NULL, NULL));
+    MUST(b, peri_get_obstacle_force(b, plane, force, NULL));
     CHECK_NEAR(force[1], 8 * 0.25 * 7, 1e-13, 0); /* 8 points of both blocks are 0.25 inside */
     peri_body_destroy(b);
 }
@@ -472,8 +472,8 @@ static void limits_are_passed(void) {
     CHECK(fracture[0] > 0);
 }
 
-static int32_t rise(void *user, double time, double *place) {
-    (void)user;
+static int32_t rise(void *user, double time, double *place, double *turn) {
+    (void)user, (void)turn;
     place[1] += 0.2 * time;
     return 0;
 }
@@ -490,7 +490,7 @@ static void what_stays_at_reset(void) {
         const int32_t grip = columns(b, 0, 2);
         MUST(b, peri_set_no_fail(b, grip, 1));
         MUST(b, peri_apply_body_force(b, PERI_ALL, pull, NULL, NULL));
-        MUST(b, peri_add_plane_obstacle(b, at, up, 0.05, rise, NULL));
+        MUST(b, plane_obstacle(b, at, up, 0.05, rise, NULL));
         MUST(b, peri_prescribe_velocity(b, grip, PERI_AXIS_XY, v, NULL, NULL));
         if (k) {
             MUST(b, run(b, 40, 0.3, (double)NAN));

@@ -209,7 +209,7 @@ static void obstacles_hold_along_their_normals(void) {
         peri_body *b = specimen_make(&s);
         peri_solve_desc st = statics_of(1e-6);
         peri_error e;
-        MUST(b, peri_add_plane_obstacle(b, place, up, 1, NULL, NULL));
+        MUST(b, plane_obstacle(b, place, up, 1, NULL, NULL));
         CHECK(peri_solve(b, &st, NULL) == PERI_ERROR_LOOSE && peri_get_error(b, &e) == PERI_OK);
         CHECK(e.value == (touching ? 1 : 3)); /* a row that stands on it cannot sink, nor turn; it slides */
         peri_body_destroy(b);

@@ -112,7 +112,7 @@ static void load(peri_body *b, const double *lo, const double *hi, int *dim) {
     default: MUST(b, peri_apply_layer_traction(b, right, 3, pull_right, NULL, NULL)); break;
     }
     if (whole_below(3) == 0) MUST(b, peri_set_no_fail(b, left, 1));
-    if (whole_below(3) == 0) MUST(b, peri_add_ball_obstacle(b, ball, 2, 0, NULL, NULL));
+    if (whole_below(3) == 0) MUST(b, ball_obstacle(b, ball, 2, 0, NULL, NULL));
 }
 
 static outcome play(uint64_t seed, int32_t kernel, double safety) {

@@ -101,7 +101,7 @@ typedef struct bar {
 } bar;
 
 /* Held at the left by a rigid grip that does not move, by another at the right, each two horizons deep. */
-static bar gripped(int dim, int32_t geometry, int32_t law, const double *motion, peri_motion_fn fn, void *user) {
+static bar gripped(int dim, int32_t geometry, int32_t law, const double *motion, peri_rigid_fn fn, void *user) {
     bar g;
     const int deep = 6, n = 40;
     specimen s = specimen_of(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRESS, law, 0.25, 0.25, 3.015, n, dim == 3 ? 5 : 12, 5);
@@ -256,7 +256,7 @@ static void callbacks_of_grips(void) {
         peri_advance_desc_init(&d);
         d.steps = 3;
         REFUSE(g.body, PERI_ERROR_CALLBACK, peri_advance(g.body, &d));
-        FIELD_IS(say < 0 ? "peri_motion_fn" : "motion");
+        FIELD_IS(say < 0 ? "peri_rigid_fn" : "motion");
         peri_body_destroy(g.body);
     }
     spin stop = {0.02, 0, 0, 1};

@@ -293,8 +293,8 @@ static void obstacles(void) {
             peri_body *b;
             s.desc.geometry = PERI_GEOMETRY_LINEAR;
             b = specimen_make(&s);
-            (void)MUST(b, space == PERI_SPACE_SOLID ? peri_add_plane_obstacle(b, place, normal, 0.5, NULL, NULL)
-                                                    : peri_add_plane_obstacle(b, side, slope, 0.5, NULL, NULL));
+            (void)MUST(b, space == PERI_SPACE_SOLID ? plane_obstacle(b, place, normal, 0.5, NULL, NULL)
+                                                    : plane_obstacle(b, side, slope, 0.5, NULL, NULL));
             dense(b, density, &least, &most);
             ratio = 2 / sqrt(most) / peri_stable_step(b);
             if (!(ratio >= 1 && ratio <= 1.1)) printf("    law %d space %d: %.4f\n", (int)law, (int)space, ratio);

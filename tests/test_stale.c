@@ -23,8 +23,8 @@ static int32_t swell(void *user, double time, int64_t count, const int32_t *poin
     return 0;
 }
 
-static int32_t creep(void *user, double time, double *place) {
-    (void)user;
+static int32_t creep(void *user, double time, double *place, double *turn) {
+    (void)user, (void)turn;
     place[1] += 0.01 * time;
     return 0;
 }
@@ -66,7 +66,7 @@ static void furnish(peri_body *b, kind k) {
     (void)MUST(b, peri_prescribe_displacement(b, set_of(b, 1), PERI_AXIS_X | PERI_AXIS_Y, NULL, NULL, NULL));
     (void)MUST(b, peri_apply_body_force(b, set_of(b, 2), force, NULL, NULL));
     if (k.moving) (void)MUST(b, peri_apply_body_force(b, set_of(b, 3), force, swell, NULL));
-    (void)MUST(b, peri_add_plane_obstacle(b, floor_, up, 0.0, k.moving ? creep : NULL, NULL));
+    (void)MUST(b, plane_obstacle(b, floor_, up, 0.0, k.moving ? creep : NULL, NULL));
 }
 
 static void stir(peri_body *b, int32_t field, double amplitude, uint64_t seed) {
@@ -156,8 +156,8 @@ static int64_t load(peri_body *b, change what) {
     case PRESS_CRACK: return peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1e-4, NULL, NULL);
     case FREE_LOAD: return peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 2));
     case FREE_SUPPORT: return peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 1));
-    case PLANE: return peri_add_plane_obstacle(b, wall, left, 0.0, NULL, NULL);
-    case BALL: return peri_add_ball_obstacle(b, centre, 1.7, 0.0, NULL, NULL);
+    case PLANE: return plane_obstacle(b, wall, left, 0.0, NULL, NULL);
+    case BALL: return ball_obstacle(b, centre, 1.7, 0.0, NULL, NULL);
     default: return peri_remove_obstacle(b, peri_id(b, PERI_KIND_OBSTACLE, 1));
     }
 }
@@ -204,7 +204,7 @@ static int64_t view_force(peri_body *b, double *out) {
 static int64_t read_totals(peri_body *b, double *out) {
     int64_t n = 0;
     for (int32_t k = 0; k < 4; ++k, n += 3) out[n] = peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, k + 1), out + n + 1);
-    for (int32_t k = 0; k < 2; ++k, n += 3) out[n] = peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, k + 1), out + n + 1);
+    for (int32_t k = 0; k < 2; ++k, n += 3) out[n] = peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, k + 1), out + n + 1, NULL);
     return n;
 }
 

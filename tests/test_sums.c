@@ -228,7 +228,7 @@ static int32_t push(peri_body *b, int adding, int second, double most, double *f
     const int obstacle = (adding == LOAD_AND_OBSTACLE && second) || adding == TWO_OBSTACLES;
     double volume = (POINTS - 30) * H * H;
     *factor = 1;
-    if (obstacle) return peri_add_plane_obstacle(b, place, right, 0.9 * most / deep, NULL, NULL);
+    if (obstacle) return plane_obstacle(b, place, right, 0.9 * most / deep, NULL, NULL);
     if (adding == FACTOR && second) return *factor = 2, -1;
     if (adding == TWO_TRACTIONS) return peri_apply_layer_traction(b, from(b, 30), volume, value, NULL, NULL);
     return peri_apply_body_force(b, from(b, second ? 20 : 30), value, NULL, NULL);
@@ -263,7 +263,7 @@ static void forces_beyond(int adding, int32_t precision) {
         REFUSE(b, PERI_ERROR_RANGE, peri_get_field(b, PERI_FIELD_REACTION, f, 2 * POINTS));
         REFUSE(b, PERI_ERROR_RANGE, peri_view_field(b, PERI_FIELD_FORCE_DENSITY, &view));
         if (adding != TWO_OBSTACLES) REFUSE(b, PERI_ERROR_RANGE, peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, 1), f));
-        if (obstacle) REFUSE(b, PERI_ERROR_RANGE, peri_get_obstacle_force(b, id, f));
+        if (obstacle) REFUSE(b, PERI_ERROR_RANGE, peri_get_obstacle_force(b, id, f, NULL));
     }
     REFUSE(b, PERI_ERROR_RANGE, peri_solve(b, &s, NULL));
     MUST(b, peri_reset(b));
@@ -297,10 +297,10 @@ static void totals_of_forces(void) {
     FIELD_IS("force");
     CHECK(seen.value == HUGE_VAL && total[0] == 7 && total[1] == 7);
     MUST(b, peri_remove_load(b, sum));
-    wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, up, 0.5 * DBL_MAX / 1e10, NULL, NULL));
+    wall = (int32_t)MUST(b, plane_obstacle(b, place, up, 0.5 * DBL_MAX / 1e10, NULL, NULL));
     MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 2 * POINTS));
     CHECK_NEAR(f[1], value[1], 1e-8, 0);
-    REFUSE(b, PERI_ERROR_RANGE, peri_get_obstacle_force(b, wall, total));
+    REFUSE(b, PERI_ERROR_RANGE, peri_get_obstacle_force(b, wall, total, NULL));
     CHECK(total[0] == 7 && total[1] == 7);
     peri_body_destroy(b);
 }
@@ -344,11 +344,11 @@ static void stiffness_of_obstacles(void) {
         MUST(b, peri_add_box(b, unbreakable(b, 1, k ? light : heavy), lo, hi, 1));
     }
     MUST(b, peri_build(b));
-    REFUSE(b, PERI_ERROR_RANGE, peri_add_plane_obstacle(b, place, up, 1e308 * light, NULL, NULL));
+    REFUSE(b, PERI_ERROR_RANGE, plane_obstacle(b, place, up, 1e308 * light, NULL, NULL));
     FIELD_IS("stiffness");
     CHECK(seen.value == 1e308 * light && peri_id(b, PERI_KIND_OBSTACLE, 1) == PERI_ERROR_ID_GONE);
     for (k = 1; k <= 4; ++k) {
-        MUST(b, peri_add_plane_obstacle(b, place, up, 1e290 * light, NULL, NULL));
+        MUST(b, plane_obstacle(b, place, up, 1e290 * light, NULL, NULL));
         CHECK_NEAR(peri_stable_step(b), 2 / sqrt(k * 1e290), 1e-9, 0);
     }
     peri_body_destroy(b);
@@ -375,7 +375,7 @@ static int32_t one_more(peri_body *b, int32_t kind) {
     const int32_t point = 0;
     if (kind == PERI_KIND_SET) return peri_select_points(b, NULL, 1, &point);
     return kind == PERI_KIND_LOAD ? peri_apply_body_force(b, PERI_ALL, none, NULL, NULL)
-                                  : peri_add_plane_obstacle(b, place, up, 1, NULL, NULL);
+                                  : plane_obstacle(b, place, up, 1, NULL, NULL);
 }
 
 /* 1,048,575 of a kind (PERI_ID_INDEX has 20 bits), removed ones included. */

@@ -202,8 +202,8 @@ static void tiny_normals_have_a_direction(void) {
     for (k = 0; k < 3; ++k) {
         const double place[3] = {0.2, 0.2, 0}, normal[3] = {3 * length[k], 4 * length[k], 0};
         peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
-        const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, 1, NULL, NULL));
-        MUST(b, peri_get_obstacle_force(b, wall, force[k]));
+        const int32_t wall = (int32_t)MUST(b, plane_obstacle(b, place, normal, 1, NULL, NULL));
+        MUST(b, peri_get_obstacle_force(b, wall, force[k], NULL));
         CHECK_NEAR(force[k][1] / force[k][0], 4.0 / 3, 1e-12, 0);
         CHECK_NEAR(force[k][0], force[0][0], 1e-12, 0);
         peri_body_destroy(b);
@@ -335,13 +335,13 @@ static void forces_have_a_range(void) {
 static void obstacles_have_a_range(void) {
     const double away[2] = {2e15 * H, 0}, near[2] = {-9, 0}, up[2] = {1, 0}, beyond[2] = {1e308, 0};
     peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
-    MUST(b, peri_add_plane_obstacle(b, near, up, 1, NULL, NULL));
-    REFUSE(b, PERI_ERROR_RANGE, peri_add_ball_obstacle(b, away, 1, 1, NULL, NULL));
-    AT_FAULT("centre", -1, away[0]);
-    REFUSE(b, PERI_ERROR_RANGE, peri_add_ball_obstacle(b, near, 2e15 * H, 1, NULL, NULL));
+    MUST(b, plane_obstacle(b, near, up, 1, NULL, NULL));
+    REFUSE(b, PERI_ERROR_RANGE, ball_obstacle(b, away, 1, 1, NULL, NULL));
+    AT_FAULT("place", -1, away[0]);
+    REFUSE(b, PERI_ERROR_RANGE, ball_obstacle(b, near, 2e15 * H, 1, NULL, NULL));
     CHECK(strcmp(seen.field, "radius") == 0);
     CHECK_NEAR(seen.value, 2e15 * H, 1e-15, 0);
-    REFUSE(b, PERI_ERROR_RANGE, peri_add_plane_obstacle(b, beyond, up, 1, NULL, NULL)); /* over the spacing it is no number */
+    REFUSE(b, PERI_ERROR_RANGE, plane_obstacle(b, beyond, up, 1, NULL, NULL)); /* over the spacing it is no number */
     AT_FAULT("place", -1, beyond[0]);
     peri_body_destroy(b);
 }

@@ -171,12 +171,12 @@ static void obstacles_push_while_they_are_there(void) {
     MUST(b, peri_build(b));
     MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 6));
     CHECK(largest(f, 6) == 0);
-    const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, up, 8, NULL, NULL));
+    const int32_t wall = (int32_t)MUST(b, plane_obstacle(b, place, up, 8, NULL, NULL));
     MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 6));
     CHECK_NEAR(f[1], 8 * 0.75, 1e-12, 0);
     CHECK_NEAR(f[3], 8 * 0.5, 1e-12, 0);
     CHECK(f[5] == 0);
-    MUST(b, peri_get_obstacle_force(b, wall, force));
+    MUST(b, peri_get_obstacle_force(b, wall, force, NULL));
     CHECK_NEAR(force[1], 8 * (0.75 * 1 + 0.5 * 2) * THICK, 1e-12, 0);
     MUST(b, peri_remove_obstacle(b, wall));
     MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, 6));

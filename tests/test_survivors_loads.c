@@ -88,13 +88,13 @@ static void floors_bear_the_weight(void) {
             double force[2], side[2];
             peri_solve_desc s;
             peri_body *b = plate_of(PERI_LAW_BOND_BASED, 10, 4, geometry ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR);
-            const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, up, 1, NULL, NULL)); /* the lowest row is in it */
+            const int32_t wall = (int32_t)MUST(b, plane_obstacle(b, place, up, 1, NULL, NULL)); /* the lowest row is in it */
             const int32_t held = (int32_t)MUST(b, peri_prescribe_displacement(b, part_of(b, 0, 1), PERI_AXIS_X, NULL, NULL, NULL));
             MUST(b, peri_apply_body_force(b, PERI_ALL, weight, NULL, NULL));
             peri_solve_desc_init(&s);
             s.method = methods[k];
             MUST(b, peri_solve(b, &s, NULL));
-            MUST(b, peri_get_obstacle_force(b, wall, force));
+            MUST(b, peri_get_obstacle_force(b, wall, force, NULL));
             CHECK_NEAR(force[1], 40e-4, 1e-6, 0);
             MUST(b, peri_get_reaction(b, held, side));
             CHECK_NEAR(side[0], 0, 0, 1e-9);

@@ -144,7 +144,8 @@ static void points_that_hang_on_a_line(void) {
 }
 
 /* Supports along x alone, held across by an obstacle that touches: one that moves is where it is at the factor. */
-static int32_t rise(void *user, double time, double *place) {
+static int32_t rise(void *user, double time, double *place, double *turn) {
+    (void)turn;
     *(double *)user = time;
     place[0] = 4;
     place[1] = -1 + 1.4 * time; /* of a half space below; the lowest points are at 0.5 and are met by 1.5e-1 and more */
@@ -156,14 +157,14 @@ static void obstacles_hold_where_they_are_now(void) {
     peri_body *b = plate(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 8, 4, 1, PERI_GEOMETRY_LINEAR);
     peri_solve_desc s;
     const int32_t held = (int32_t)MUST(b, peri_prescribe_displacement(b, side(b, 0, 8), PERI_AXIS_X, NULL, NULL, NULL));
-    const int32_t ground = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, 1, rise, &time));
+    const int32_t ground = (int32_t)MUST(b, plane_obstacle(b, place, normal, 1, rise, &time));
     MUST(b, peri_apply_body_force(b, PERI_ALL, down, NULL, NULL));
     (void)held;
     peri_solve_desc_init(&s);
     s.load_to = 1.25; /* the ground is at 0.75 then, and the points in it */
     MUST(b, peri_solve(b, &s, NULL));
     CHECK(time == 1.25);
-    MUST(b, peri_get_obstacle_force(b, ground, force));
+    MUST(b, peri_get_obstacle_force(b, ground, force, NULL));
     CHECK_NEAR(force[1], 32 * 1.25e-2, 1e-6, 0); /* 32 points of volume 1 */
     MUST(b, peri_remove_obstacle(b, ground));
     loose_at(b, 0, 32, 1);

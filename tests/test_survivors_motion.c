@@ -135,7 +135,7 @@ static void removed_obstacles_cost_no_step(void) {
     const double place[2] = {0, -1}, up[2] = {0, 1};
     peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 4, 4, 1);
     const double before = peri_stable_step(b);
-    const int32_t wall = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, up, 0, NULL, NULL));
+    const int32_t wall = (int32_t)MUST(b, plane_obstacle(b, place, up, 0, NULL, NULL));
     CHECK(peri_stable_step(b) < before);
     MUST(b, peri_remove_obstacle(b, wall));
     CHECK(peri_stable_step(b) == before);

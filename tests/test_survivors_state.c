@@ -282,7 +282,8 @@ typedef struct mover {
     int    calls, wrong;
 } mover;
 
-static int32_t move(void *user, double time, double *place) {
+static int32_t move(void *user, double time, double *place, double *turn) {
+    (void)turn;
     mover *m = (mover *)user;
     (void)time;
     m->calls++;
@@ -297,12 +298,12 @@ static void obstacles_are_where_they_are(void) {
     mover m = {{0, -1}, 1 + H, 0, 0};
     double force[3] = {0, 0, 0};
     peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_LINEAR, 8, 4, 1);
-    const int32_t obstacle = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, up, 2, move, &m));
-    MUST(b, peri_get_obstacle_force(b, obstacle, force)); /* up to y = H: the row at H/2 is H/2 deep */
+    const int32_t obstacle = (int32_t)MUST(b, plane_obstacle(b, place, up, 2, move, &m));
+    MUST(b, peri_get_obstacle_force(b, obstacle, force, NULL)); /* up to y = H: the row at H/2 is H/2 deep */
     CHECK_NEAR(force[1], 2 * (0.5 * H) * 8 * H * H * THICK, 1e-12, 0);
     MUST(b, peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_XY, none, NULL, NULL));
     (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 3, 0, 0);
-    MUST(b, peri_get_obstacle_force(b, obstacle, force));
+    MUST(b, peri_get_obstacle_force(b, obstacle, force, NULL));
     CHECK_NEAR(force[1], 2 * (0.5 * H) * 8 * H * H * THICK, 1e-12, 0);
     CHECK(m.calls >= 4 && m.wrong == 0);
     peri_body_destroy(b);
@@ -318,7 +319,7 @@ static void obstacles_do_their_work(void) {
     MUST(b, peri_add_box(b, glass, lo, hi, 0.05));
     MUST(b, peri_build(b));
     MUST(b, peri_add_velocity(b, PERI_ALL, down));
-    MUST(b, peri_add_plane_obstacle(b, lo, up, 5, NULL, NULL));
+    MUST(b, plane_obstacle(b, lo, up, 5, NULL, NULL));
     (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 100, 0.001, 0);
     MUST(b, peri_get_energy(b, &e));
     CHECK(e.obstacle < 0);

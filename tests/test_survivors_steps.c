@@ -68,7 +68,7 @@ static void removed_obstacles_are_none(void) {
     const double force[2] = {1e-3, 2e-3}, place[2] = {0, -50}, normal[2] = {0, 1};
     peri_body *b = linear();
     peri_solve_desc s = settings(1e-8);
-    const int32_t ground = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, 1, NULL, NULL));
+    const int32_t ground = (int32_t)MUST(b, plane_obstacle(b, place, normal, 1, NULL, NULL));
     MUST(b, peri_apply_body_force(b, side(b, 9, 12), force, NULL, NULL));
     MUST(b, peri_remove_obstacle(b, ground));
     CHECK(solve(b, &s).newton == 1);
@@ -83,10 +83,10 @@ static void bars_come_to_rest_on_the_ground(void) {
     peri_body *b = plate(PERI_LAW_BOND_BASED, 24, 4, PERI_GEOMETRY_LINEAR, PERI_PRECISION_DOUBLE);
     peri_solve_desc s = settings(1e-8);
     int k;
-    const int32_t ground = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, 50, NULL, NULL));
+    const int32_t ground = (int32_t)MUST(b, plane_obstacle(b, place, normal, 50, NULL, NULL));
     MUST(b, peri_apply_body_force(b, side(b, 3, 24), down, NULL, NULL));
     (void)solve(b, &s);
-    MUST(b, peri_get_obstacle_force(b, ground, force));
+    MUST(b, peri_get_obstacle_force(b, ground, force, NULL));
     held = get(b, PERI_FIELD_REACTION);
     for (k = 0; k < 96; ++k) sum += held[2 * k + 1];
     CHECK(force[1] > 0.2);
@@ -179,9 +179,9 @@ static void small_loads(void) {
         s.method = method;
         MUST(b, peri_apply_body_force(b, side(b, 9, 12), tiny, NULL, NULL));
         REFUSE(b, PERI_ERROR_RANGE, peri_solve(b, &s, NULL));
-        const int32_t ground = (int32_t)MUST(b, peri_add_plane_obstacle(b, place, normal, 0.1, NULL, NULL));
+        const int32_t ground = (int32_t)MUST(b, plane_obstacle(b, place, normal, 0.1, NULL, NULL));
         (void)solve(b, &s);
-        MUST(b, peri_get_obstacle_force(b, ground, force));
+        MUST(b, peri_get_obstacle_force(b, ground, force, NULL));
         CHECK(force[1] > 0);
         peri_body_destroy(b);
     }

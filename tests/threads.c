@@ -51,7 +51,7 @@ static uint64_t use(peri_body *b, int number) {
     MUST(b, peri_cut_segment(b, PERI_CUT_NOW, from, to));
     put(b, PERI_FIELD_VELOCITY, v);
     free(v);
-    MUST(b, peri_add_ball_obstacle(b, centre, 0.35, 0, NULL, NULL));
+    MUST(b, ball_obstacle(b, centre, 0.35, 0, NULL, NULL));
     (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 3, 0, 0);
     CHECK(peri_broken_count(b) > 0);
     const uint64_t bits = digest(b, 1);

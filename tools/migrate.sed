@@ -58,6 +58,7 @@ s/\bperi_cut_(segment|polyline|disc|triangle|rectangle|pairs|if)\(([^(),]+), */p
 s/\bperi_(add_(box|ball|shape|perturbed_box)|get_critical_energy)\(([^(),]+), *([0-9]+),/peri_\1(\3, peri_id(\3, PERI_KIND_MATERIAL, \4 + 1),/g
 s/\bperi_(set_interface|get_bond_constants)\(([^(),]+), *([0-9]+), *([0-9]+),/peri_\1(\2, peri_id(\2, PERI_KIND_MATERIAL, \3 + 1), peri_id(\2, PERI_KIND_MATERIAL, \4 + 1),/g
 s/\bperi_(get_reaction|remove_load)\(([^(),]+), *([0-9]+)([,)])/peri_\1(\2, peri_id(\2, PERI_KIND_LOAD, \3 + 1)\4/g
+s/\bperi_get_obstacle_force\((([^()]|\(([^()]|\([^()]*\))*\))*)\)/peri_get_obstacle_force(\1, NULL)/g
 s/\bperi_(get_obstacle_force|remove_obstacle)\(([^(),]+), *([0-9]+)([,)])/peri_\1(\2, peri_id(\2, PERI_KIND_OBSTACLE, \3 + 1)\4/g
 
 # enums

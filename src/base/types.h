@@ -296,17 +296,10 @@ typedef struct peri__load {
     int32_t      stepped; /* supports: a step has left its mean reaction                                                 */
     int32_t      rigid;   /* supports: 1: the set moves as a rigid body, by these, user's units; `value` then follows    */
     double       centre[3], turn[3]; /* about which it turns; rotation vector, of the plane in z. `constant`: how far it goes */
-    peri_motion_fn motion; /* or NULL                                                                                    */
+    peri_rigid_fn motion;  /* or NULL                                                                                    */
 } peri__load;
 
-typedef enum peri__obstacle_kind { PERI__REMOVED, PERI__PLANE, PERI__BALL } peri__obstacle_kind;
-
-typedef struct peri__obstacle {
-    int32_t        kind;
-    double         position[3], position0[3], normal[3], radius, stiffness; /* inner units                               */
-    peri_motion_fn motion;
-    void          *user;
-} peri__obstacle;
+typedef struct peri__obstacle peri__obstacle; /* obstacles.h                                                              */
 
 typedef struct peri__sums { /* what a block of points adds up; summed over blocks in order                                */
     double  a, b;
@@ -377,6 +370,7 @@ typedef struct peri__floating_part { /* connected points that some rigid motions
 } peri__floating_part;
 
 typedef struct peri__multilevel peri__multilevel;
+typedef struct peri__hold peri__hold; /* by an obstacle: statics/touch.c                                                     */
 
 #define PERI_SINGULAR 8 /* in constrained: the bonds of the point resist only in some of the free directions             */
 #define PERI_LOADED 16  /* in constrained: a load acts on the point                                                      */
@@ -398,6 +392,10 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int32_t            *queue;    /* [points] scratch                                                                    */
     peri__floating_part     *parts;
     int64_t             part_count, part_capacity;
+    peri__hold         *contacts; /* what obstacles hold, or may come to hold                                            */
+    int64_t             contact_count, contact_capacity;
+    int32_t            *leaning;  /* [points] 1, 2, ...: of a part that would be loose without obstacles; NULL without them */
+    int32_t             leaning_count, counted, bridged, hanging; /* see touch.c                                         */
     peri__multilevel   *levels;
     int64_t             singular;  /* points that are                                                                    */
     double              stiff;    /* mean of the diagonal of the stiffness                                               */

@@ -197,6 +197,13 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
     int64_t loads = peri__held_bytes(b->sets, b->set_capacity, sizeof *b->sets);
     loads += peri__held_bytes(b->loads, b->load_capacity, sizeof *b->loads);
     loads += peri__held_bytes(b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
+    for (int64_t k = 0; k < b->obstacle_count; ++k) {
+        const peri__obstacle *o = &b->obstacles[k];
+        loads += peri__held_bytes(o->solid.mesh, o->solid.mesh ? o->solid.mesh->bytes : 0, 1);
+        loads += peri__held_bytes(o->free, 1, sizeof *o->free);
+        loads += peri__held_bytes(o->kept, m->points * PERI_KEPT, sizeof *o->kept);
+        loads += peri__held_bytes(o->tally, m->blocks * PERI_TALLIED, sizeof *o->tally);
+    }
     for (int64_t k = 0; k < b->set_count; ++k) {
         loads += peri__held_bytes(b->sets[k].name, b->sets[k].name_bytes, 1);
         loads += peri__held_bytes(b->sets[k].points, b->sets[k].count, sizeof *b->sets[k].points);

@@ -311,6 +311,17 @@ static void peri__delete_vector(const peri_body *b, const peri__memory *memory, 
 
 /* ---- state -------------------------------------------------------------------------------------------------------- */
 
+/* What an obstacle holds; it may be half made. */
+static void peri__free_obstacle(const peri_body *b, peri__obstacle *o) {
+    peri__delete(&b->memory, o->solid.mesh, o->solid.mesh ? o->solid.mesh->bytes : 0, 1);
+    peri__delete(&b->memory, o->free, 1, sizeof *o->free);
+    peri__delete(&b->memory, o->kept, b->model->points * PERI_KEPT, sizeof *o->kept);
+    peri__delete(&b->memory, o->tally, b->model->blocks * PERI_TALLIED, sizeof *o->tally);
+    o->solid.mesh = NULL;
+    o->free = NULL;
+    o->kept = o->tally = NULL;
+}
+
 static void peri__free_load(const peri_body *b, peri__load *load) {
     peri__delete(&b->memory, load->value, load->count * b->dim, sizeof(double));
     peri__delete(&b->memory, load->force, PERI__SUPPORT_PLANES * load->count * b->dim, sizeof(double));
@@ -347,6 +358,7 @@ static void peri__free_state(peri_body *b) {
     peri__delete(memory, b->sets, b->set_capacity, sizeof *b->sets);
     for (int64_t k = 0; k < b->load_count; ++k) peri__free_load(b, &b->loads[k]);
     peri__delete(memory, b->loads, b->load_capacity, sizeof *b->loads);
+    for (int64_t k = 0; k < b->obstacle_count; ++k) peri__free_obstacle(b, &b->obstacles[k]);
     peri__delete(memory, b->obstacles, b->obstacle_capacity, sizeof *b->obstacles);
     peri__free_contact(b, b->contact);
     b->contact = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* boundary.c - supports, loads and obstacles, as the caller adds and removes them. */
+/* boundary.c - supports and loads, as the caller adds and removes them. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -89,7 +89,7 @@ static void peri__drop_load(peri_body *b) {
     for (int64_t s = 0; s < b->load_count; ++s) peri__assign_support(b, s);
 }
 
-PERI_API int32_t peri_prescribe_rigid(peri_body *b, int32_t id, const double *centre, const double *motion, peri_motion_fn fn, void *user) {
+PERI_API int32_t peri_prescribe_rigid(peri_body *b, int32_t id, const double *centre, const double *motion, peri_rigid_fn fn, void *user) {
     PERI_NEED_CHANGEABLE(b);
     const int32_t dim = b->dim, turns = dim == 3 ? 3 : 1;
     PERI_NEED_VECTOR(b, centre);
@@ -141,76 +141,5 @@ PERI_API int32_t peri_remove_load(peri_body *b, int32_t id) {
     b->loads[load].kind = PERI__FREE;
     peri__changed(b, PERI__ACTION);
     for (int64_t s = 0; support && s < b->load_count; ++s) peri__assign_support(b, s);
-    return PERI_OK;
-}
-
-/* ---- obstacles ---------------------------------------------------------------------------------------------------- */
-
-static double peri__default_stiffness(const peri__model *m) { return 1.0 / peri__square(m->spacing); }
-
-static double peri__least_density(const peri__model *m) {
-    double least = m->rho[0];
-    for (int32_t k = 1; k < m->materials; ++k) least = fmin(least, m->rho[k]);
-    return least;
-}
-
-static int32_t peri__add_obstacle(peri_body *b, peri__obstacle *obstacle, const double *place, double stiffness) {
-    const peri__model *m = b->model;
-    int64_t vector = m->stride * m->dim;
-    PERI_NEED_NUMBER(b, stiffness >= 0.0, stiffness);
-    int32_t status = peri__check_room(b, PERI_KIND_OBSTACLE, PERI_ID_LIMIT, "obstacle");
-    if (status < 0) return status;
-    peri__inner(b, place, obstacle->position);
-    for (int32_t d = 0; d < b->dim; ++d) /* beyond 1e15 spacings the surface of a ball is lost in rounding */
-        if (!(fabs(obstacle->position[d]) < (obstacle->kind == PERI__BALL ? 1e15 : DBL_MAX)))
-            return peri__fail(b, PERI_ERROR_RANGE, obstacle->kind == PERI__BALL ? "centre" : "place", -1, place[d]);
-    if (!(obstacle->radius < 1e15)) return peri__fail(b, PERI_ERROR_RANGE, "radius", -1, obstacle->radius * m->length);
-    memcpy(obstacle->position0, obstacle->position, sizeof obstacle->position0);
-    obstacle->stiffness = stiffness > 0.0 ? stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
-    /* they add up in the stable step, over the least density (explicit.c): as many as there are ids stay within double */
-    if (!(obstacle->stiffness / peri__least_density(m) < 1e300)) return peri__fail(b, PERI_ERROR_RANGE, "stiffness", -1, stiffness);
-    if (!peri__grow(&b->memory, &b->obstacles, &b->obstacle_capacity, b->obstacle_count + 1, sizeof *b->obstacles))
-        return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
-    if (!b->push) b->push = (double *)peri__new(&b->memory, vector, sizeof *b->push);
-    if (!b->push) return peri__fail(b, PERI_ERROR_MEMORY, "obstacle", -1, 0.0);
-    b->obstacles[b->obstacle_count++] = *obstacle;
-    peri__changed(b, PERI__ACTION);
-    return peri__id(b, PERI_KIND_OBSTACLE, b->obstacle_count - 1);
-}
-
-PERI_API int32_t peri_add_plane_obstacle(peri_body *b, const double *place, const double *normal, double stiffness,
-                                         peri_motion_fn motion, void *user) {
-    peri__obstacle obstacle;
-    PERI_NEED_CHANGEABLE(b);
-    PERI_NEED_VECTOR(b, place);
-    PERI_NEED_VECTOR(b, normal);
-    memset(&obstacle, 0, sizeof obstacle);
-    if (!peri__direction(normal, b->dim, obstacle.normal)) return peri__fail(b, PERI_ERROR_RANGE, "normal", -1, 0.0);
-    obstacle.kind = PERI__PLANE;
-    obstacle.motion = motion;
-    obstacle.user = user;
-    return peri__add_obstacle(b, &obstacle, place, stiffness);
-}
-
-PERI_API int32_t peri_add_ball_obstacle(peri_body *b, const double *centre, double radius, double stiffness,
-                                        peri_motion_fn motion, void *user) {
-    peri__obstacle obstacle;
-    PERI_NEED_CHANGEABLE(b);
-    PERI_NEED_VECTOR(b, centre);
-    PERI_NEED_NUMBER(b, radius > 0.0, radius);
-    memset(&obstacle, 0, sizeof obstacle);
-    obstacle.kind = PERI__BALL;
-    obstacle.radius = radius / b->model->length;
-    obstacle.motion = motion;
-    obstacle.user = user;
-    return peri__add_obstacle(b, &obstacle, centre, stiffness);
-}
-
-PERI_API int32_t peri_remove_obstacle(peri_body *b, int32_t id) {
-    PERI_NEED_CHANGEABLE(b);
-    const int64_t obstacle = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
-    if (obstacle < 0) return (int32_t)obstacle;
-    b->obstacles[obstacle].kind = PERI__REMOVED;
-    peri__changed(b, PERI__ACTION);
     return PERI_OK;
 }

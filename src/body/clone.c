@@ -37,9 +37,22 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         b->contact = peri__copy_contact(b, from->contact);
         ok = ok && b->contact;
     }
-    PERI_COPY_(obstacles, from->obstacle_capacity, sizeof *b->obstacles)
-    b->obstacle_count = from->obstacle_count;
-    b->obstacle_capacity = b->obstacles ? from->obstacle_capacity : 0;
+    if (from->obstacle_capacity > 0) b->obstacles = (peri__obstacle *)peri__new(memory, from->obstacle_capacity, sizeof *b->obstacles);
+    ok = ok && (b->obstacles || from->obstacle_capacity == 0);
+    if (b->obstacles) b->obstacle_capacity = from->obstacle_capacity;
+    for (int64_t k = 0; b->obstacles && k < from->obstacle_count; ++k) {
+        peri__obstacle *o = &b->obstacles[k];
+        *o = from->obstacles[k];
+        o->solid.mesh = NULL;
+        o->free = NULL;
+        o->kept = o->tally = NULL;
+        b->obstacle_count = k + 1;
+        PERI_COPY_(obstacles[k].solid.mesh, from->obstacles[k].solid.mesh->bytes, 1)
+        PERI_COPY_(obstacles[k].free, 1, sizeof *o->free)
+        PERI_COPY_(obstacles[k].kept, m->points * PERI_KEPT, sizeof *o->kept)
+        PERI_COPY_(obstacles[k].tally, m->blocks * PERI_TALLIED, sizeof *o->tally)
+        if (o->solid.mesh) peri__bind_mesh(o->solid.mesh);
+    }
 
     b->sets = (peri__set *)peri__new(memory, from->set_capacity, sizeof *b->sets);
     b->loads = (peri__load *)peri__new(memory, from->load_capacity, sizeof *b->loads);

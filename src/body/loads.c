@@ -44,7 +44,7 @@ static int32_t peri__refresh_rigid(peri_body *b, peri__load *load, double time) 
     for (int32_t d = 0; d < dim; ++d) motion[d] = factor * load->constant[d];
     for (int32_t d = 0; d < turns; ++d) motion[dim + d] = factor * load->turn[3 - turns + d];
     const int32_t said = load->motion ? load->motion(load->user, time, motion) : 0;
-    if (said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_motion_fn", -1, said);
+    if (said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_rigid_fn", -1, said);
     if (said > 0) b->stop = 1;
     if (!peri__finite_vector(motion, dim + turns))
         return peri__fail(b, PERI_ERROR_CALLBACK, "motion", -1, peri__not_finite(motion, dim + turns));

@@ -88,7 +88,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
         memset(b->worked, 0, (size_t)peri__vector_reals(m) * peri__real(b));
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
-        memcpy(b->obstacles[k].position, b->obstacles[k].position0, sizeof b->obstacles[k].position);
+        if (b->obstacles[k].kind) peri__restart_obstacle(&b->obstacles[k], b->dim, m->points);
     for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;
     /* the estimate of the stable step is good again unless bonds were mended that count in it */
     const uint32_t sharp = b->now.broken > 0 && !b->softens ? PERI__STALE_SHARP : b->now.stale & PERI__STALE_SHARP;

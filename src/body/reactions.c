@@ -14,21 +14,38 @@ static int32_t peri__tell_force(peri_body *b, const double *total, double *force
     return PERI_OK;
 }
 
-PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force) {
+/* Force and moment about the origin of the frame, to total[6]: noted where tallied; of smooth ones by the places of the points. */
+static int32_t peri__sum_obstacle(peri_body *b, const peri__obstacle *o, double *total) {
+    peri__pusher pusher = { b, 0.0, 0.0, PERI_OK };
+    double tally[PERI_TALLIED] = { 0.0 };
+    for (int d = 0; d < 3; ++d) {
+        total[d] = o->force[d];
+        total[3 + d] = o->moment[d];
+    }
+    if (o->tally) return PERI_OK;
+    for (int64_t i = 0; i < b->model->points; ++i) {
+        double push[3] = { 0.0, 0.0, 0.0 };
+        const int32_t status = peri__push(&pusher, o, i, push, tally);
+        if (status < 0) return status;
+    }
+    memcpy(total, tally, 6 * sizeof *total);
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force, double *moment) {
+    double total[6], told[3] = { 0.0 };
     PERI_NEED_BUILT(b);
     const int64_t obstacle = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
     if (obstacle < 0) return (int32_t)obstacle;
-    PERI_NEED(b, force, "force");
-    const int32_t status = peri__ensure_force(b); /* moves the obstacle to where it is now */
+    PERI_NEED(b, force || moment, "force");
+    int32_t status = peri__ensure_force(b); /* moves the obstacle to where it is now */
+    if (status == PERI_OK) status = peri__sum_obstacle(b, &b->obstacles[obstacle], total);
     if (status < 0) return status;
-    const peri__model *m = b->model;
-    double total[3] = { 0.0, 0.0, 0.0 };
-    for (int64_t i = 0; i < m->points; ++i) {
-        double push[3] = { 0.0, 0.0, 0.0 };
-        peri__push(b, &b->obstacles[obstacle], i, push);
-        for (int32_t d = 0; d < m->dim; ++d) total[d] += push[d] * m->volume[i];
-    }
-    return peri__tell_force(b, total, force);
+    for (int k = 0; k < 3; ++k) told[k] = total[b->dim == 3 ? 3 + k : 5] * b->model->energy;
+    if (moment && !peri__finite_vector(told, 3)) return peri__fail(b, PERI_ERROR_RANGE, "moment", -1, peri__not_finite(told, 3));
+    if (force) status = peri__tell_force(b, total, force);
+    if (status == PERI_OK && moment) memcpy(moment, told, (b->dim == 3 ? 3 : 1) * sizeof *moment);
+    return status;
 }
 
 /* Force density of the supports on every point, inner units. */

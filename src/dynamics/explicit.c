@@ -29,17 +29,25 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
 
 /* The stable step, inner units: 2/sqrt(lambda), lambda <= largest row sum of the stiffness over the mass (Gershgorin): bonds count twice,
    once on the diagonal and once off it; `sharp`: or what is closer; obstacles once, taken as if all touched the lightest point; contact as
-   it is, but not less than some touching. */
+   it is, but not less than some touching. The springs of a free obstacle lie between two masses: K <= 2 (K of the points + K of the free
+   one), so they count twice, or as much as they are for it alone. With coefficients of velocity c, over the density, what is lambda without
+   them leaves the step (sqrt(c^2/4 + lambda) - c/2) 2/lambda. */
 static double peri__step_of(const peri_body *b, double sharp) {
     const peri__model *m = b->model;
-    const double lightest = peri__least_density(m);
-    double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum;
+    const double lightest = peri__least_density(m), damping = 0.5 * peri__damping_limit(b);
+    double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum, alone = 0.0;
     if (m->gathers & PERI__GRADIENT) lambda *= b->now.stiffer; /* of springs, the bound holds however they are stretched */
     if (sharp * b->now.stiffer < lambda) lambda = sharp * b->now.stiffer;
-    for (int64_t k = 0; k < b->obstacle_count; ++k)
-        if (b->obstacles[k].kind) lambda += b->obstacles[k].stiffness / lightest;
-    if (b->contact) return peri__step_with_contact(b->contact, lambda);
-    return 2.0 / sqrt(lambda);
+    for (int64_t k = 0; k < b->obstacle_count; ++k) {
+        const peri__obstacle *o = &b->obstacles[k];
+        if (!o->kind) continue;
+        lambda += (o->free ? 2.0 : 1.0) * o->stiffness / lightest;
+        if (o->free) alone = fmax(alone, 2.0 * peri__free_stiffness(o));
+    }
+    lambda = fmax(lambda, alone);
+    const double step = b->contact ? peri__step_with_contact(b->contact, lambda) : 2.0 / sqrt(lambda);
+    if (damping > 0.0) lambda = 4.0 / (step * step);
+    return damping > 0.0 ? (sqrt(damping * damping + lambda) - damping) * 2.0 / lambda : step;
 }
 
 /* The crowd of contact, where the force does not tell. 0 where memory is short. */
@@ -237,6 +245,16 @@ static int peri__outrun(const peri_body *b, const peri_advance_desc *r, double s
     return !(r->force_step && r->time_step > 0.0) && size > peri__stable(b) * (1.0 + 1e-12);
 }
 
+/* Goes on with steps that are stable as the body is now, or tells what they would be. */
+static int32_t peri__fit_steps(peri_body *b, const peri_advance_desc *r, peri__plan *plan) {
+    if (!peri__outrun(b, r, peri__next_size(plan))) return PERI_OK;
+    if (!peri__sharpen(b)) return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
+    if (!peri__outrun(b, r, peri__next_size(plan))) return PERI_OK;
+    if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * b->model->time);
+    plan->dt = r->safety * peri__stable(b);
+    return peri__plan_steps(b, r, plan->end - b->now.time, plan);
+}
+
 static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
     const peri__model *m = b->model;
     int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
@@ -247,6 +265,7 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
     int32_t status = peri__plan_steps(b, r, r->duration, &plan);
     if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE | PERI__STALE_LEDGER);
     if (status == PERI_OK) status = peri__heed_callbacks(b);
+    if (status == PERI_OK) status = peri__fit_steps(b, r, &plan); /* what free obstacles are near is known by now */
     while (plan.done < plan.steps && status == PERI_OK) {
         /* a stretch of steps of one size, up to the next frame */
         int64_t stretch = (plan.done < plan.full ? plan.full : plan.steps) - plan.done, run = 0;
@@ -274,13 +293,7 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
             status = peri__show_frame(b, r);
         }
         if (status == PERI_OK) status = peri__heed_callbacks(b);
-        if (status != PERI_OK || plan.done == plan.steps || !peri__outrun(b, r, peri__next_size(&plan))) continue;
-        if (!peri__sharpen(b)) return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
-        if (peri__outrun(b, r, peri__next_size(&plan))) {
-            if (r->time_step > 0.0) return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, peri__stable(b) * m->time);
-            plan.dt = r->safety * peri__stable(b);
-            status = peri__plan_steps(b, r, plan.end - b->now.time, &plan);
-        }
+        if (status == PERI_OK && plan.done < plan.steps) status = peri__fit_steps(b, r, &plan);
     }
     return status;
 }

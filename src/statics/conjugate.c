@@ -42,6 +42,8 @@ static void peri__free_solver(peri__solver *s) {
     peri__delete(&b->scratch, s->part_of, m->points, sizeof *s->part_of);
     peri__delete(&b->scratch, s->queue, m->points, sizeof *s->queue);
     peri__delete(&b->scratch, s->parts, s->part_capacity, sizeof *s->parts);
+    peri__delete(&b->scratch, s->contacts, s->contact_capacity, sizeof *s->contacts);
+    peri__delete(&b->scratch, s->leaning, m->points, sizeof *s->leaning);
     peri__free_levels(s->levels);
 }
 
@@ -57,7 +59,7 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
     s->t.p = s->k.p;
     s->t.q = s->k.q;
     peri__apply_tangent(&s->t, at_rest);
-    peri__apply_contact(&s->t);
+    peri__add_springs(s, -1.0, s->k.p, 0, s->k.q);
     peri__add_touch_tangent(s->body, s->t.p, s->t.q);
     s->report.passes++;
     peri__sums sums = peri__krylov_pass(s, &s->k, s->body->ops->krylov_force);

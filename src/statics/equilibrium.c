@@ -326,8 +326,11 @@ static int32_t peri__newton(peri__solver *s) {
         }
         if (!(residual < HUGE_VAL) || k == s->settings->newton || s->left <= 0 || (linear && k > 3 && residual > 0.5 * last))
             return peri__fail_step(s, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
+        status = peri__choose_contacts(s);
+        if (status < 0) return status;
         if (gap) peri__lift(s, at_rest);
-        double reach = peri__newton_reach(s, residual, gap);
+        if (s->bridged) peri__add_springs(s, 1.0, NULL, 1, s->k.r); /* to where what does not touch yet would be held */
+        double reach = peri__newton_reach(s, residual, gap || s->bridged);
         last = residual;
         s->report.newton++;
         s->negative = s->energy_done = 0;
@@ -339,7 +342,7 @@ static int32_t peri__newton(peri__solver *s) {
             return peri__fail_step(s, status, "peri_solve", peri__most_moved(s), 0.0);
         if (peri__is_far(s)) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "PERI_FIELD_DISPLACEMENT", -1, s->report.residual);
         memcpy(s->k.p, b->u, peri__vector_bytes(b));
-        if (linear || gap) {
+        if (linear || gap || s->bridged) {
             if (linear || status != PERI_STOPPED) peri__move(s, 1.0);
             if (status != PERI_STOPPED) loads = peri__static_forces(s);
         } else if (status != PERI_STOPPED)

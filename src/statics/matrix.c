@@ -347,19 +347,18 @@ static int32_t peri__bicgstab(peri__solver *s, const peri_matrix *a, double *wor
     return PERI_ERROR_CONVERGENCE;
 }
 
-/* Adds the stiffness of the obstacles that points are in, V k n n. */
-static void peri__add_contact(peri_matrix *a, const peri_body *b) {
+/* Adds the springs of obstacles, V k n n. */
+static void peri__add_contact(peri_matrix *a, const peri__solver *s) {
     const int dim = a->dim;
-    for (int64_t k = 0; k < b->obstacle_count; ++k)
-        for (int64_t i = 0; b->obstacles[k].kind && i < a->points; ++i) {
-            double normal[3];
-            int64_t at = a->start[i];
-            if (!peri__touches(b, &b->obstacles[k], i, normal)) continue;
-            while (a->column[at] != i) ++at;
-            for (int r = 0; r < dim; ++r)
-                for (int c = 0; c < dim; ++c)
-                    a->block[(at * dim + r) * dim + c] += b->model->volume[i] * b->obstacles[k].stiffness * normal[r] * normal[c];
-        }
+    for (int64_t k = 0; k < s->contact_count; ++k) {
+        const peri__hold *c = &s->contacts[k];
+        int64_t at = a->start[c->point];
+        if (!c->active) continue;
+        while (a->column[at] != c->point) ++at;
+        for (int r = 0; r < dim; ++r)
+            for (int q = 0; q < dim; ++q)
+                a->block[(at * dim + r) * dim + q] += s->body->model->volume[c->point] * c->stiffness * c->normal[r] * c->normal[q];
+    }
 }
 
 /* As peri__conjugate, by BiCGSTAB on the assembled tangent. */
@@ -370,7 +369,7 @@ static int32_t peri__solve_assembled(peri__solver *s, double reach, double loads
     peri_matrix *a = NULL;
     int32_t status = peri__assemble(b, &b->scratch, &a);
     if (status < 0) return status;
-    peri__add_contact(a, b);
+    peri__add_contact(a, s);
     double *work = (double *)peri__new(&b->scratch, 9 * n, sizeof *work);
     int64_t bytes = s->bytes + 9 * n * (int64_t)sizeof *work + a->pairs * (m->dim * m->dim * 8 + 4);
     if (bytes > s->report.bytes) s->report.bytes = bytes;

@@ -3,8 +3,8 @@
    little.
 
    The rigid motions of a part are t + omega x (y - centre)/radius of its present positions y (linear geometry: of x): 3 in 2D, 6 in 3D.
-   Those in which no constrained component moves, and no point along the normal of an obstacle that it touches, are free: the null space of
-   the Gram matrix of these motions. */
+   Those in which no constrained component moves, and no point along the normal of an obstacle that holds it (touch.c), are free: the null
+   space of the Gram matrix of these motions. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -90,14 +90,15 @@ static int64_t peri__connected(peri__solver *s, int64_t first, int32_t mark) {
     return count;
 }
 
-/* Adds the rigid motions along the normals of the obstacles that point i is in to the Gram matrix of what is constrained. */
-static void peri__hold_contact(const peri_body *b, const peri__floating_part *part, int64_t i, double *constrained) {
-    const int dim = b->dim, motions = dim * (dim + 1) / 2;
-    for (int64_t k = 0; k < b->obstacle_count; ++k) {
-        double normal[3], along[PERI_RIGID_MODES] = { 0.0 };
-        if (!peri__touches(b, &b->obstacles[k], i, normal)) continue;
+/* Adds the rigid motions along the normals of what holds point i to the Gram matrix of what is constrained: s->counted, 0 none, 1 what is
+   active, 2 all that is listed. */
+static void peri__hold_contact(const peri__solver *s, const peri__floating_part *part, int64_t i, double *constrained) {
+    const int dim = s->body->dim, motions = dim * (dim + 1) / 2;
+    for (int64_t k = peri__first_contact(s, i); s->counted > 0 && k < s->contact_count && s->contacts[k].point == i; ++k) {
+        double along[PERI_RIGID_MODES] = { 0.0 };
+        if (s->counted == 1 && !s->contacts[k].active) continue;
         for (int r = 0; r < motions; ++r)
-            for (int d = 0; d < dim; ++d) along[r] += normal[d] * peri__rigid(b, part, i, r, d);
+            for (int d = 0; d < dim; ++d) along[r] += s->contacts[k].normal[d] * peri__rigid(s->body, part, i, r, d);
         for (int r = 0; r < motions; ++r)
             for (int c = 0; c < motions; ++c) constrained[r * motions + c] += along[r] * along[c];
     }
@@ -120,7 +121,7 @@ static void peri__free_modes(const peri__solver *s, int64_t count, peri__floatin
         if (square > part->radius * part->radius) part->radius = sqrt(square);
     }
     if (!(part->radius > 0.0)) part->radius = 1.0;
-    for (int64_t n = 0; n < count && b->obstacle_count > 0; ++n) peri__hold_contact(b, part, s->queue[n], constrained);
+    for (int64_t n = 0; n < count && s->contact_count > 0; ++n) peri__hold_contact(s, part, s->queue[n], constrained);
     for (int64_t n = 0; n < count; ++n)
         for (int d = 0; d < dim; ++d) {
             double motion[PERI_RIGID_MODES];
@@ -259,10 +260,9 @@ static int peri__came_off(const peri__solver *s, int64_t i, int any) {
 
 /* Does a load act on point i, a support or an obstacle? */
 static int peri__bears(const peri__solver *s, int64_t i) {
-    const peri_body *b = s->body;
-    double normal[3];
     int bears = s->constrained[i] != 0;
-    for (int64_t k = 0; k < b->obstacle_count && !bears; ++k) bears = peri__touches(b, &b->obstacles[k], i, normal);
+    for (int64_t k = peri__first_contact(s, i); k < s->contact_count && s->contacts[k].point == i && !bears; ++k)
+        bears = s->contacts[k].active;
     return bears;
 }
 
@@ -290,6 +290,40 @@ static void peri__leave_part(peri__solver *s, int64_t count, peri__floating_part
     s->report.lost_points += count;
 }
 
+/* Marks the part in s->queue, which has so many free modes, where it would have more without obstacles. */
+static void peri__note_leaning(peri__solver *s, int64_t count, int32_t modes) {
+    peri__floating_part part;
+    if (!s->leaning || s->contact_count == 0) return;
+    s->counted = 0;
+    peri__free_modes(s, count, &part);
+    const int leans = part.modes > modes;
+    s->leaning_count += leans;
+    for (int64_t n = 0; n < count; ++n) s->leaning[s->queue[n]] = leans ? s->leaning_count : 0;
+}
+
+/* The active set of the next linear solve. bridged: springs are in it that are not in touch. */
+static int32_t peri__choose_contacts(peri__solver *s) {
+    const peri__model *m = s->body->model;
+    peri__floating_part part;
+    int64_t first = 0;
+    const int32_t status = peri__list_contacts(s);
+    s->bridged = 0;
+    for (int32_t mark = 1; status == PERI_OK && mark <= s->leaning_count; ++mark) {
+        int64_t count = 0;
+        for (int64_t i = 0; i < m->points; ++i)
+            if (s->leaning[i] == mark) s->queue[count++] = (int32_t)i;
+        first = s->queue[0];
+        s->counted = 1;
+        peri__free_modes(s, count, &part);
+        if (part.modes <= (s->part_of[first] < 0 ? 0 : s->parts[s->part_of[first]].modes)) continue;
+        s->bridged = 1;
+        for (int64_t n = 0; n < s->contact_count; ++n)
+            if (s->leaning[s->contacts[n].point] == mark) s->contacts[n].active = 1;
+    }
+    s->hanging = s->bridged ? s->hanging + 1 : 0;
+    return s->hanging > PERI_HANGING ? peri__set_error(&s->failure, PERI_ERROR_LOOSE, "loose", first, 0.0) : status;
+}
+
 /* Finds the floating parts and deals with them as the settings say. s->constrained holds the supports. */
 static int32_t peri__find_floating_parts(peri__solver *s) {
     peri_body *b = s->body;
@@ -298,12 +332,18 @@ static int32_t peri__find_floating_parts(peri__solver *s) {
     int held = 0;
     s->part_count = 0;
     s->report.loose = s->report.lost_parts = s->report.lost_points = 0;
+    s->leaning_count = s->hanging = 0;
+    const int32_t listed = peri__list_contacts(s);
+    if (listed < 0) return listed;
     for (int64_t i = 0; i < m->points; ++i) s->part_of[i] = PERI_UNSEEN;
+    for (int64_t i = 0; s->leaning && i < m->points; ++i) s->leaning[i] = 0;
     for (int64_t i = 0; i < m->points; ++i) {
         peri__floating_part part;
         if (s->part_of[i] != PERI_UNSEEN) continue;
         int64_t count = peri__connected(s, i, PERI_UNDER_WAY);
+        s->counted = 2;
         peri__free_modes(s, count, &part);
+        peri__note_leaning(s, count, part.modes);
         held = held || part.modes == 0;
         if (part.modes > 0 && refused && peri__broke_off(s, count)) {
             peri__leave_part(s, count, &part);

@@ -69,7 +69,7 @@ static int32_t peri__set_factor(peri__solver *s, double factor) {
     b->now.load_factor = factor;
     peri__changed(b, PERI__ACTION);
     int32_t status = peri__static_values(b);
-    return status == PERI_OK ? peri__move_obstacles(b, factor) : status;
+    return status == PERI_OK ? peri__move_obstacles(b, factor, 0.0) : status;
 }
 
 typedef enum peri__afresh { /* what an equilibrium makes of supports, parts and preconditioner                        */

@@ -29,32 +29,6 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_force, &operands, NULL);
 }
 
-/* Is point i in an obstacle? normal: the unit vector along which that pushes. */
-static int peri__touches(const peri_body *b, const peri__obstacle *o, int64_t i, double *normal) {
-    double push[3] = { 0.0, 0.0, 0.0 }, size;
-    peri__push(b, o, i, push);
-    size = sqrt(peri__dot(push, push, b->dim));
-    for (int32_t d = 0; size > 0.0 && d < b->dim; ++d) normal[d] = push[d] / size;
-    return size > 0.0;
-}
-
-/* Adds what obstacles that points are in do: they resist by stiffness n n, per volume. */
-static void peri__apply_contact(const peri__tangent *t) {
-    const peri_body *b = t->body;
-    const peri__model *m = b->model;
-    for (int64_t k = 0; k < b->obstacle_count; ++k)
-        for (int64_t i = 0; b->obstacles[k].kind && i < m->points; ++i) {
-            double normal[3], along = 0.0;
-            if (!peri__touches(b, &b->obstacles[k], i, normal)) continue;
-            for (int32_t d = 0; d < m->dim; ++d) along += normal[d] * peri__get_real(t->p, b->f32, d * m->stride + i);
-            for (int32_t d = 0; d < m->dim; ++d) {
-                int64_t at = d * m->stride + i;
-                double pushed = b->obstacles[k].stiffness * along * normal[d];
-                peri__put_real(t->q, b->f32, at, peri__get_real(t->q, b->f32, at) - pushed);
-            }
-        }
-}
-
 /* K^-1 of a correspondence point times v; returns v.K^-1 v. */
 static double peri__by_inverse(const peri_body *b, int64_t i, const double *v, double *out) {
     const int32_t dim = b->model->dim;

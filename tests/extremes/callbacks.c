@@ -91,8 +91,8 @@ static void change_all(meddler *c) {
         NOT_NOW(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL));
         NOT_NOW(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL));
         NOT_NOW(peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 1)));
-        NOT_NOW(peri_add_plane_obstacle(b, zero, v, 0, NULL, NULL));
-        NOT_NOW(peri_add_ball_obstacle(b, zero, 1, 0, NULL, NULL));
+        NOT_NOW(plane_obstacle(b, zero, v, 0, NULL, NULL));
+        NOT_NOW(ball_obstacle(b, zero, 1, 0, NULL, NULL));
         NOT_NOW(peri_remove_obstacle(b, peri_id(b, PERI_KIND_OBSTACLE, 1)));
         NOT_NOW(peri_body_clone(b, &copy, NULL));
         c->wrong += copy != NULL;
@@ -116,8 +116,8 @@ static int32_t in_load(void *user, double time, int64_t count, const int32_t *po
     meddle(user);
     return 0;
 }
-static int32_t in_motion(void *user, double time, double *place) {
-    (void)time, (void)place;
+static int32_t in_motion(void *user, double time, double *place, double *turn) {
+    (void)time, (void)place, (void)turn;
     meddle(user);
     return 0;
 }
@@ -194,7 +194,7 @@ static uint64_t meddled_life(outcome *o, int which, int32_t law, int32_t precisi
     const int32_t axes = PERI_AXIS_XY, set = peri_select_box(b, NULL, still, edge), right = peri_select_box(b, NULL, half, end);
     (void)extreme_fails(o, b, peri_prescribe_velocity(b, set, axes, still, which == SUPPORT ? in_load : NULL, &c));
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, still, which == LOAD ? in_load : NULL, &c));
-    (void)extreme_fails(o, b, peri_add_plane_obstacle(b, below, up, 1, which == MOTION ? in_motion : NULL, &c));
+    (void)extreme_fails(o, b, plane_obstacle(b, below, up, 1, which == MOTION ? in_motion : NULL, &c));
     (void)extreme_fails(o, b, peri_add_velocity(b, right, pull));
     if (which == BREAK) (void)extreme_fails(o, b, peri_on_break(b, in_break, &c));
     if (which == LOG && peri_dimension(b) == 2) /* misses: a remark */
@@ -421,7 +421,8 @@ static int32_t write_load(void *user, double time, int64_t count, const int32_t 
     if (!w->silent && time >= w->time) value[count * w->dim - 1] = w->value;
     return 0;
 }
-static int32_t write_place(void *user, double time, double *place) {
+static int32_t write_place(void *user, double time, double *place, double *turn) {
+    (void)turn;
     const writer *w = (const writer *)user;
     if (!w->silent && time >= w->time) place[w->dim - 1] = w->value;
     return 0;
@@ -441,8 +442,8 @@ static void add_written(outcome *o, peri_body *b, int kind, writer *w) {
     case SURFACE: (void)extreme_fails(o, b, peri_apply_traction(b, set, dim == 3 ? 15 : 5, normal, v, write_load, w)); break;
     case DISPLACEMENT: (void)extreme_fails(o, b, peri_prescribe_displacement(b, set, axes, v, write_load, w)); break;
     case VELOCITY: (void)extreme_fails(o, b, peri_prescribe_velocity(b, set, axes, v, write_load, w)); break;
-    case PLANE: (void)extreme_fails(o, b, peri_add_plane_obstacle(b, below, up, 1, write_place, w)); break;
-    default: (void)extreme_fails(o, b, peri_add_ball_obstacle(b, below, 1, 1, write_place, w)); break;
+    case PLANE: (void)extreme_fails(o, b, plane_obstacle(b, below, up, 1, write_place, w)); break;
+    default: (void)extreme_fails(o, b, ball_obstacle(b, below, 1, 1, write_place, w)); break;
     }
 }
 

@@ -233,7 +233,7 @@ static outcome directions(const extreme *row, int32_t precision) {
         if (b) {
             const int32_t top = peri_select_box(b, NULL, lo, hi);
             n = peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY);
-            (void)(extreme_fails(&o, b, peri_add_plane_obstacle(b, at, normal, 1, NULL, NULL))
+            (void)(extreme_fails(&o, b, plane_obstacle(b, at, normal, 1, NULL, NULL))
                    || extreme_fails(&o, b, peri_apply_traction(b, top, 16, normal, value, NULL, NULL)));
             f[k] = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         }

@@ -89,7 +89,7 @@ static outcome torn_far(const extreme *row, int32_t precision) {
                 (void)extreme_fails(&o, b, space == PERI_SPACE_SOLID ? peri_cut_rectangle(b, PERI_CUT_INITIAL, corner, edge1, edge2)
                                                                      : peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
                 (void)extreme_fails(&o, b, peri_add_velocity(b, peri_select_box(b, NULL, lo, hi), right));
-                (void)extreme_fails(&o, b, peri_add_plane_obstacle(b, place, up, 0.5, NULL, NULL));
+                (void)extreme_fails(&o, b, plane_obstacle(b, place, up, 0.5, NULL, NULL));
                 peri_advance_desc_init(&run);
                 run.steps = 25;
                 if (o.status == PERI_OK) (void)extreme_fails(&o, b, peri_advance(b, &run));

@@ -455,8 +455,8 @@ static outcome many_obstacles(const extreme *row, int32_t precision) {
         before = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         step = peri_stable_step(b);
         for (int i = 0; i < (int)row->value; ++i)
-            HOLDS(PERI_ID_INDEX(i % 2 ? peri_add_plane_obstacle(b, place, up, 1, NULL, NULL)
-                                      : peri_add_ball_obstacle(b, centre, 2, 1, NULL, NULL)) == i + 1);
+            HOLDS(PERI_ID_INDEX(i % 2 ? plane_obstacle(b, place, up, 1, NULL, NULL)
+                                      : ball_obstacle(b, centre, 2, 1, NULL, NULL)) == i + 1);
         after = extreme_read(&o, b, PERI_FIELD_FORCE_DENSITY);
         for (int64_t i = 0; before && after && i < peri_size_of_field(b, PERI_FIELD_FORCE_DENSITY); ++i) HOLDS(before[i] == after[i]);
         o.error = extreme_worst(o.error, fabs(peri_stable_step(b) * sqrt(4 / (step * step) + row->value) / 2 - 1));

@@ -58,8 +58,8 @@ static peri_body *body_of(outcome *o, int32_t precision, int32_t space, int32_t 
     if (k == CUT) (void)extreme_fails(o, b, peri_cut_if(b, PERI_CUT_INITIAL, cut_some, NULL));
     if (k == TRAPPED) { /* from both sides, all points deep in both: springs of twice the stiffness to the middle */
         const double right[3] = {23, 0, 0}, left[3] = {-17, 0, 0}, plus[3] = {1, 0, 0}, minus[3] = {-1, 0, 0};
-        (void)extreme_fails(o, b, peri_add_plane_obstacle(b, right, plus, TRAP, NULL, NULL));
-        (void)extreme_fails(o, b, peri_add_plane_obstacle(b, left, minus, TRAP, NULL, NULL));
+        (void)extreme_fails(o, b, plane_obstacle(b, right, plus, TRAP, NULL, NULL));
+        (void)extreme_fails(o, b, plane_obstacle(b, left, minus, TRAP, NULL, NULL));
     }
     return b;
 }

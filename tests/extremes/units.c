@@ -217,10 +217,10 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
     (void)extreme_fails(o, b, loads[1]);
     (void)extreme_fails(o, b, peri_apply_body_force(b, PERI_ALL, weight, NULL, NULL));
     (void)extreme_fails(o, b, peri_add_velocity(b, PERI_ALL, down));
-    plane = peri_add_plane_obstacle(b, floor_, up, 0.3 * s->stress / (l * l), NULL, NULL);
+    plane = plane_obstacle(b, floor_, up, 0.3 * s->stress / (l * l), NULL, NULL);
     (void)extreme_fails(o, b, plane);
     if (!c->exact) {
-        round = peri_add_ball_obstacle(b, ball, 3.2 * l, 0, NULL, NULL);
+        round = ball_obstacle(b, ball, 3.2 * l, 0, NULL, NULL);
         (void)extreme_fails(o, b, round);
     }
     peri_advance_desc_init(&run);
@@ -231,9 +231,9 @@ static peri_body *pull(outcome *o, const units *s, const scene *c, record *r) {
     keep_all(r, o, b, s, c, 0);
     if (!extreme_fails(o, b, peri_get_reaction(b, loads[0], force))) keep(r, "reaction", force, dim_of(c), s->stress * cube(s, c) / l);
     if (!extreme_fails(o, b, peri_get_reaction(b, loads[1], force))) keep(r, "load", force, dim_of(c), s->stress * cube(s, c) / l);
-    if (!extreme_fails(o, b, peri_get_obstacle_force(b, plane, force))) keep(r, "plane", force, dim_of(c), s->stress * cube(s, c) / l);
-    if (!c->exact && !extreme_fails(o, b, peri_get_obstacle_force(b, round, force)))
-        keep(r, "ball", force, dim_of(c), s->stress * cube(s, c) / l);
+    const double unit = s->stress * cube(s, c) / l;
+    if (!extreme_fails(o, b, peri_get_obstacle_force(b, plane, force, NULL))) keep(r, "plane", force, dim_of(c), unit);
+    if (!c->exact && !extreme_fails(o, b, peri_get_obstacle_force(b, round, force, NULL))) keep(r, "ball", force, dim_of(c), unit);
     return b;
 }
 
@@ -503,7 +503,7 @@ static outcome unused(const extreme *row, int32_t precision) {
         (void)extreme_fails(&o, b, id);
         (void)extreme_fails(&o, b, peri_add_box(b, id, lo, hi, 1));
         if (!extreme_fails(&o, b, peri_build(b))) {
-            (void)extreme_fails(&o, b, peri_add_plane_obstacle(b, ground, up, 1, NULL, NULL));
+            (void)extreme_fails(&o, b, plane_obstacle(b, ground, up, 1, NULL, NULL));
             if (k < 0) want = peri_stable_step(b);
             extreme_note(&o, row, precision, fabs(peri_stable_step(b) / want - 1), "unused modulus %g, density %g", other.young,
                          other.density);
@@ -531,8 +531,8 @@ static outcome obstacle(const extreme *row, int32_t precision) {
     (void)extreme_fails(&o, b, peri_add_material(b, &m));
     (void)extreme_fails(&o, b, peri_add_box(b, material_id(b, 1), lo, hi, 1));
     if (extreme_fails(&o, b, peri_build(b))) return extreme_end(o, b);
-    id = row->choice == 1 ? peri_add_ball_obstacle(b, centre, size, 2, NULL, NULL) : peri_add_plane_obstacle(b, place, up, 2, NULL, NULL);
-    if (!extreme_fails(&o, b, id) && !extreme_fails(&o, b, peri_get_obstacle_force(b, id, force)))
+    id = row->choice == 1 ? ball_obstacle(b, centre, size, 2, NULL, NULL) : plane_obstacle(b, place, up, 2, NULL, NULL);
+    if (!extreme_fails(&o, b, id) && !extreme_fails(&o, b, peri_get_obstacle_force(b, id, force, NULL)))
         /* one layer of 16 points is 0.75 deep: 2 * 0.75 * 16 = 24 */
         extreme_note(&o, row, precision, fabs(force[1] / 24 - 1) + fabs(force[0]) + fabs(force[2]), "force %g %g %g", force[0], force[1],
                      force[2]);
