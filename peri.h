@@ -435,6 +435,10 @@ PERI_API double peri_stable_step(const peri_body *body);
 PERI_API int32_t peri_get_families(peri_body *body, int64_t first, int64_t count, int32_t *rows,
     int64_t capacity);
 
+/* The point nearest to x[dim] [L]; _in_place: where it is now. */
+PERI_API int32_t peri_find_point(peri_body *body, const double *x);
+PERI_API int32_t peri_find_point_in_place(peri_body *body, const double *x);
+
 /* 1: bond (i,j) carries force; 0: broken or cut; PERI_ERROR_PAIR: no such bond. */
 PERI_API int32_t peri_bond_is_intact(peri_body *body, int32_t i, int32_t j);
 
@@ -450,6 +454,12 @@ PERI_API int32_t peri_select_box(peri_body *body, const char *name, const double
     const double *hi);
 PERI_API int32_t peri_select_ball(peri_body *body, const char *name, const double *centre,
     double radius);
+/* By present positions. */
+PERI_API int32_t peri_select_box_in_place(peri_body *body, const char *name, const double *lo,
+    const double *hi);
+PERI_API int32_t peri_select_ball_in_place(peri_body *body, const char *name, const double *centre,
+    double radius);
+
 PERI_API int32_t peri_select_if(peri_body *body, const char *name, peri_point_fn take, void *user);
 PERI_API int32_t peri_select_points(peri_body *body, const char *name, int64_t count,
     const int32_t *points);
@@ -494,6 +504,41 @@ PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 /* on = 1: keeps when bonds between adjacent points break, for peri_get_cracks: 32 to 44 bytes per
    point. */
 PERI_API int32_t peri_record_breaks(peri_body *body, int32_t on);
+
+/* ---- fragments: points joined by bonds that carry force --------------------- */
+
+/* A rigid body of point masses; in 2D vectors end with 0. */
+typedef struct peri_fragment {
+    int32_t first;      /* its least point */
+    int32_t points;     /* how many */
+    int32_t parent;     /* the fragment that it broke off, or -1 */
+    int32_t held;       /* 1: a support holds a point of it */
+    double mass;        /* [M] */
+    double centre[3];   /* [L] of mass, now */
+    double velocity[3]; /* [L T^-1] of the centre */
+    double angular[3];  /* [M L^2 T^-1] momentum about the centre */
+    double inertia[6];  /* [M L^2] about the centre: xx yy zz xy yz xz */
+    double lo[3];       /* [L] box around its points, now */
+    double hi[3];
+} peri_fragment;
+
+/* How many there are, and which each point is in: of_point[points], or NULL. They are numbered 0,
+   1, ... by their least points when first asked for. Of one that has split since, the piece of most
+   points keeps the number; the others get the next ones. Free where no bond broke. */
+PERI_API int64_t peri_find_fragments(peri_body *body, int32_t *of_point, int64_t capacity);
+
+/* out[k] is fragment k. */
+PERI_API int32_t peri_get_fragments(peri_body *body, peri_fragment *out, int64_t capacity);
+
+/* The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L];
+   faces[][dim] of vertices: in 2D edges with the fragment on the left, loop by loop, edge k from
+   vertex k on; in 3D triangles, counter-clockwise from outside. owners[], or NULL: its point;
+   inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares or cubes. */
+PERI_API int32_t peri_size_of_outline(peri_body *body, int32_t fragment, int64_t *vertices,
+    int64_t *faces);
+PERI_API int32_t peri_get_outline(peri_body *body, int32_t fragment, double *vertices,
+    int64_t vertex_capacity, int32_t *faces, int32_t *owners, int32_t *inner,
+    int64_t face_capacity);
 
 /* ---- initial state, supports, loads, obstacles: ids, or an error ------------ */
 
@@ -820,7 +865,8 @@ typedef enum peri_field {
     PERI_FIELD_STRAIN = 2013,           /* [tensor] of F: small, or Green-Lagrange [T] 4.14 */
     PERI_FIELD_STRESS = 2014,           /* [tensor] Cauchy, of the material [M L^-1 T^-2] */
     PERI_FIELD_FORCE_STRESS = 2015,     /* [tensor] Cauchy, what the bonds carry [T] 4.10, 4.13 */
-    PERI_FIELD_REACTION = 2016          /* [dim] force density of supports, mean of the last step */
+    PERI_FIELD_REACTION = 2016,         /* [dim] force density of supports, mean of the last step */
+    PERI_FIELD_FRAGMENT = 2017          /* peri_find_fragments */
 } peri_field;
 
 typedef enum peri_type {
@@ -936,7 +982,7 @@ typedef struct peri_memory {
     int64_t state;    /* displacements, velocities, forces, and scratch of passes */
     int64_t laws;     /* materials, constants, and the body itself */
     int64_t loads;    /* sets, supports, loads, obstacles, contact */
-    int64_t fields;   /* derived fields that were viewed */
+    int64_t fields;   /* derived fields that were viewed; fragments */
     int64_t total;    /* of all these */
     int64_t shared;   /* of the total: what clones share */
 } peri_memory;

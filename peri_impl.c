@@ -114,6 +114,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/obstacle_desc.c" /* obstacles, added, removed, read and set                                     */
 #include "src/body/touch.c"        /* contact between materials, declared                                          */
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
+#include "src/body/fragments.c"    /* points joined by live bonds; what they are as rigid bodies                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
 
 /* ---- dynamics -------------------------------------------------------------------------- */
@@ -146,6 +147,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/output/output.c"     /* VTU, CSV                                                                     */
 #include "src/output/paths.c"      /* broken bonds                  -> cracks and tips in 2D                       */
 #include "src/output/cracks.c"     /* and in 3D; VTP                                                               */
+#include "src/output/outline.c"    /* fragments                     -> closed polygons and triangle meshes           */
 #endif
 
 /* ---- advice ---------------------------------------------------------------------------- */

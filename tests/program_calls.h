@@ -446,7 +446,7 @@ static int64_t twins(program *p, int s) {
 
 static int64_t look_at_fields(program *p, int s) {
     slot *o = &p->slots[s];
-    const int32_t field = choice(p, PERI_FIELD_POSITION, 16);
+    const int32_t field = choice(p, PERI_FIELD_POSITION, 17);
     peri_view view;
     double linear[3], angular[3];
     peri_energy e;

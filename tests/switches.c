@@ -124,11 +124,19 @@ static void try_output(peri_body *b, int p, int dim) {
     peri_cracks_desc_init(&desc);
     const int32_t found = peri_cracks_create(b, &desc, &cracks), exported = cracks ? peri_export_cracks_to(cracks, mix, &hash) : 0;
     peri_cracks_destroy(cracks);
+    static double vertices[20000];
+    static int32_t triangles[40000];
+    int64_t count[2];
     if (!no_output) {
         MUST(b, vtu);
         MUST(b, history);
         MUST(b, found);
         CHECK(exported == PERI_OK);
+        MUST(b, peri_size_of_outline(b, -1, &count[0], &count[1]));
+        CHECK(count[0] * dim <= 20000 && count[1] * dim <= 40000);
+        MUST(b, peri_get_outline(b, -1, vertices, count[0], triangles, NULL, NULL, count[1]));
+        (void)mix(&hash, vertices, count[0] * dim * (int64_t)sizeof *vertices);
+        (void)mix(&hash, triangles, count[1] * dim * (int64_t)sizeof *triangles);
         show("output", p, dim, hash);
         return;
     }
@@ -140,6 +148,8 @@ static void try_output(peri_body *b, int p, int dim) {
     CHECK(peri_cracks_paths(cracks) == PERI_ERROR_ARGUMENT && peri_cracks_vertices(cracks) == PERI_ERROR_ARGUMENT);
     CHECK(peri_get_cracks(cracks, NULL, NULL, NULL, NULL) == PERI_ERROR_ARGUMENT);
     CHECK(peri_export_cracks_to(cracks, mix, &hash) == PERI_ERROR_ARGUMENT);
+    left_out(b, peri_size_of_outline(b, -1, &count[0], &count[1]), no_output);
+    left_out(b, peri_get_outline(b, -1, vertices, 0, triangles, NULL, NULL, 0), no_output);
 #ifndef PERI_NO_STDIO
     left_out(b, peri_export_vtu(b, "build/checks/left_out.vtu"), no_output);
     left_out(b, peri_export_history(b, "build/checks/left_out.csv", 0), no_output);

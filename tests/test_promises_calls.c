@@ -100,6 +100,18 @@ static void with_cracks(peri_body *b, const peri_body *unbuilt) {
     peri_cracks_destroy(cracks);
 }
 
+/* Fragments, outlines and what goes by present positions. */
+static void ask_of_pieces(peri_body *b, const double *place) {
+    static peri_fragment pieces[256];
+    int64_t count[2];
+    ASK(peri_find_fragments(b, ints, 512)), ASK(peri_get_fragments(b, pieces, 256)), ASK(peri_size_of_outline(b, -1, count, count + 1));
+    ASK(peri_get_outline(b, -1, numbers, 4, ints, NULL, NULL, 4)), ASK(peri_find_point(b, place)), ASK(peri_find_point_in_place(b, place));
+    ASK(peri_select_box_in_place(b, "b", place, far3)), ASK(peri_select_ball_in_place(b, "b", place, 9));
+    ASK(peri_size_of_outline(b, 7, count, count + 1)), ASK(peri_get_outline(b, 7, numbers, 4, ints, NULL, NULL, 4));
+    ASK(peri_find_fragments(b, ints, 1)), ASK(peri_get_fragments(b, pieces, 0)), ASK(peri_find_fragments(b, NULL, 1));
+    ASK(peri_select_box_in_place(b, NULL, up3, zero3)), ASK(peri_select_ball_in_place(b, NULL, far3, 1e-9));
+}
+
 /* Every function, without a body or a matrix. */
 static void without_a_body(void) {
     const peri_body *c = NULL;
@@ -141,6 +153,7 @@ static void without_a_body(void) {
     ASK(peri_export_history(n, "build/x", 0)), ASK(peri_get_memory(c, &memory)), ASK(peri_format_error(NULL, NULL, 0));
     ASK(peri_plan(NULL, NULL, NULL)), ASK(peri_choose(NULL, NULL, NULL, NULL, NULL)), ASK(peri_body_create(NULL, &made, NULL));
     ASK(peri_body_clone(n, &made, NULL)), ASK(peri_advance(n, NULL)), ASK(peri_solve(n, NULL, NULL));
+    ask_of_pieces(n, zero3);
 }
 
 /* Ids: none, of another kind, of another body, gone. */
@@ -217,7 +230,7 @@ static void at_the_wrong_time(void) {
     ASK(peri_get_momentum(d, numbers, NULL)), ASK(peri_export_vtu_to(d, take_bytes, NULL)), ASK(peri_export_vtu(d, "build/x"));
     ASK(peri_export_history_to(d, 1, take_bytes, NULL)), ASK(peri_export_history(d, "build/x", 0));
     ASK(peri_add_ball(b, id, zero3, 9, 1)), ASK(peri_add_perturbed_box(b, id, zero3, far3, 1, 0.5, 1));
-    ASK(peri_add_points(b, 1, far3, one3, NULL));
+    ASK(peri_add_points(b, 1, far3, one3, NULL)), ask_of_pieces(d, zero3);
     pole.desc.influence = PERI_INFLUENCE_POLE_EDGE;
     peri_body_destroy(d);
     d = specimen_start(&pole);
@@ -259,6 +272,7 @@ static void with_wrong_arguments(void) {
     peri_matrix_destroy(matrix);
     with_cracks(b, NULL);
     peri_body_destroy(d);
+    ask_of_pieces(b, zero3), ask_of_pieces(b, zero3), ask_of_pieces(b, nan3);
     numbers[0] = 0;
     const double beyond[4] = {-1.7e308, 0, 1.7e308, 0}, units[2] = {1, 1};
     d = NULL;
@@ -398,6 +412,12 @@ static void without_memory(void) {
         MUST(b, peri_remove_load(b, load)), MUST(b, peri_remove_obstacle(b, wall_of));
         MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, NULL));
     }
+    static peri_fragment pieces[256];
+    int64_t count[2];
+    SHORT(peri_find_fragments(b, ints, 512)), SHORT(peri_get_fragments(b, pieces, 256));
+    SHORT(peri_get_field(b, PERI_FIELD_FRAGMENT, numbers, 512));
+    SHORT(peri_size_of_outline(b, -1, count, count + 1)), SHORT(peri_get_outline(b, -1, numbers, 4, ints, NULL, NULL, 4));
+    SHORT(peri_select_box_in_place(b, NULL, zero3, far3)), SHORT(peri_select_ball_in_place(b, NULL, zero3, 9));
     CHECK(peri_get_memory(b, &after) == PERI_OK && after.state == before.state && after.fields == before.fields);
     CHECK(made == NULL && m == NULL);
     peri_body_destroy(t);
@@ -448,6 +468,7 @@ static void fill_sets(peri_body *b) {
     const int32_t point = 7;
     int32_t last = 0;
     while (last >= 0) last = peri_select_points(b, NULL, 1, &point);
+    ASK(peri_select_box_in_place(b, NULL, zero3, far3)), ASK(peri_select_ball_in_place(b, NULL, zero3, 9));
     ASK(peri_select_points(b, NULL, 1, &point)), ASK(peri_select_box(b, NULL, zero3, far3)), ASK(peri_select_ball(b, NULL, zero3, 9));
     ASK(peri_select_if(b, NULL, take_point, NULL));
 }

@@ -212,6 +212,8 @@ static void peri__plan_bytes(peri__estimate *s, const peri_plan_desc *plan, peri
     m->x = there;
     m->portion = s->body.b32 && plan->source != PERI_SOURCE_BOX ? there : NULL;
     m->count = (int32_t *)there;
+    m->pieces = &s->piece;
+    m->piece_count = 1;
     m->pairs = &s->pair;
     if (stencil > 0) peri__mark_stencil(s, there);
     most = peri__model_bytes(s) + (s->corrected ? 0 : builder);

@@ -98,6 +98,8 @@ typedef struct peri__piece {
     int64_t cells[3];     /* cells per axis                                                                              */
     double *vertices;     /* moved vertices in cell units, [(cells+1)^dim][dim], x fastest; NULL where none moved         */
     int64_t vertex_bytes;
+    double  amount;       /* how far vertices moved, of a quarter of a cell, and by which random numbers: models keep these alone */
+    uint64_t seed;
 } peri__piece;
 
 /* What is described before peri_build. */
@@ -229,6 +231,8 @@ typedef struct peri__model {
     int32_t    record_reals;    /* reals per record of body->records: 4, 8, 12 or 16; 0 where list.inl does not serve    */
     int64_t    margin;   /* of a state vector before and after: kernels on columns read beyond the ends, and discard     */
 
+    peri__piece *pieces;  /* [piece_count] where the points came from, vertices NULL                                     */
+    int64_t    piece_count;
     int32_t    materials;
     int32_t    law;      /* the number of one of the laws in use; 0: none                                                */
     int32_t    pairwise; /* 1 where all laws in use are: bodies have no constants and responses then                     */
@@ -422,6 +426,10 @@ typedef struct peri__derived { /* what peri_view_field computed of a field      
     int32_t components;
 } peri__derived;
 
+typedef struct peri__fragment { /* connected points: fragments.c                                                         */
+    int32_t first, points, parent; /* as of peri_fragment                                                                */
+} peri__fragment;
+
 typedef struct peri__ledger { /* inner units of energy                                                                    */
     double external, obstacle, damping, fracture, initial;
     double before; /* kinetic + elastic before the first unaccounted change, while PERI__STALE_LEDGER                    */
@@ -441,6 +449,7 @@ typedef enum peri__stale {
 /* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. */
 typedef struct peri__progress {
     int64_t      cut, broken, steps; /* cut, broken: directed                                                            */
+    int64_t      fragments, fragment_dead; /* how many are known, 0: none; `cut` + `broken` when they were              */
     double       time;               /* [T], the caller's unit: a run ends at its duration to the last bit               */
     int32_t      loaded;             /* 1: loads have acted, by a solve or a run                                       */
     double       load_factor;        /* of constant loads and supports; the time of callbacks where `still`              */
@@ -530,6 +539,9 @@ struct peri_body {
     void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u,    */
     void     *change_f;      /* of the force, both laid out as u with its margins,                                       */
     void     *change_response; /* and of the response                                                                     */
+    uint32_t *fragment_alive; /* [points][words] alive when fragments were made; NULL, like the next, until they are asked for */
+    int32_t  *fragment_of;   /* [points] fragment                                                                        */
+    peri__fragment *fragments; /* [points], of which there are now.fragments                                             */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
     int64_t   side_count;    /* pairs i < j of adjacent points, see sides.c; 0 unless they are recorded                 */
     int64_t  *side_start;    /* [points+1] pairs of the points before; NULL, like the next, unless recorded              */

@@ -35,9 +35,9 @@ typedef struct peri__array {
     int           wanted;
     peri__purpose purpose;
 } peri__array;
-#define PERI_ARRAYS 29       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 32       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
-#define PERI_MODEL_ARRAYS 19 /* with all others                                                                           */
+#define PERI_MODEL_ARRAYS 20 /* with all others                                                                           */
 
 static void *peri__pointer_at(const void *owner, size_t place) {
     void *pointer;
@@ -77,6 +77,7 @@ static void peri__list_model(const peri_body *b, const peri__model *m, peri__arr
         PERI_ARRAY_(portion, m->stride, real, PERI__POINTS),
         PERI_ARRAY_(material, n, 1, PERI__POINTS),
         PERI_ARRAY_(count, n, sizeof(int32_t), PERI__POINTS),
+        PERI_ARRAY_(pieces, m->piece_count, sizeof(peri__piece), PERI__POINTS),
         PERI_ARRAY_(pairs, pairs, sizeof(peri__pair), PERI__LAWS),
     };
 #undef PERI_ARRAY_
@@ -110,6 +111,9 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(masks, m->stencil.columns, sizeof(uint16_t), 0, PERI__DAMAGE),
         PERI_ARRAY_(uncut, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
         PERI_ARRAY_(before, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
+        PERI_ARRAY_(fragment_alive, flags, sizeof(uint32_t), 0, PERI__FIELDS),
+        PERI_ARRAY_(fragment_of, n, sizeof(int32_t), 0, PERI__FIELDS),
+        PERI_ARRAY_(fragments, n, sizeof(peri__fragment), 0, PERI__FIELDS),
         PERI_ARRAY_(no_fail, n, 1, 0, PERI__DAMAGE),
         PERI_ARRAY_(point_class, n, 1, 0, PERI__LAWS),
         PERI_ARRAY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof(peri__pair), 1, PERI__LAWS),

@@ -261,7 +261,10 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     m->volume = (double *)peri__new(&m->memory, m->points, sizeof *m->volume);
     m->material = (uint8_t *)peri__copy(&m->memory, b->setup.material, m->points, 1);
     m->count = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->count);
-    if (!m->x || !m->volume || !m->material || !m->count) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    m->piece_count = b->setup.piece_count;
+    m->pieces = (peri__piece *)peri__copy(&m->memory, b->setup.pieces, m->piece_count, sizeof *m->pieces);
+    for (int64_t p = 0; m->pieces && p < m->piece_count; ++p) m->pieces[p].vertices = NULL;
+    if (!m->x || !m->volume || !m->material || !m->count || !m->pieces) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
 
     peri__scale_points(b, m, cloud->x);
     for (int64_t i = 0; i < m->points; ++i) { /* extents or cells beyond the range of double */

@@ -10,6 +10,11 @@ static double peri__position(const peri_body *b, int64_t i, int32_t d) {
     return m->origin[d] + m->length * peri__get_real(m->x, b->f32, d * m->stride + i);
 }
 
+/* And the displacement of where it is. */
+static double peri__moved(const peri_body *b, int64_t i, int32_t d) {
+    return b->model->length * peri__get_real(b->u, b->f32, d * b->model->stride + i);
+}
+
 /* Nearer than this touches; inner units. Single precision moves points by the rounding of their coordinates. */
 static double peri__touching(const peri_body *b) {
     const peri__model *m = b->model;
@@ -74,7 +79,8 @@ static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, in
     return peri__id(b, PERI_KIND_SET, b->set_count - 1);
 }
 
-static int32_t peri__select(peri_body *b, const char *name, peri_point_fn take, void *user) {
+/* By reference positions; in_place: by present ones. */
+static int32_t peri__select(peri_body *b, const char *name, int in_place, peri_point_fn take, void *user) {
     const peri__model *m = b->model;
     int32_t *points = (int32_t *)peri__new(&b->scratch, m->points, sizeof *points);
     int64_t count = 0;
@@ -83,7 +89,7 @@ static int32_t peri__select(peri_body *b, const char *name, peri_point_fn take, 
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t i = 0; i < m->points && said >= 0; ++i) {
         double x[3];
-        for (int32_t d = 0; d < m->dim; ++d) x[d] = peri__position(b, i, d);
+        for (int32_t d = 0; d < m->dim; ++d) x[d] = peri__position(b, i, d) + (in_place ? peri__moved(b, i, d) : 0.0);
         said = take(user, i, x);
         if (said > 0) points[count++] = (int32_t)i;
     }
@@ -108,7 +114,7 @@ static int32_t peri__is_inside_box(void *user, int64_t index, const double *x) {
     return 1;
 }
 
-PERI_API int32_t peri_select_box(peri_body *b, const char *name, const double *lo, const double *hi) {
+static int32_t peri__select_box(peri_body *b, const char *name, int in_place, const double *lo, const double *hi) {
     peri__inside_box box;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, lo);
@@ -119,10 +125,18 @@ PERI_API int32_t peri_select_box(peri_body *b, const char *name, const double *l
         box.lo[d] = lo[d] - touch;
         box.hi[d] = hi[d] + touch;
     }
-    return peri__select(b, name, peri__is_inside_box, &box);
+    return peri__select(b, name, in_place, peri__is_inside_box, &box);
 }
 
-PERI_API int32_t peri_select_ball(peri_body *b, const char *name, const double *centre, double radius) {
+PERI_API int32_t peri_select_box(peri_body *b, const char *name, const double *lo, const double *hi) {
+    return peri__select_box(b, name, 0, lo, hi);
+}
+
+PERI_API int32_t peri_select_box_in_place(peri_body *b, const char *name, const double *lo, const double *hi) {
+    return peri__select_box(b, name, 1, lo, hi);
+}
+
+static int32_t peri__select_ball(peri_body *b, const char *name, int in_place, const double *centre, double radius) {
     peri__within ball;
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED_VECTOR(b, centre);
@@ -130,13 +144,45 @@ PERI_API int32_t peri_select_ball(peri_body *b, const char *name, const double *
     ball.centre = centre;
     ball.radius = radius + peri__touching(b) * b->model->length;
     ball.dim = b->dim;
-    return peri__select(b, name, peri__is_within, &ball);
+    return peri__select(b, name, in_place, peri__is_within, &ball);
 }
+
+PERI_API int32_t peri_select_ball(peri_body *b, const char *name, const double *centre, double radius) {
+    return peri__select_ball(b, name, 0, centre, radius);
+}
+
+PERI_API int32_t peri_select_ball_in_place(peri_body *b, const char *name, const double *centre, double radius) {
+    return peri__select_ball(b, name, 1, centre, radius);
+}
+
+/* The point nearest to x, of equally near ones the least. */
+static int32_t peri__find_point(peri_body *b, int in_place, const double *x) {
+    int64_t nearest = 0;
+    double least = HUGE_VAL;
+    PERI_NEED_BUILT(b);
+    PERI_NEED_VECTOR(b, x);
+    for (int64_t i = 0; i < b->model->points; ++i) {
+        double square = 0.0; /* in spacings, so that no unit is too small or too large for it */
+        for (int32_t d = 0; d < b->dim; ++d) {
+            const double from = x[d] - peri__position(b, i, d) - (in_place ? peri__moved(b, i, d) : 0.0);
+            square += peri__square(from / b->model->length);
+        }
+        if (square < least) {
+            least = square;
+            nearest = i;
+        }
+    }
+    return (int32_t)nearest;
+}
+
+PERI_API int32_t peri_find_point(peri_body *b, const double *x) { return peri__find_point(b, 0, x); }
+
+PERI_API int32_t peri_find_point_in_place(peri_body *b, const double *x) { return peri__find_point(b, 1, x); }
 
 PERI_API int32_t peri_select_if(peri_body *b, const char *name, peri_point_fn take, void *user) {
     PERI_NEED_CHANGEABLE(b);
     PERI_NEED(b, take, "take");
-    return peri__select(b, name, take, user);
+    return peri__select(b, name, 0, take, user);
 }
 
 PERI_API int32_t peri_select_points(peri_body *b, const char *name, int64_t count, const int32_t *points) {

@@ -237,6 +237,26 @@ static double peri__cell_volume(double corner[8][3], int32_t dim, double *centro
     return volume;
 }
 
+/* Makes the moved vertices of a piece; 0 where memory is short. */
+static int peri__move_vertices(const peri__memory *memory, peri__piece *piece, int32_t dim) {
+    const int64_t vertices = peri__vertex_count(piece, dim);
+    uint64_t seed = piece->seed;
+    int64_t at = 0;
+    piece->vertex_bytes = vertices * dim * (int64_t)sizeof(double);
+    piece->vertices = (double *)peri__new(memory, piece->vertex_bytes, 1);
+    for (int64_t v = 0; piece->vertices && v < vertices; ++v) {
+        int64_t rest = v, interior = 1, index[3];
+        for (int32_t d = 0; d < dim; ++d) {
+            index[d] = rest % (piece->cells[d] + 1);
+            rest /= piece->cells[d] + 1;
+            interior = interior && index[d] > 0 && index[d] < piece->cells[d];
+        }
+        for (int32_t d = 0; d < dim; ++d)
+            piece->vertices[at++] = (double)index[d] + (interior ? 0.25 * piece->amount * peri__random(&seed) : 0.0);
+    }
+    return piece->vertices != NULL;
+}
+
 PERI_API int64_t peri_add_perturbed_box(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing,
                                         double amount, uint64_t seed) {
     peri__piece piece;
@@ -246,20 +266,9 @@ PERI_API int64_t peri_add_perturbed_box(peri_body *b, int32_t material, const do
     PERI_NEED_NUMBER(b, amount >= 0.0 && amount <= 1.0, amount);
     s = &b->setup;
 
-    int64_t vertices = peri__vertex_count(&piece, b->dim), at = 0;
-    piece.vertex_bytes = vertices * b->dim * (int64_t)sizeof(double);
-    piece.vertices = (double *)peri__new(&b->memory, piece.vertex_bytes, 1);
-    if (!piece.vertices) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
-    for (int64_t v = 0; v < vertices; ++v) {
-        int64_t rest = v, interior = 1, index[3];
-        for (int32_t d = 0; d < b->dim; ++d) {
-            index[d] = rest % (piece.cells[d] + 1);
-            rest /= piece.cells[d] + 1;
-            interior = interior && index[d] > 0 && index[d] < piece.cells[d];
-        }
-        for (int32_t d = 0; d < b->dim; ++d)
-            piece.vertices[at++] = (double)index[d] + (interior ? 0.25 * amount * peri__random(&seed) : 0.0);
-    }
+    piece.amount = amount;
+    piece.seed = seed;
+    if (!peri__move_vertices(&b->memory, &piece, b->dim)) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
     int64_t added = peri__add_lattice(b, material, &piece, NULL, NULL);
     if (added < 0) {
         peri__delete(&b->memory, piece.vertices, piece.vertex_bytes, 1);

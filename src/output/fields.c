@@ -5,25 +5,30 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* X(name, number, components, unit, way, what, forces). The way is `view`: peri__view_what points to what is stored, or `read`:
-   peri__read_what computes all numbers; both leave the unit to the list. forces: 1 of what a write or a cut leaves out of date. */
+/* X(name, number, components, unit, way, what, ensure). The way is `view`: peri__view_what points to what is stored, or `read`:
+   peri__read_what computes all numbers; both leave the unit to the list. ensure: what a write or a cut leaves out of date, which is made up
+   for first. */
+static int32_t peri__ensure_none(peri_body *b) { return (void)b, PERI_OK; }
+static int32_t peri__ensure_fragments(peri_body *b) { return peri__label_fragments(b); }
+
 #define PERI_FIELD_LIST(X)                                                                                             \
-    X(POSITION, 2001, dim, m->length, view, position, 0)                                                                  \
-    X(DISPLACEMENT, 2002, dim, m->length, view, displacement, 0)                                                          \
-    X(VELOCITY, 2003, dim, peri__velocity_unit(m), view, velocity, 0)                                                     \
-    X(FORCE_DENSITY, 2004, dim, peri__force_unit(m), view, force_density, 1)                                              \
-    X(VOLUME, 2005, 1, pow(m->length, m->dim), view, volume, 0)                                                           \
-    X(MATERIAL, 2006, 1, 1.0, read, material, 0)                                                                          \
-    X(FAMILY_SIZE, 2007, 1, 1.0, read, family_size, 0)                                                                    \
-    X(DAMAGE, 2008, 1, 1.0, read, damage, 0)                                                                              \
-    X(DAMAGE_GROWN, 2009, 1, 1.0, read, damage_grown, 0)                                                                  \
-    X(ENERGY_DENSITY, 2010, 1, m->stress, read, energy_density, 0)                                                       \
-    X(CURRENT_POSITION, 2011, dim, 1.0, read, current, 0) /* the sum of two views, which have their units */                      \
-    X(DILATATION, 2012, 1, 1.0, read, dilatation, 0)                                                                     \
-    X(STRAIN, 2013, PERI_PACKED(dim), 1.0, read, strain, 0)                                                              \
-    X(STRESS, 2014, PERI_PACKED(dim), m->stress, read, stress, 0)                                                        \
-    X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, 0)                                            \
-    X(REACTION, 2016, dim, peri__force_unit(m), read, reaction, 1)
+    X(POSITION, 2001, dim, m->length, view, position, none)                                                                  \
+    X(DISPLACEMENT, 2002, dim, m->length, view, displacement, none)                                                          \
+    X(VELOCITY, 2003, dim, peri__velocity_unit(m), view, velocity, none)                                                     \
+    X(FORCE_DENSITY, 2004, dim, peri__force_unit(m), view, force_density, force)                                              \
+    X(VOLUME, 2005, 1, pow(m->length, m->dim), view, volume, none)                                                           \
+    X(MATERIAL, 2006, 1, 1.0, read, material, none)                                                                          \
+    X(FAMILY_SIZE, 2007, 1, 1.0, read, family_size, none)                                                                    \
+    X(DAMAGE, 2008, 1, 1.0, read, damage, none)                                                                              \
+    X(DAMAGE_GROWN, 2009, 1, 1.0, read, damage_grown, none)                                                                  \
+    X(ENERGY_DENSITY, 2010, 1, m->stress, read, energy_density, none)                                                       \
+    X(CURRENT_POSITION, 2011, dim, 1.0, read, current, none) /* the sum of two views, which have their units */                      \
+    X(DILATATION, 2012, 1, 1.0, read, dilatation, none)                                                                     \
+    X(STRAIN, 2013, PERI_PACKED(dim), 1.0, read, strain, none)                                                              \
+    X(STRESS, 2014, PERI_PACKED(dim), m->stress, read, stress, none)                                                        \
+    X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, none)                                            \
+    X(REACTION, 2016, dim, peri__force_unit(m), read, reaction, force)                                                   \
+    X(FRAGMENT, 2017, 1, 1.0, read, fragment, fragments)
 
 #define PERI_FIELD_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(FIELD_##name, PERI_FIELD_##name == (number))
 PERI_FIELD_LIST(PERI_FIELD_NUMBER_)
@@ -31,7 +36,7 @@ PERI_SAME_COUNT(field, PERI_FIELD_LIST, peri__count_field);
 
 /* Numbers per point of a field, 0 where there is no such field. */
 static int32_t peri__components(int32_t field, int32_t dim) {
-#define PERI_COMPONENTS_CASE_(name, number, components, unit, way, what, forces)                                       \
+#define PERI_COMPONENTS_CASE_(name, number, components, unit, way, what, ensure)                                       \
     case PERI_FIELD_##name: return components;
     switch (field) {
         PERI_FIELD_LIST(PERI_COMPONENTS_CASE_)
@@ -41,7 +46,7 @@ static int32_t peri__components(int32_t field, int32_t dim) {
 }
 
 static double peri__unit_of(const peri__model *m, int32_t field) {
-#define PERI_UNIT_CASE_(name, number, components, unit, way, what, forces)                                             \
+#define PERI_UNIT_CASE_(name, number, components, unit, way, what, ensure)                                             \
     case PERI_FIELD_##name: return unit;
     switch (field) {
         PERI_FIELD_LIST(PERI_UNIT_CASE_)
@@ -152,18 +157,22 @@ static void peri__read_force_stress(peri_body *b, double *out) {
 
 static void peri__read_reaction(peri_body *b, double *out) { peri__read_reactions(b, out); }
 
+static void peri__read_fragment(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->fragment_of[i];
+}
+
 /* ---- any field ---------------------------------------------------------------------------------------------------- */
 
 /* One of both functions. */
 typedef struct peri__field {
     const char *name;
-    int         forces;
+    int32_t (*ensure)(peri_body *b);
     void (*view)(const peri_body *b, peri_view *view);
     void (*read)(peri_body *b, double *out); /* [points*components]                                                      */
 } peri__field;
 
-#define PERI_FIELD_ENTRY_(name, number, components, unit, way, what, forces)                                           \
-    [(number) - peri__first_field] = { #what, forces, .way = peri__##way##_##what },
+#define PERI_FIELD_ENTRY_(name, number, components, unit, way, what, ensure)                                           \
+    [(number) - peri__first_field] = { #what, peri__ensure_##ensure, .way = peri__##way##_##what },
 static const peri__field peri__fields[peri__count_field] = { PERI_FIELD_LIST(PERI_FIELD_ENTRY_) };
 #undef PERI_FIELD_ENTRY_
 
@@ -189,34 +198,34 @@ static void peri__compute(peri_body *b, int32_t field, double *out) {
     for (int64_t k = 0; unit != 1.0 && k < count; ++k) out[k] *= unit;
 }
 
-/* Forces are what a write or a cut can leave out of date. */
-static int32_t peri__ready_field(peri_body *b, int32_t field) {
-    PERI_NEED_CHOICE(b, field, field);
-    return peri__fields[field - peri__first_field].forces ? peri__ensure_force(b) : PERI_OK;
-}
-
 PERI_API int32_t peri_get_field(peri_body *b, int32_t field, double *out, int64_t capacity) {
     PERI_NEED_BUILT(b);
-    int32_t status = peri__ready_field(b, field);
-    if (status < 0) return status;
+    PERI_NEED_CHOICE(b, field, field);
     PERI_NEED(b, out, "out");
-    int64_t need = peri_size_of_field(b, field);
+    const int64_t need = peri_size_of_field(b, field);
     if (capacity < need) return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)need);
+    const int32_t status = peri__fields[field - peri__first_field].ensure(b);
+    if (status < 0) return status;
     peri__compute(b, field, out);
     return PERI_OK;
 }
 
 PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     PERI_NEED_BUILT(b);
-    int32_t status = peri__ready_field(b, field);
-    if (status < 0) return status;
+    PERI_NEED_CHOICE(b, field, field);
     PERI_NEED(b, view, "view");
+    const int known = b->fragment_of != NULL;
+    const int32_t status = peri__fields[field - peri__first_field].ensure(b);
+    if (status < 0) return status;
     memset(view, 0, sizeof *view);
     if (peri__stored_view(b, field, view)) return PERI_OK;
     int32_t components = peri__components(field, b->dim);
     peri__derived *derived = &b->derived[field - peri__first_field];
     if (!derived->data) derived->data = (double *)peri__new(&b->memory, b->model->points * components, sizeof(double));
-    if (!derived->data) return peri__fail(b, PERI_ERROR_MEMORY, "field", field, 0.0);
+    if (!derived->data) {
+        peri__forget_fragments(b, known);
+        return peri__fail(b, PERI_ERROR_MEMORY, "field", field, 0.0);
+    }
     derived->components = components;
     peri__compute(b, field, derived->data);
     view->data = derived->data;

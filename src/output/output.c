@@ -47,7 +47,7 @@ static int32_t peri__finish(peri_body *b, peri__writer *w) {
 /* ---- VTU ---------------------------------------------------------------------------------------------------------- */
 
 static const int32_t peri__vtu_fields[] = { PERI_FIELD_DISPLACEMENT, PERI_FIELD_VELOCITY, PERI_FIELD_DAMAGE, PERI_FIELD_ENERGY_DENSITY,
-                                            PERI_FIELD_MATERIAL, PERI_FIELD_VOLUME, PERI_FIELD_STRESS };
+                                            PERI_FIELD_MATERIAL, PERI_FIELD_VOLUME, PERI_FIELD_STRESS, PERI_FIELD_FRAGMENT };
 #define PERI_VTU_FIELDS (sizeof peri__vtu_fields / sizeof *peri__vtu_fields)
 
 /* As in 3D, whatever the space: vectors have z = 0 in 2D, tensors are xx yy zz xy yz xz. */
@@ -73,12 +73,22 @@ static void peri__emit_length(peri__writer *w, int64_t bytes) {
     peri__emit(w, &length, sizeof length);
 }
 
-/* `values` is scratch for one field. */
+/* The fragment of each point, known before anything is written. A body that was never asked for them keeps nothing. */
+static int32_t peri__fill_fragments(peri_body *b, double *out) {
+    const int known = b->fragment_of != NULL;
+    const int32_t status = peri__label_fragments(b);
+    if (status < 0) return status;
+    peri__compute(b, PERI_FIELD_FRAGMENT, out);
+    peri__forget_fragments(b, known);
+    return PERI_OK;
+}
+
+/* `values` is scratch for one field; or holds the fragments. */
 static void peri__emit_field(peri_body *b, peri__writer *w, int32_t field, double *values) {
     static const int32_t plane[6] = { 0, 1, 3, 2, 3, 3 }; /* of a tensor xx yy xy; 3: none                                */
     int32_t have = peri__components(field, b->dim), components = peri__vtu_components(field);
     const double zero = 0.0;
-    peri__compute(b, field, values);
+    if (field != PERI_FIELD_FRAGMENT) peri__compute(b, field, values);
     peri__emit_length(w, b->model->points * components * 8);
     for (int64_t i = 0; i < b->model->points; ++i)
         for (int32_t d = 0; d < components; ++d) {
@@ -94,8 +104,15 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
     PERI_NEED_BUILT(b);
     PERI_NEED(b, write, "write");
     n = b->model->points;
-    double *values = (double *)peri__new(&b->scratch, n * PERI_PACKED(b->dim), sizeof(double));
+    const int64_t room = n * (PERI_PACKED(b->dim) + 1);
+    double *values = (double *)peri__new(&b->scratch, room, sizeof(double));
     if (!values) return peri__fail(b, PERI_ERROR_MEMORY, "peri_export_vtu_to", -1, 0.0);
+    double *fragments = values + n * PERI_PACKED(b->dim);
+    const int32_t status = peri__fill_fragments(b, fragments);
+    if (status < 0) {
+        peri__delete(&b->scratch, values, room, sizeof(double));
+        return status;
+    }
     w.body = b;
     w.write = write;
     w.user = user;
@@ -122,7 +139,10 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
     peri__emit_text(&w, "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 
     peri__emit_field(b, &w, PERI_FIELD_POSITION, values);
-    for (size_t k = 0; k < PERI_VTU_FIELDS; ++k) peri__emit_field(b, &w, peri__vtu_fields[k], values);
+    for (size_t k = 0; k < PERI_VTU_FIELDS; ++k) {
+        const int32_t field = peri__vtu_fields[k];
+        peri__emit_field(b, &w, field, field == PERI_FIELD_FRAGMENT ? fragments : values);
+    }
     for (int32_t ends = 0; ends < 2; ++ends) { /* each point is a cell of its own: VTK_VERTEX */
         peri__emit_length(&w, n * 4);
         for (int32_t i = 0; i < (int32_t)n; ++i) {
@@ -136,7 +156,7 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
         peri__emit(&w, &vertex, 1);
     }
     peri__emit_text(&w, "\n</AppendedData>\n</VTKFile>\n");
-    peri__delete(&b->scratch, values, n * PERI_PACKED(b->dim), sizeof(double));
+    peri__delete(&b->scratch, values, room, sizeof(double));
     return peri__finish(b, &w);
 }
 

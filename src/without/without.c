@@ -108,6 +108,17 @@ PERI_API int32_t peri_export_cracks_to(const peri_cracks *c, peri_write_fn write
     return c ? PERI_ERROR_LEFT_OUT : PERI_ERROR_ARGUMENT;
 }
 
+PERI_API int32_t peri_size_of_outline(peri_body *b, int32_t fragment, int64_t *vertices, int64_t *faces) {
+    (void)fragment, (void)vertices, (void)faces;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int32_t peri_get_outline(peri_body *b, int32_t fragment, double *vertices, int64_t vertex_capacity, int32_t *faces,
+                                  int32_t *owners, int32_t *inner, int64_t face_capacity) {
+    (void)fragment, (void)vertices, (void)vertex_capacity, (void)faces, (void)owners, (void)inner, (void)face_capacity;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
 #ifndef PERI_NO_STDIO
 PERI_API int32_t peri_export_vtu(peri_body *b, const char *path) {
     (void)path;
