@@ -29,7 +29,7 @@ typedef struct peri__outline {
 
 /* Corners of a side in the order that has the cell on the left, or that is counter-clockwise from outside; from the lowest corner on, so
    that triangles of both sides of a crack have the same edges. */
-static const uint8_t peri__edge[4][2] = { { 2, 0 }, { 1, 3 }, { 0, 1 }, { 3, 2 } };
+static const uint8_t peri__edge_corners[4][2] = { { 2, 0 }, { 1, 3 }, { 0, 1 }, { 3, 2 } };
 static const uint8_t peri__quad[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
 
 static int32_t peri__whole_corner(const peri__outline *s, int64_t slot) {
@@ -92,15 +92,16 @@ static void peri__number_corner(peri__outline *s, int32_t slot) {
 static void peri__follow_sides(peri__outline *s, int32_t *side) {
     const int64_t points = s->body->model->points;
     for (int64_t k = 0; k < 4 * points; ++k)
-        if (s->side[k] < 0 && peri__is_drawn(s, k / 4)) s->leaving[peri__whole_corner(s, k / 4 * 4 + peri__edge[k % 4][0])] = (int32_t)k;
+        if (s->side[k] < 0 && peri__is_drawn(s, k / 4))
+            s->leaving[peri__whole_corner(s, k / 4 * 4 + peri__edge_corners[k % 4][0])] = (int32_t)k;
     for (int64_t k = 0; k < 4 * points; ++k) {
         if (s->side[k] >= 0 || !peri__is_drawn(s, k / 4)) continue;
-        int32_t at = (int32_t)k, corner = peri__whole_corner(s, k / 4 * 4 + peri__edge[k % 4][0]);
+        int32_t at = (int32_t)k, corner = peri__whole_corner(s, k / 4 * 4 + peri__edge_corners[k % 4][0]);
         while (s->number[corner] < 0) {
             peri__number_corner(s, corner);
             if (side) side[s->faces] = at;
             s->faces++;
-            corner = peri__whole_corner(s, at / 4 * 4 + peri__edge[at % 4][1]);
+            corner = peri__whole_corner(s, at / 4 * 4 + peri__edge_corners[at % 4][1]);
             at = s->leaving[corner];
         }
     }
@@ -265,7 +266,7 @@ static void peri__write_faces(const peri__outline *s, const int32_t *side, int32
     for (int64_t k = 0; k < s->faces; ++k) {
         const int32_t at = dim == 2 ? side[k] : side[k / 2], cell = at / s->sides, which = at % s->sides;
         for (int32_t d = 0; d < dim; ++d) {
-            const int32_t c = dim == 2 ? peri__edge[which][d] : peri__quad[which][d == 0 ? 0 : d + (int32_t)(k % 2)];
+            const int32_t c = dim == 2 ? peri__edge_corners[which][d] : peri__quad[which][d == 0 ? 0 : d + (int32_t)(k % 2)];
             faces[k * dim + d] = s->number[peri__whole_corner(s, (int64_t)cell * s->corners + c)];
         }
         if (owners) owners[k] = cell;
