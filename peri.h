@@ -753,8 +753,8 @@ typedef enum peri_loose { /* parts that no support holds against some rigid-body
 } peri_loose;
 
 typedef enum peri_control { /* what sets the load factor */
-    PERI_CONTROL_LOAD = 2601,    /* the load steps */
-    PERI_CONTROL_FRACTURE = 2602 /* where the next bond meets its criterion: through snap-back */
+    PERI_CONTROL_LOAD = 2801,    /* the load steps */
+    PERI_CONTROL_FRACTURE = 2802 /* where the next bond meets its criterion: through snap-back */
 } peri_control;
 
 typedef enum peri_ended { /* why a solve ended */

@@ -32,7 +32,7 @@ objects() {
 # peri_choose"; PERI_NO_STDIO leaves out what needs FILE. Names of GNU libgomp, of the compiler and of the library aside.
 symbols() {
     command -v nm > /dev/null || { echo "skip symbols: no nm on this machine"; return; }
-    maths="atan2 ceil cos exp fabs floor fmax fmin frexp ldexp log log10 pow sin sqrt sqrtf"
+    maths="atan2 ceil cos exp fabs floor fmax fmin frexp ldexp log log10 log1p pow sin sqrt sqrtf"
     memory="free malloc memcmp memcpy memmove memset strcmp strlen strstr"
     for name in $maths $memory; do echo "$name"; done | sort > $out/always
     for name in fopen fclose fwrite clock; do echo "$name"; done | sort - $out/always > $out/allowed

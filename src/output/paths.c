@@ -235,7 +235,8 @@ static int64_t peri__draw_path(const peri__graph *g, int64_t count, int loop) {
 
 static double peri__length_of(const double *line, int64_t count) {
     double sum = 0.0;
-    for (int64_t n = 1; n < count; ++n) sum += hypot(line[2 * n] - line[2 * n - 2], line[2 * n + 1] - line[2 * n - 1]);
+    for (int64_t n = 1; n < count; ++n)
+        sum += sqrt(peri__square(line[2 * n] - line[2 * n - 2]) + peri__square(line[2 * n + 1] - line[2 * n - 1]));
     return sum;
 }
 
@@ -317,7 +318,7 @@ static void peri__add_tip(peri__graph *g, int back) {
     t->path = c->paths - 1;
     for (int64_t n = end + step; n >= first && n <= last && arc < 2.0 * horizon; n += step) {
         const double *at = &c->vertex[2 * n], way[2] = { tip[0] - at[0], tip[1] - at[1] };
-        arc += hypot(at[0] - at[-2 * step], at[1] - at[1 - 2 * step]);
+        arc += sqrt(peri__square(at[0] - at[-2 * step]) + peri__square(at[1] - at[1 - 2 * step]));
         if (arc <= horizon || n == end + step) (void)peri__direction(way, 2, t->direction);
         if (!peri__finite(c->time[n]) || n == first || n == last) continue; /* ends have the time of the next */
         if (count == 0.0) zero = c->time[n];
