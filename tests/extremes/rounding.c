@@ -235,7 +235,7 @@ static outcome told(const extreme *row, int32_t precision) {
         }
         set_mode(NEAREST);
         HOLDS(strtol(at, &at, 10) == 0 && strtod(at + 1, &at) == 0);
-        for (int n = 0; o.status >= 0 && n < 8; ++n) {
+        for (int n = 0; o.status >= 0 && n < 9; ++n) {
             const double value = (&e.kinetic)[n], read = strtod(at + 1, &at);
             o.error = extreme_worst(o.error, fabs(read - value) / fmax(fabs(value), 1e-30));
         }
