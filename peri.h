@@ -881,7 +881,8 @@ PERI_API int64_t peri_size_of_field(const peri_body *body, int32_t field);
 /* Copies a field, as double, in your units and order. capacity counts doubles. */
 PERI_API int32_t peri_get_field(peri_body *body, int32_t field, double *out, int64_t capacity);
 
-/* Sets displacement or velocity of all points; count = points*dim. */
+/* Sets displacement or velocity of all points; count = points*dim. What peri_get_field gives
+   changes no bit. */
 PERI_API int32_t peri_set_field(peri_body *body, int32_t field, const double *in, int64_t count);
 
 /* A field in place: component k of point i, in your units, is offset[k] + scale *

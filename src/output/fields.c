@@ -238,6 +238,12 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     return PERI_OK;
 }
 
+/* Does a copy of the field tell `in` of component d of point i? Then what is stored stays: several reals in inner units may be one number in
+   those of the caller, and what is read and written back is to change no bit. */
+static int peri__tells(const peri_view *view, int64_t i, int32_t d, const double *in) {
+    return peri__view_at(view, i, d) == in[i * view->components + d];
+}
+
 PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, int64_t count) {
     PERI_NEED_IDLE(b);
     PERI_NEED_CHOICE(b, field, field);
@@ -250,10 +256,14 @@ PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, i
     void *data = field == PERI_FIELD_VELOCITY ? b->v : b->u;
     int32_t status = peri__check_state(b, data, in, count, view.scale, "in");
     if (status < 0) return status;
+    int64_t i = 0;
+    for (int32_t d = 0; i < m->points && peri__tells(&view, i, d, in);)
+        if (++d == m->dim) d = 0, ++i;
+    if (i == m->points) return PERI_OK; /* nothing changes, and so nothing is stale                                       */
     peri__changed(b, PERI__MOTION);
-    for (int64_t i = 0; i < m->points; ++i)
+    for (; i < m->points; ++i)
         for (int32_t d = 0; d < m->dim; ++d)
-            peri__put_real(data, b->f32, d * m->stride + i, in[i * m->dim + d] / view.scale);
+            if (!peri__tells(&view, i, d, in)) peri__put_real(data, b->f32, d * m->stride + i, in[i * m->dim + d] / view.scale);
     return PERI_OK;
 }
 
