@@ -732,6 +732,39 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *desc);
    then reset or destroy it. */
 PERI_API int32_t peri_advance(peri_body *body, const peri_advance_desc *desc);
 
+/* ---- a time loop or a solver of yours (examples/own_loop.c) ------------------ */
+
+typedef struct peri_evaluate_desc {
+    uint64_t cookie;          /* set by init */
+    int32_t type;             /* of all arrays: PERI_TYPE_F64 (default) or PERI_TYPE_F32 */
+    int32_t nodal;            /* 1: forces [M L T^-2]; 0 (default): per volume [M L^-2 T^-2] */
+    int32_t bonds;            /* 1 (default): theirs; 0: not */
+    int32_t external;         /* 1 (default): of loads and obstacles; 0: not */
+    int32_t fracture;         /* 1: the body moves there, and bonds break. Default 0: it stays */
+    int32_t energy;           /* 1: report.energy, for one more pass. Default 0 */
+    int64_t point_stride;     /* in elements. Default 0: dim */
+    int64_t component_stride; /* Default 0: 1 */
+    const void *displacement; /* [L]. Default NULL: where the body is */
+    const void *velocity;     /* [L T^-1], with fracture. Default NULL: that of the body */
+    double time_step;         /* [T], with fracture: how long `velocity` took it there. Default 0 */
+    double time;              /* of loads. NaN (default): peri_time */
+    double load_factor;       /* Default NaN: the body's */
+    void *force;              /* out, supports aside. Default NULL */
+    void *impulse;            /* out, with time_step: force times [T] of bonds that broke */
+} peri_evaluate_desc;
+
+typedef struct peri_evaluate_report {
+    int64_t broken; /* bonds, by this call */
+    double energy;  /* elastic [M L^2 T^-2], of the bonds that are left */
+} peri_evaluate_report;
+
+PERI_API void peri_evaluate_desc_init(peri_evaluate_desc *desc);
+
+/* Forces at a displacement of yours. A step, rho of PERI_FIELD_DENSITY: v += dt/2 force/rho,
+   u += dt v, peri_evaluate, v += (dt/2 force + impulse)/rho. report may be NULL. */
+PERI_API int32_t peri_evaluate(peri_body *body, const peri_evaluate_desc *desc,
+    peri_evaluate_report *report);
+
 /* ---- equilibrium (docs/statics.md) ------------------------------------------ */
 
 typedef enum peri_method {
@@ -830,6 +863,10 @@ PERI_API int32_t peri_solve(peri_body *body, const peri_solve_desc *desc,
 PERI_API int32_t peri_multiply_stiffness(peri_body *body, const double *in, double *out,
     int64_t count);
 
+/* The same at `displacement` [points*dim] of yours instead: the body stays where it is. */
+PERI_API int32_t peri_multiply_stiffness_at(peri_body *body, const double *displacement,
+    const double *in, double *out, int64_t count);
+
 /* The same as a matrix by compressed rows, points*dim square ([T] 3.2, 3.3). It outlives the body;
    free it by peri_matrix_destroy. */
 typedef struct peri_matrix peri_matrix;
@@ -866,7 +903,10 @@ typedef enum peri_field {
     PERI_FIELD_STRESS = 2014,           /* [tensor] Cauchy, of the material [M L^-1 T^-2] */
     PERI_FIELD_FORCE_STRESS = 2015,     /* [tensor] Cauchy, what the bonds carry [T] 4.10, 4.13 */
     PERI_FIELD_REACTION = 2016,         /* [dim] force density of supports, mean of the last step */
-    PERI_FIELD_FRAGMENT = 2017          /* peri_find_fragments */
+    PERI_FIELD_FRAGMENT = 2017,         /* peri_find_fragments */
+    PERI_FIELD_MASS = 2018,             /* [M]; planes: thickness included */
+    PERI_FIELD_DENSITY = 2019,          /* of the material [M L^-3] */
+    PERI_FIELD_HELD = 2020              /* [dim] 1: a support prescribes it; else 0 */
 } peri_field;
 
 typedef enum peri_type {

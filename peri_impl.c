@@ -122,6 +122,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/dynamics/stretched.c" /* what deformation does to it                                                  */
 #include "src/dynamics/failure.c"  /* state-based bonds that break                                                 */
 #include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
+#include "src/dynamics/evaluate.c" /* displacements of the caller   -> forces, breaks                               */
 
 /* ---- statics --------------------------------------------------------------------------- */
 #ifndef PERI_NO_STATICS

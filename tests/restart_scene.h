@@ -4,6 +4,7 @@
 #ifndef RESTART_SCENE_H
 #define RESTART_SCENE_H
 
+#include "scene.h"
 #include "specimen.h"
 
 typedef struct scene {
@@ -79,6 +80,20 @@ static inline int32_t scene_run(peri_body *b, int64_t steps) {
     return (int32_t)MUST(b, peri_advance(b, &a));
 }
 
+/* a = b to so many times the largest. */
+static inline int alike(const double *a, const double *b, int64_t count, double relative) {
+    const double most = largest(b, count);
+    for (int64_t k = 0; k < count; ++k)
+        if (!(fabs(a[k] - b[k]) <= relative * most)) return 0;
+    return 1;
+}
+
+/* A displacement of some size. */
+static inline void shape_of(double *u, int64_t dofs, double size) {
+    uint64_t seed = 9;
+    for (int64_t k = 0; k < dofs; ++k) u[k] = size * (test_random(&seed) - 0.5);
+}
+
 /* ---- what can be seen --------------------------------------------------------------------------------------------------------------- */
 
 static inline int same_view(peri_body *a, peri_body *b, int32_t field) {
@@ -101,7 +116,7 @@ static inline int same_state(peri_body *a, peri_body *b) {
     int same = peri_broken_count(a) == peri_broken_count(b) && peri_cut_count(a) == peri_cut_count(b)
             && peri_step_count(a) == peri_step_count(b) && memcmp(&step[0], &step[1], sizeof step[0]) == 0
             && memcmp(&time[0], &time[1], sizeof time[0]) == 0 && peri_load_factor(a) == peri_load_factor(b);
-    for (int32_t field = PERI_FIELD_POSITION; field <= PERI_FIELD_REACTION; ++field) same = same && same_view(a, b, field);
+    for (int32_t field = PERI_FIELD_POSITION; field < peri__end_field; ++field) same = same && same_view(a, b, field);
     for (int64_t k = 1; peri_id(a, PERI_KIND_LOAD, k) > 0; ++k) {
         if (peri_get_reaction(a, peri_id(a, PERI_KIND_LOAD, k), force[0]) < 0) continue; /* removed */
         (void)MUST(b, peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, k), force[1]));

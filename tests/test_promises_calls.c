@@ -78,6 +78,7 @@ static int32_t ints[512];
 static peri_material_desc stuff;
 static peri_view view;
 static peri_energy energy;
+static peri_evaluate_desc forces;
 
 /* What asks for cracks, of a body that has none or of one that is: then by what is wrong beside. */
 static void with_cracks(peri_body *b, const peri_body *unbuilt) {
@@ -143,6 +144,7 @@ static void without_a_body(void) {
     ASK(ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers, NULL));
     ASK(peri_get_obstacle_state(n, 1, &placed)), ASK(peri_set_obstacle_state(n, 1, &placed));
     ASK(peri_set_contact(n, 1, 1, NULL));
+    ASK(peri_evaluate(n, NULL, NULL)), ASK(peri_multiply_stiffness_at(n, numbers, numbers, numbers, 2));
     ASK(peri_multiply_stiffness(n, numbers, numbers, 2)), ASK(peri_matrix_create(n, &m)), ASK(peri_matrix_rows(m));
     ASK(peri_matrix_entries(m)), with_cracks(n, n);
     ASK(peri_get_matrix(m, NULL, NULL, NULL)), ASK(peri_export_matrix_to(m, take_bytes, NULL));
@@ -239,6 +241,24 @@ static void at_the_wrong_time(void) {
     peri_body_destroy(b);
 }
 
+/* Forces at a displacement: too early, stopped by a load, and a rule that has no tangent. */
+static int32_t stop_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
+    return (void)user, (void)time, (void)count, (void)points, (void)value, 1;
+}
+static void with_evaluations(void) {
+    specimen s = plate_of(PERI_LAW_BOND_BASED);
+    s.desc.quadrature = PERI_QUADRATURE_PARTIAL_CENTROID;
+    peri_body *d = specimen_start(&s), *b = specimen_make(&s);
+    memset(numbers, 0, sizeof numbers);
+    peri_evaluate_desc_init(&forces);
+    ASK(peri_evaluate(d, &forces, NULL)), ASK(peri_multiply_stiffness_at(d, numbers, numbers, numbers, 240));
+    ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
+    MUST(b, peri_apply_body_force(b, PERI_ALL, one3, stop_load, NULL));
+    forces.fracture = 1, ASK(peri_evaluate(b, &forces, NULL));
+    peri_body_destroy(d);
+    peri_body_destroy(b);
+}
+
 /* What is missing, empty, out of range, too long or left by a callback. */
 static void with_wrong_arguments(void) {
     specimen s = plate_of(PERI_LAW_BOND_BASED), solid = specimen_of(PERI_SPACE_SOLID, PERI_LAW_BOND_BASED, 0, 1, 2.1, 5, 4, 4);
@@ -266,7 +286,12 @@ static void with_wrong_arguments(void) {
     ASK(peri_cut_rectangle(t, PERI_CUT_NOW, nan3, up3, one3)), ASK(peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_X, nan3, NULL, NULL));
     ASK(peri_apply_traction(b, PERI_ALL, -1, one3, one3, NULL, NULL)), ASK(peri_apply_pressure(b, PERI_ALL, HUGE_VAL, NULL, NULL));
     ASK(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, HUGE_VAL, NULL, NULL)), ASK(peri_multiply_stiffness(b, NULL, numbers, 240));
-    ASK(peri_multiply_stiffness(b, numbers, numbers, 3)), numbers[0] = (double)NAN, ASK(peri_multiply_stiffness(b, numbers, numbers, 240));
+    ASK(peri_multiply_stiffness(b, numbers, numbers, 3)), ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 3));
+    peri_evaluate_desc_init(&forces), forces.nodal = 2, ASK(peri_evaluate(b, &forces, NULL));
+    forces.cookie = 1, ASK(peri_evaluate(b, &forces, NULL));
+    peri_evaluate_desc_init(&forces), forces.time_step = -1, ASK(peri_evaluate(b, &forces, NULL));
+    numbers[0] = (double)NAN, ASK(peri_multiply_stiffness(b, numbers, numbers, 240));
+    ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
     ASK(peri_matrix_create(b, NULL)), MUST(b, peri_matrix_create(b, &matrix)), ASK(peri_export_matrix_to(matrix, NULL, NULL));
     ASK(peri_export_matrix_to(matrix, take_bytes, b)), ASK(peri_export_history_to(b, 1, NULL, NULL)), ASK(peri_export_history(b, NULL, 0));
     peri_matrix_destroy(matrix);
@@ -320,6 +345,7 @@ static void with_failing_callbacks(void) {
         ASK(peri_get_reaction(b, load, f)), ASK(peri_get_reaction_moment(b, load, zero3, f));
         ASK(peri_get_obstacle_force(b, wall, f, NULL)), ASK(peri_get_obstacle_state(b, wall, &placed));
         ASK(peri_multiply_stiffness(b, f, f, 240));
+        peri_evaluate_desc_init(&forces), ASK(peri_evaluate(b, &forces, NULL));
         peri_body_destroy(b);
     }
     s.desc.precision = PERI_PRECISION_DOUBLE;
@@ -392,6 +418,7 @@ static void without_memory(void) {
     plane.place[1] = wall[1];
     plane.normal[1] = 1;
     SHORT(peri_add_obstacle(b, &plane)), SHORT(ball_obstacle(b, wall, 1, 0, NULL, NULL));
+    SHORT(peri_evaluate(b, &forces, NULL)), SHORT(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
     SHORT(peri_multiply_stiffness(b, numbers, numbers, 240)), SHORT(peri_matrix_create(b, &m));
     SHORT(peri_view_field(b, PERI_FIELD_DAMAGE, &view)), SHORT(peri_advance(b, &one_step));
     SHORT(peri_export_vtu_to(b, take_bytes, NULL)), SHORT(peri_export_vtu(b, "build/short.vtu"));
@@ -528,6 +555,7 @@ static void gather(void) {
     without_a_body();
     with_wrong_ids();
     at_the_wrong_time();
+    with_evaluations();
     with_wrong_arguments();
     with_failing_callbacks();
     without_memory();

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A state that was put aside and taken up again goes on as if nothing had been. Truth: the run that was not interrupted, to the last bit. */
+/* A state that was put aside and taken up again goes on as if nothing had been.
+
+   SOURCE OF TRUTH: the run that was not interrupted, to the last bit. */
 #include "restart_scene.h"
 
 static const int32_t laws[4] = { PERI_LAW_BOND_BASED, PERI_LAW_LPS, PERI_LAW_OTERKUS, PERI_LAW_CORRESPONDENCE };

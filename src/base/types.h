@@ -353,6 +353,8 @@ typedef struct peri__tangent { /* a change of the displacements, and what the ta
     const void *p;      /* real [dim][stride] with margins: the change                                                   */
     void       *q;      /* real [dim][stride] with margins: the change of the force density                              */
     void       *change; /* as body->response: that of p and Q; NULL without constants                                    */
+    const void *u;      /* real [dim][stride] with margins: the displacement there; NULL, like the next: those of the body */
+    void       *response; /* as body->response: of u                                                                     */
 } peri__tangent;
 
 typedef struct peri__krylov { /* vectors of conjugate gradients, real [dim][stride], forces times volumes                 */
@@ -536,8 +538,9 @@ struct peri_body {
     void     *pull;          /* real force density of bonds when last worked out: on the list [entries][dim], on columns [columns][dim]
                                 [PERI_GROUP]                                                                             */
     void     *worked;        /* real [dim][stride] displacement then, with a margin before and after                     */
-    void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u,    */
-    void     *change_f;      /* of the force, both laid out as u with its margins,                                       */
+    void     *change_u;      /* displacements that are not those of the body, or a change of them: of peri_evaluate and products with the
+                                stiffness, which take these when first asked for;                                        */
+    void     *change_f;      /* what that makes of the force, both laid out as u with its margins,                       */
     void     *change_response; /* and of the response                                                                     */
     uint32_t *fragment_alive; /* [points][words] alive when fragments were made; NULL, like the next, until they are asked for */
     int32_t  *fragment_of;   /* [points] fragment                                                                        */
