@@ -110,7 +110,8 @@ typedef enum peri_status { /* peri_status_text says the same */
     PERI_ERROR_INDEFINITE = -34,  /* the tangent is not positive: buckling or softening */
     PERI_ERROR_CONVERGENCE = -35, /* no equilibrium within the iterations; value: residual */
     PERI_ERROR_WRITE = -36,       /* the file or the write callback failed */
-    PERI_ERROR_LEFT_OUT = -37     /* left out of this build, by the switch that the field names */
+    PERI_ERROR_LEFT_OUT = -37,    /* left out of this build, by the switch that the field names */
+    PERI_ERROR_STATE = -38        /* no saved state of such a body, or damaged; value: the byte */
 } peri_status;
 
 typedef struct peri_error {
@@ -179,6 +180,9 @@ typedef int32_t (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, 
 
 /* Takes the next `count` bytes of a file; all but 0 is a failure: PERI_ERROR_WRITE. */
 typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
+
+/* Writes the next `count` bytes to `bytes`; all but 0 is a failure, as where fewer are left. */
+typedef int32_t (*peri_read_fn)(void *user, void *bytes, int64_t count);
 
 /* ---- ids -------------------------------------------------------------------- */
 
@@ -1011,6 +1015,19 @@ PERI_API int32_t peri_export_history_to(peri_body *body, int32_t header, peri_wr
 PERI_API int32_t peri_export_vtu(peri_body *body, const char *path);
 /* append = 0 starts the file with a header, 1 adds a line. */
 PERI_API int32_t peri_export_history(peri_body *body, const char *path, int32_t append);
+#endif
+
+/* Saves the state: motion, bonds, what criteria keep, time, ledger. Not the scene: load it into a
+   body that the same calls built. What follows has the same bits. */
+PERI_API int32_t peri_save_state_to(peri_body *body, peri_write_fn write, void *user);
+
+/* Reads all, verifies it, then takes it. PERI_ERROR_STATE: nothing has changed; field: what is of
+   another scene, or "". */
+PERI_API int32_t peri_load_state_from(peri_body *body, peri_read_fn read, void *user);
+
+#ifndef PERI_NO_STDIO
+PERI_API int32_t peri_save_state(peri_body *body, const char *path);
+PERI_API int32_t peri_load_state(peri_body *body, const char *path);
 #endif
 
 /* ---- what a scene costs (docs/accuracy.md) ---------------------------------- */

@@ -127,4 +127,40 @@ static inline int same_state(peri_body *a, peri_body *b) {
     return same && memcmp(&e[0], &e[1], sizeof e[0]) == 0;
 }
 
+/* ---- bytes in memory ------------------------------------------------------------------------------------------ */
+
+typedef struct buffer {
+    unsigned char *data;
+    int64_t        count, room, at;
+} buffer;
+
+static inline int32_t write_bytes(void *user, const void *from, int64_t count) {
+    buffer *to = (buffer *)user;
+    if (to->count + count > to->room) {
+        to->room = 2 * (to->count + count);
+        to->data = (unsigned char *)realloc(to->data, (size_t)to->room);
+    }
+    memcpy(to->data + to->count, from, (size_t)count);
+    to->count += count;
+    return 0;
+}
+
+static inline int32_t read_bytes(void *user, void *to, int64_t count) {
+    buffer *from = (buffer *)user;
+    if (count > from->count - from->at) return 1;
+    memcpy(to, from->data + from->at, (size_t)count);
+    from->at += count;
+    return 0;
+}
+
+static inline void save(peri_body *b, buffer *to) {
+    to->count = to->at = 0;
+    (void)MUST(b, peri_save_state_to(b, write_bytes, to));
+}
+
+static inline int32_t load(peri_body *b, buffer *from) {
+    from->at = 0;
+    return peri_load_state_from(b, read_bytes, from);
+}
+
 #endif

@@ -64,6 +64,8 @@ static int32_t told_break(void *user, int32_t i, int32_t j, double time, double 
 }
 static int32_t take_bytes(void *user, const void *bytes, int64_t count) { return (void)bytes, (void)count, user != NULL; }
 
+static int32_t no_bytes(void *user, void *bytes, int64_t count) { return (void)user, (void)bytes, (void)count, 1; }
+
 static specimen plate_of(int32_t law) {
     specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, law, 0.2, 1, 2.1, 12, 10, 1);
     s.desc.allocate = take;
@@ -144,6 +146,8 @@ static void without_a_body(void) {
     ASK(ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers, NULL));
     ASK(peri_get_obstacle_state(n, 1, &placed)), ASK(peri_set_obstacle_state(n, 1, &placed));
     ASK(peri_set_contact(n, 1, 1, NULL));
+    ASK(peri_save_state_to(n, take_bytes, NULL)), ASK(peri_save_state(n, "build/x")), ASK(peri_load_state(n, "build/x"));
+    ASK(peri_load_state_from(n, no_bytes, NULL));
     ASK(peri_evaluate(n, NULL, NULL)), ASK(peri_multiply_stiffness_at(n, numbers, numbers, numbers, 2));
     ASK(peri_multiply_stiffness(n, numbers, numbers, 2)), ASK(peri_matrix_create(n, &m)), ASK(peri_matrix_rows(m));
     ASK(peri_matrix_entries(m)), with_cracks(n, n);
@@ -253,6 +257,9 @@ static void with_evaluations(void) {
     peri_evaluate_desc_init(&forces);
     ASK(peri_evaluate(d, &forces, NULL)), ASK(peri_multiply_stiffness_at(d, numbers, numbers, numbers, 240));
     ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
+    ASK(peri_save_state_to(d, take_bytes, NULL)), ASK(peri_save_state(d, "build/x")), ASK(peri_load_state(d, "build/x"));
+    ASK(peri_load_state_from(d, no_bytes, NULL)), ASK(peri_load_state_from(b, no_bytes, NULL)), ASK(peri_load_state(b, "build/none"));
+    ASK(peri_save_state_to(b, take_bytes, b)), ASK(peri_save_state(b, "build/none/x"));
     MUST(b, peri_apply_body_force(b, PERI_ALL, one3, stop_load, NULL));
     forces.fracture = 1, ASK(peri_evaluate(b, &forces, NULL));
     peri_body_destroy(d);
@@ -418,6 +425,9 @@ static void without_memory(void) {
     plane.place[1] = wall[1];
     plane.normal[1] = 1;
     SHORT(peri_add_obstacle(b, &plane)), SHORT(ball_obstacle(b, wall, 1, 0, NULL, NULL));
+    SHORT(peri_save_state_to(b, take_bytes, NULL)), SHORT(peri_save_state(b, "build/short.state"));
+    MUST(b, peri_save_state(b, "build/short.state")), SHORT(peri_load_state(b, "build/short.state"));
+    SHORT(peri_load_state_from(b, no_bytes, NULL));
     SHORT(peri_evaluate(b, &forces, NULL)), SHORT(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
     SHORT(peri_multiply_stiffness(b, numbers, numbers, 240)), SHORT(peri_matrix_create(b, &m));
     SHORT(peri_view_field(b, PERI_FIELD_DAMAGE, &view)), SHORT(peri_advance(b, &one_step));
