@@ -36,7 +36,7 @@ static inline peri_body *scene_make(const scene *at) {
     static int dims[2] = { 2, 3 };
     const int solid = at->space == PERI_SPACE_SOLID;
     specimen s = specimen_of(at->space, at->law, 0.27, 0.37, 2.1, 10, solid ? 4 : 6, 3);
-    double lo[3] = { 0, 0, 0 }, hi[3], from[2] = { 5 * 0.37, -1 }, to[2] = { 5 * 0.37, 2.2 * 0.37 }, centre[3] = { 6 * 0.37, -0.9, 0.5 };
+    double lo[3] = { 0, 0, 0 }, hi[3], from[2] = { 5 * 0.37, -1 }, to[2] = { 5 * 0.37, 2.2 * 0.37 }, centre[3] = { 6 * 0.37, -0.7, 0.5 };
     s.desc.precision = at->precision;
     s.desc.geometry = at->geometry;
     s.desc.break_timing = at->timing;
@@ -120,6 +120,11 @@ static inline int same_state(peri_body *a, peri_body *b) {
     for (int64_t k = 1; peri_id(a, PERI_KIND_LOAD, k) > 0; ++k) {
         if (peri_get_reaction(a, peri_id(a, PERI_KIND_LOAD, k), force[0]) < 0) continue; /* removed */
         (void)MUST(b, peri_get_reaction(b, peri_id(b, PERI_KIND_LOAD, k), force[1]));
+        same = same && memcmp(force[0], force[1], sizeof force[0]) == 0;
+    }
+    for (int64_t k = 1; peri_id(a, PERI_KIND_OBSTACLE, k) > 0; ++k) {
+        (void)MUST(a, peri_get_obstacle_force(a, peri_id(a, PERI_KIND_OBSTACLE, k), force[0]));
+        (void)MUST(b, peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, k), force[1]));
         same = same && memcmp(force[0], force[1], sizeof force[0]) == 0;
     }
     (void)MUST(a, peri_get_energy(a, &e[0]));

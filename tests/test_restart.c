@@ -75,13 +75,18 @@ static int64_t goes_on(const scene *at, const scene *elsewhere) {
     peri_body *a = scene_make(at), *b = scene_make(elsewhere);
     scene_run(a, 40);
     save(a, &file);
-    scene_run(b, 7); /* what the body went through before is over */
+    if (at->scattered) scene_run(b, 7); /* what the body went through before is over */
     (void)MUST(b, load(b, &file));
     CHECK(file.at == file.count);
     CHECK(same_state(a, b));
-    (void)MUST(a, peri_add_velocity(a, PERI_ALL, nudge)); /* forces and reactions are made anew */
-    (void)MUST(b, peri_add_velocity(b, PERI_ALL, nudge));
-    CHECK(same_state(a, b));
+    peri_body *c = NULL, *d = NULL; /* forces and reactions made anew are the same, too */
+    (void)MUST(NULL, peri_body_clone(a, &c, NULL));
+    (void)MUST(NULL, peri_body_clone(b, &d, NULL));
+    (void)MUST(c, peri_add_velocity(c, PERI_ALL, nudge));
+    (void)MUST(d, peri_add_velocity(d, PERI_ALL, nudge));
+    CHECK(same_state(c, d));
+    peri_body_destroy(c);
+    peri_body_destroy(d);
     scene_run(a, 30);
     scene_run(b, 30);
     CHECK(same_state(a, b));
