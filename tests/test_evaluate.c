@@ -454,6 +454,39 @@ static void the_stable_step_follows_breaks(void) {
     peri_body_destroy(b);
 }
 
+/* Two blocks pressed into each other: contact adds forces where the body moves there, as much on one as on the other. */
+static void contact_acts_where_the_body_moves(void) {
+    const double lo[2] = { 0, 0 }, hi[2] = { 3, 4 }, from[2] = { 3.5, 0.4 }, to[2] = { 6.5, 3.4 };
+    double u[MOST] = { 0 }, f[2][MOST], x[MOST], sum = 0, size = 0;
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, 2.1, 1, 1, 0);
+    s.desc.horizon = 1.45;
+    peri_body *b = specimen_start(&s);
+    const int32_t material = peri_id(b, PERI_KIND_MATERIAL, 1);
+    (void)MUST(b, peri_add_box(b, material, lo, hi, 1));
+    (void)MUST(b, peri_add_box(b, material, from, to, 1));
+    (void)MUST(b, peri_build(b));
+    const int32_t points = (int32_t)peri_point_count(b);
+    peri_contact_desc c;
+    peri_contact_desc_init(&c);
+    (void)MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, &c));
+    (void)MUST(b, peri_get_field(b, PERI_FIELD_POSITION, x, 2 * points));
+    for (int32_t i = 0; i < points; ++i) u[2 * i] = x[2 * i] > 3.2 ? -0.9 : 0;
+    peri_evaluate_desc e;
+    peri_evaluate_desc_init(&e);
+    e.displacement = u, e.nodal = 1;
+    for (e.fracture = 0; e.fracture < 2; ++e.fracture) {
+        e.force = f[e.fracture];
+        (void)MUST(b, peri_evaluate(b, &e, NULL));
+    }
+    for (int32_t i = 0; i < points; ++i) {
+        const double push = f[1][2 * i] - f[0][2 * i];
+        sum += push, size = fmax(size, fabs(push));
+        CHECK(x[2 * i] > 3.2 ? push >= 0 : push <= 0);
+    }
+    CHECK(size > 0.01 && fabs(sum) < 1e-14);
+    peri_body_destroy(b);
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(a_loop_has_the_bits_of_a_run);
@@ -469,5 +502,6 @@ int main(int argc, char **argv) {
     RUN(masses_and_held_components);
     RUN(a_load_that_fails);
     RUN(the_stable_step_follows_breaks);
+    RUN(contact_acts_where_the_body_moves);
     return test_end("test_evaluate");
 }

@@ -254,16 +254,13 @@ static void with_evaluations(void) {
     s.desc.quadrature = PERI_QUADRATURE_PARTIAL_CENTROID;
     peri_body *d = specimen_start(&s), *b = specimen_make(&s);
     memset(numbers, 0, sizeof numbers);
-    peri_evaluate_desc_init(&forces);
-    ASK(peri_evaluate(d, &forces, NULL)), ASK(peri_multiply_stiffness_at(d, numbers, numbers, numbers, 240));
-    ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
+    peri_evaluate_desc_init(&forces), ASK(peri_evaluate(d, &forces, NULL));
+    ASK(peri_multiply_stiffness_at(d, numbers, numbers, numbers, 240)), ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
     ASK(peri_save_state_to(d, take_bytes, NULL)), ASK(peri_save_state(d, "build/x")), ASK(peri_load_state(d, "build/x"));
     ASK(peri_load_state_from(d, no_bytes, NULL)), ASK(peri_load_state_from(b, no_bytes, NULL)), ASK(peri_load_state(b, "build/none"));
     ASK(peri_save_state_to(b, take_bytes, b)), ASK(peri_save_state(b, "build/none/x"));
-    MUST(b, peri_apply_body_force(b, PERI_ALL, one3, stop_load, NULL));
-    forces.fracture = 1, ASK(peri_evaluate(b, &forces, NULL));
-    peri_body_destroy(d);
-    peri_body_destroy(b);
+    MUST(b, peri_apply_body_force(b, PERI_ALL, one3, stop_load, NULL)), forces.fracture = 1, ASK(peri_evaluate(b, &forces, NULL));
+    peri_body_destroy(d), peri_body_destroy(b);
 }
 
 /* What is missing, empty, out of range, too long or left by a callback. */
@@ -295,8 +292,8 @@ static void with_wrong_arguments(void) {
     ASK(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, HUGE_VAL, NULL, NULL)), ASK(peri_multiply_stiffness(b, NULL, numbers, 240));
     ASK(peri_multiply_stiffness(b, numbers, numbers, 3)), ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 3));
     peri_evaluate_desc_init(&forces), forces.nodal = 2, ASK(peri_evaluate(b, &forces, NULL));
-    forces.cookie = 1, ASK(peri_evaluate(b, &forces, NULL));
-    peri_evaluate_desc_init(&forces), forces.time_step = -1, ASK(peri_evaluate(b, &forces, NULL));
+    forces.cookie = 1, ASK(peri_evaluate(b, &forces, NULL)), peri_evaluate_desc_init(&forces);
+    forces.time_step = -1, ASK(peri_evaluate(b, &forces, NULL));
     numbers[0] = (double)NAN, ASK(peri_multiply_stiffness(b, numbers, numbers, 240));
     ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
     ASK(peri_matrix_create(b, NULL)), MUST(b, peri_matrix_create(b, &matrix)), ASK(peri_export_matrix_to(matrix, NULL, NULL));

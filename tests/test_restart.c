@@ -238,6 +238,53 @@ static void between_two_solves(void) {
     }
 }
 
+/* Two blocks that meet and rub: one that was saved while they touch, with what dashpots and friction gave then. */
+static peri_body *blocks(int32_t law, int32_t precision) {
+    const double lo[2] = { 0, 0 }, hi[2] = { 3.7, 2.22 }, from[2] = { 3.9, 0.9 }, to[2] = { 6.2, 2.8 };
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, law, 0.2, 0.37, 2.1, 1, 1, 0);
+    s.desc.precision = precision;
+    s.desc.number = 5;
+    s.material.critical_stretch = 0.05;
+    peri_body *b = specimen_start(&s);
+    const int32_t material = peri_id(b, PERI_KIND_MATERIAL, 1);
+    (void)MUST(b, peri_add_box(b, material, lo, hi, 0.37));
+    (void)MUST(b, peri_add_box(b, material, from, to, 0.37));
+    (void)MUST(b, peri_build(b));
+    const double way[2] = { -0.2, 0.05 };
+    (void)MUST(b, peri_add_velocity(b, (int32_t)MUST(b, peri_select_box(b, NULL, from, to)), way));
+    peri_contact_desc c;
+    peri_contact_desc_init(&c);
+    c.friction = 0.3;
+    c.friction_speed = 0.01;
+    c.restitution = 0.7;
+    (void)MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, &c));
+    return b;
+}
+
+static void blocks_that_touch(void) {
+    for (int law = 0; law < 4; ++law) {
+        buffer file = { NULL, 0, 0, 0 };
+        peri_body *a = blocks(laws[law], precisions[law % 3]), *b = blocks(laws[law], precisions[law % 3]);
+        peri_energy e = { 0 };
+        for (int k = 0; k < 40 && !(e.contact > 0); ++k) {
+            scene_run(a, 5);
+            (void)MUST(a, peri_get_energy(a, &e));
+        }
+        scene_run(a, 3);
+        (void)MUST(a, peri_get_energy(a, &e));
+        CHECK(e.contact > 0);
+        save(a, &file);
+        (void)MUST(b, load(b, &file));
+        CHECK(same_state(a, b));
+        scene_run(a, 40);
+        scene_run(b, 40);
+        CHECK(same_state(a, b));
+        peri_body_destroy(a);
+        peri_body_destroy(b);
+        free(file.data);
+    }
+}
+
 /* Flags of bonds that one body has and the other has not, either way. */
 static void cuts_come_and_go(void) {
     const double from[2] = { 1.5, -1 }, to[2] = { 1.5, 1 };
@@ -338,6 +385,7 @@ int main(int argc, char **argv) {
     RUN(other_threads_and_instructions);
     RUN(a_frame_that_is_left_by_a_jump);
     RUN(between_two_solves);
+    RUN(blocks_that_touch);
     RUN(cuts_come_and_go);
     RUN(frames_may_save_not_load);
     RUN(values_of_loads_may_differ);

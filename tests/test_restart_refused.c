@@ -160,6 +160,9 @@ static void other_scenes(void) {
     b = little_body(&s), (void)MUST(b, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 1))), foreign(b, "loads");
     b = little_body(&s), (void)MUST(b, peri_add_plane_obstacle(b, place, up, 0, NULL, NULL)), foreign(b, "obstacles");
     b = little_body(&s), (void)MUST(b, peri_set_no_fail(b, peri_id(b, PERI_KIND_SET, 1), 1)), foreign(b, "peri_set_no_fail");
+    peri_contact_desc c;
+    peri_contact_desc_init(&c);
+    b = little_body(&s), (void)MUST(b, peri_set_contact(b, PERI_ALL, PERI_ALL, &c)), foreign(b, "peri_set_contact");
     file.data[8] ^= 3; /* a later version */
     foreign(little_body(&s), "version");
     file.data[8] ^= 3;

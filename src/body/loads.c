@@ -12,8 +12,7 @@ static int64_t peri__dof(const peri_body *b, const peri__load *load, int64_t k, 
     return d * b->model->stride + peri__set_point(b, load->set, k);
 }
 
-/* Component d of the value of point k of a load, user's units, where `wrote` has what a callback wrote, if there is one, and constants act by
-   `factor`. */
+/* Component d of the value of point k of a load, user's units, by what its callback wrote, if it has one; constants act by `factor`. */
 static double peri__value_by(const peri_body *b, const peri__load *load, const double *wrote, double factor, int64_t k, int32_t d) {
     if (wrote) return wrote[k * b->dim + d];
     return load->kind == PERI__VELOCITY ? load->constant[d] : factor * load->constant[d];

@@ -80,7 +80,7 @@ static uint64_t peri__headroom(double limit) {
 }
 
 /* The points [begin, end): `from` and `to` are the precisions; dimension and strides are constants where arrays are as the library's. */
-#define PERI_TAKE_(from, to, dims, point_stride, component_stride)                                                     \
+#define PERI_TAKE_POINTS_(from, to, dims, point_stride, component_stride)                                                     \
     {                                                                                                                  \
         const from *in = (const from *)c->in;                                                                          \
         to *PERI_RESTRICT planes = (to *)c->planes;                                                                    \
@@ -91,7 +91,7 @@ static uint64_t peri__headroom(double limit) {
                 planes[d * stride + i] = (to)x;                                                                        \
             }                                                                                                          \
     }
-#define PERI_GIVE_(from, to, dims, point_stride, component_stride)                                                     \
+#define PERI_GIVE_POINTS_(from, to, dims, point_stride, component_stride)                                                     \
     {                                                                                                                  \
         const from *planes = (const from *)c->planes;                                                                  \
         to *PERI_RESTRICT out = (to *)c->out;                                                                          \
@@ -122,7 +122,7 @@ PERI_VECTOR_CODE static void peri__carry_in(void *context, int64_t begin, int64_
     const double factor = c->factor;
     const uint64_t headroom = c->headroom;
     uint64_t over = 0;
-    PERI_BY_PRECISION_(PERI_TAKE_, c->f32, c->body->f32)
+    PERI_BY_PRECISION_(PERI_TAKE_POINTS_, c->f32, c->body->f32)
     for (int64_t i = begin; over >> 63 && sums->bad < 0 && i < end; ++i)
         for (int32_t d = 0; d < dim; ++d) {
             const double x = peri__get_real(c->in, c->f32, i * c->point + d * c->component) * factor;
@@ -136,7 +136,7 @@ PERI_VECTOR_CODE static void peri__carry_out(void *context, int64_t begin, int64
     const int64_t stride = c->body->model->stride;
     const double factor = c->factor, *volume = c->by_volume ? c->body->model->volume : NULL;
     (void)sums;
-    PERI_BY_PRECISION_(PERI_GIVE_, c->body->f32, c->f32)
+    PERI_BY_PRECISION_(PERI_GIVE_POINTS_, c->body->f32, c->f32)
 }
 
 /* An array of displacements or velocities to planes; refused where the body cannot hold it, as `like` does. */
@@ -225,22 +225,25 @@ static int32_t peri__ask_external(peri_body *b, const peri_evaluate_desc *e) {
 }
 
 /* The force and the breaks of the body where it is, f holding what else acts on it. */
-static void peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, peri_evaluate_report *report) {
+static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, peri_evaluate_report *report) {
     const double fracture = b->now.ledger.fracture;
     const int64_t broken = b->now.broken;
     peri__operands operands = peri__operands_of(b);
     operands.step = e->time_step / b->model->time;
     if (!(e->time_step > 0.0)) operands.closing = NULL;
     const int broke = peri__forces_and_breaks(b, &operands);
+    const int32_t status = e->external ? peri__touch_now(b) : PERI_OK;
     if (b->desc.ledger) b->now.ledger.before -= b->now.ledger.fracture - fracture;
     peri__give_array(b, e, b->f, 1.0, e->force);
     if (!b->closing) memset(b->f, 0, peri__plane_bytes(b)); /* f is out of date as soon as the caller has it */
     peri__give_array(b, e, b->closing ? b->closing : b->f, b->model->time, e->impulse);
     if (broke && b->closing) memset(b->closing, 0, peri__plane_bytes(b));
+    if (broke) peri__note_breaks(b, peri__load_time(b));
     if (b->before && broke) peri__report_breaks(b);
-    if (!report) return;
+    if (!report) return status;
     report->broken = (b->now.broken - broken) / 2;
     if (e->energy) report->energy = peri__elastic_energy(b, NULL) * b->model->energy;
+    return status;
 }
 
 /* u, v: where the body moves, laid out as in the body; NULL: nothing else than now. */
@@ -254,7 +257,7 @@ static int32_t peri__evaluate_here(peri_body *b, const peri_evaluate_desc *e, co
         if (v) memcpy(b->v, v, peri__plane_bytes(b));
         if (e->external) status = peri__push_body(b, 0.0);
     }
-    if (status == PERI_OK) peri__evaluate_body(b, e, report);
+    if (status == PERI_OK) status = peri__evaluate_body(b, e, report);
     peri__end_run(b, former);
     return status == PERI_OK ? peri__heed_callbacks(b) : status;
 }

@@ -52,13 +52,15 @@ typedef enum peri__scene_word { /* words of the head, in order                  
     PERI__NO_FAIL_WORD,
     PERI__LOADS_WORD,     /* kinds, sets, axes                                                                           */
     PERI__OBSTACLES_WORD, /* kinds                                                                                       */
+    PERI__CONTACT_WORD,   /* as it acts between materials                                                                */
     PERI__SUM_WORD,
     PERI__HEAD_WORDS
 } peri__scene_word;
 
 static const char *peri__word_name(int k) {
     static const char *const names[PERI__HEAD_WORDS] = { "", "version", "byte order", "peri_body_desc", "points", "points", "materials",
-                                                         "families", "peri_set_no_fail", "loads", "obstacles", "" };
+                                                         "families", "peri_set_no_fail", "loads", "obstacles",
+                                                         "peri_set_contact", "" };
     return names[k];
 }
 
@@ -97,7 +99,7 @@ static uint64_t peri__hash_loads(const peri_body *b) {
             h = peri__hash_word(h, 0);
             continue;
         }
-        h = peri__hash_word(peri__hash(h, words, sizeof words), load->fn != NULL);
+        h = peri__hash_word(peri__hash(h, words, sizeof words), load->value != NULL);
         for (int64_t k = 0; k < load->count; ++k) h = peri__hash_word(h, (uint64_t)peri__set_point(b, load->set, k));
     }
     return h;
@@ -106,6 +108,16 @@ static uint64_t peri__hash_loads(const peri_body *b) {
 static uint64_t peri__hash_obstacles(const peri_body *b) {
     uint64_t h = (uint64_t)b->obstacle_count;
     for (int64_t k = 0; k < b->obstacle_count; ++k) h = peri__hash_word(h, (uint64_t)b->obstacles[k].kind);
+    return h;
+}
+
+static uint64_t peri__hash_contact(const peri_body *b) {
+    uint64_t h = 0;
+    for (int32_t k = 0; b->contact && k < b->model->materials * b->model->materials; ++k) {
+        const peri__touch *t = &b->contact->touch[k];
+        const double numbers[6] = { t->on, t->distance, t->stiffness, t->friction, t->friction_speed, t->loss };
+        h = peri__hash_numbers(h, numbers, 6);
+    }
     return h;
 }
 
@@ -141,6 +153,7 @@ static void peri__write_head(const peri_body *b, uint64_t words[PERI__HEAD_WORDS
     words[PERI__NO_FAIL_WORD] = peri__hash_no_fail(b);
     words[PERI__LOADS_WORD] = peri__hash_loads(b);
     words[PERI__OBSTACLES_WORD] = peri__hash_obstacles(b);
+    words[PERI__CONTACT_WORD] = peri__hash_contact(b);
     words[PERI__SUM_WORD] = peri__hash(0, words, PERI__SUM_WORD * (int64_t)sizeof *words);
 }
 
@@ -222,7 +235,7 @@ static void peri__put_section(peri__section **end, const char *name, int64_t num
     s->at = -1;
 }
 
-static int64_t peri__most_sections(const peri_body *b) { return 4 + PERI_ARRAYS + 3 * b->load_count + b->obstacle_count; }
+static int64_t peri__most_sections(const peri_body *b) { return 6 + PERI_ARRAYS + 3 * b->load_count + b->obstacle_count; }
 
 /* In the order of the file. words: of progress. */
 static int64_t peri__list_sections(const peri_body *b, uint64_t *words, peri__section *list) {
@@ -251,6 +264,9 @@ static int64_t peri__list_sections(const peri_body *b, uint64_t *words, peri__se
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         peri__put_section(&end, "obstacle", k, b->obstacles[k].position, sizeof b->obstacles[k].position, -1);
+    if (b->contact) peri__put_section(&end, "crowd", 0, (void *)&b->contact->crowd, sizeof b->contact->crowd, -1);
+    if (b->contact && b->contact->drag)
+        peri__put_section(&end, "drag", 0, b->contact->drag, m->stride * m->dim * (int64_t)sizeof *b->contact->drag, -1);
     return end - list;
 }
 
@@ -393,6 +409,7 @@ static int peri__need_sections(peri_body *b, peri__section *list, int64_t count)
 static void peri__take_sections(peri_body *b, const char *bytes, const peri__section *list, int64_t count, const uint64_t *words) {
     const peri__model *m = b->model;
     b->stop = 0;
+    peri__forget_contact(b->contact, m); /* its lists are made anew, as those of clones are                              */
     for (int64_t k = 0; k < count; ++k) {
         if (list[k].at >= 0) memcpy(list[k].data, bytes + list[k].at, (size_t)list[k].bytes);
         else if (list[k].data) peri__set_flags(m, (uint32_t *)(void *)list[k].data);
