@@ -743,7 +743,7 @@ typedef struct peri_evaluate_desc {
     int32_t type;             /* of all arrays: PERI_TYPE_F64 (default) or PERI_TYPE_F32 */
     int32_t nodal;            /* 1: forces [M L T^-2]; 0 (default): per volume [M L^-2 T^-2] */
     int32_t bonds;            /* 1 (default): theirs; 0: not */
-    int32_t external;         /* 1 (default): of loads and obstacles; 0: not */
+    int32_t external;         /* 1 (default): of loads (moving: obstacles, contact); 0: not */
     int32_t fracture;         /* 1: the body moves there, and bonds break. Default 0: it stays */
     int32_t energy;           /* 1: report.energy, for one more pass. Default 0 */
     int64_t point_stride;     /* in elements. Default 0: dim */

@@ -24,8 +24,8 @@ static inline int32_t shake(void *user, double time, int64_t count, const int32_
     return 0;
 }
 
-static inline int32_t swing(void *user, double time, double *place) {
-    (void)user;
+static inline int32_t swing(void *user, double time, double *place, double *turn) {
+    (void)user, (void)turn;
     place[1] += 0.05 * time;
     return 0;
 }
@@ -68,7 +68,7 @@ static inline peri_body *scene_make(const scene *at) {
     (void)MUST(b, peri_prescribe_displacement(b, left, PERI_AXIS_X, NULL, NULL, NULL));
     (void)MUST(b, peri_prescribe_velocity(b, right, xy, NULL, shake, &dims[solid]));
     (void)MUST(b, peri_apply_body_force(b, left, NULL, shake, &dims[solid]));
-    (void)MUST(b, peri_add_ball_obstacle(b, centre, 0.8, 0, swing, NULL));
+    (void)MUST(b, ball_obstacle(b, centre, 0.8, 0, swing, NULL));
     return b;
 }
 
@@ -123,8 +123,8 @@ static inline int same_state(peri_body *a, peri_body *b) {
         same = same && memcmp(force[0], force[1], sizeof force[0]) == 0;
     }
     for (int64_t k = 1; peri_id(a, PERI_KIND_OBSTACLE, k) > 0; ++k) {
-        (void)MUST(a, peri_get_obstacle_force(a, peri_id(a, PERI_KIND_OBSTACLE, k), force[0]));
-        (void)MUST(b, peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, k), force[1]));
+        (void)MUST(a, peri_get_obstacle_force(a, peri_id(a, PERI_KIND_OBSTACLE, k), force[0], NULL));
+        (void)MUST(b, peri_get_obstacle_force(b, peri_id(b, PERI_KIND_OBSTACLE, k), force[1], NULL));
         same = same && memcmp(force[0], force[1], sizeof force[0]) == 0;
     }
     (void)MUST(a, peri_get_energy(a, &e[0]));

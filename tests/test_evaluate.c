@@ -65,7 +65,7 @@ static peri_body *plate(int32_t law, int32_t criterion, int32_t precision, int32
     peri_body *b = specimen_make(&s);
     (void)MUST(b, peri_cut_segment(b, PERI_CUT_INITIAL, from, to));
     (void)MUST(b, peri_apply_body_force(b, PERI_ALL, NULL, swell, NULL));
-    (void)MUST(b, peri_add_ball_obstacle(b, centre, 0.8 * unit, 0, swing, NULL));
+    (void)MUST(b, ball_obstacle(b, centre, 0.8 * unit, 0, swing, NULL));
     for (int64_t k = 0; k < 120; ++k) motion[k] = 0.0625 * (test_random(&seed) - 0.5);
     (void)MUST(b, peri_set_field(b, PERI_FIELD_VELOCITY, motion, 120));
     return b;
@@ -158,6 +158,7 @@ static void the_body_stays(void) {
         (void)MUST(NULL, peri_body_clone(b, &still, NULL));
         (void)MUST(NULL, peri_body_clone(b, &there, NULL));
         for (int64_t load = 1; load <= 2; ++load) (void)MUST(there, peri_remove_load(there, peri_id(there, PERI_KIND_LOAD, load)));
+        (void)MUST(there, peri_remove_obstacle(there, peri_id(there, PERI_KIND_OBSTACLE, 1)));
         shape_of(u, dofs, 0.01);
         (void)MUST(there, peri_set_field(there, PERI_FIELD_DISPLACEMENT, u, dofs));
         (void)MUST(there, peri_get_field(there, PERI_FIELD_FORCE_DENSITY, want, dofs));
@@ -224,7 +225,7 @@ static void parts_and_forms_agree(void) {
     const int64_t points = peri_point_count(b), dofs = points * 2;
     peri_evaluate_desc e;
     scene_run(b, 30);
-    shape_of(u, dofs, 0.5); /* deep in the ball */
+    shape_of(u, dofs, 0.5);
     peri_evaluate_desc_init(&e);
     e.displacement = u;
     e.time = 2.5;

@@ -90,7 +90,7 @@ static void short_memory(void) {
         const double centre[2] = { 4, -1 };
         peri_evaluate_desc e;
         (void)MUST(b, peri_apply_body_force(b, PERI_ALL, NULL, swell, NULL));
-        (void)MUST(b, peri_add_ball_obstacle(b, centre, 1.2, 0, swing, NULL));
+        (void)MUST(b, ball_obstacle(b, centre, 1.2, 0, swing, NULL));
         shape_of(u, 96, 0.01);
         shape_of(p, 96, 1);
         peri_evaluate_desc_init(&e);
@@ -101,7 +101,7 @@ static void short_memory(void) {
             grants = most;
             status = call ? peri_multiply_stiffness_at(b, u, p, f, 96) : peri_evaluate(b, &e, NULL);
         }
-        CHECK(status == PERI_OK && most > 4);
+        CHECK(status == PERI_OK && most > 3);
         peri_body_destroy(b);
     }
 }
@@ -125,7 +125,7 @@ static void memory_is_taken_once(void) {
     peri_body_destroy(b);
 }
 
-/* An obstacle that pushes beyond the precision: the body is where it was put, and whole. */
+/* An obstacle that pushes beyond the precision: the body is where it was, and whole. */
 static void an_obstacle_beyond_the_precision(void) {
     double u[MOST], now[MOST];
     const double centre[2] = { 4, 3 };
@@ -133,17 +133,16 @@ static void an_obstacle_beyond_the_precision(void) {
     s.desc.precision = PERI_PRECISION_SINGLE;
     s.material.critical_stretch = 0.01;
     peri_body *b = specimen_make(&s);
-    (void)MUST(b, peri_add_ball_obstacle(b, centre, 3, 1e39, NULL, NULL));
+    (void)MUST(b, ball_obstacle(b, centre, 3, 1e39, NULL, NULL));
     peri_evaluate_desc e;
     shape_of(u, 96, 0.5);
     peri_evaluate_desc_init(&e);
     e.displacement = u;
-    REFUSE(b, PERI_ERROR_RANGE, peri_evaluate(b, &e, NULL));
-    FIELD_IS("stiffness");
     e.fracture = 1;
     REFUSE(b, PERI_ERROR_RANGE, peri_evaluate(b, &e, NULL));
+    FIELD_IS("stiffness");
     (void)MUST(b, peri_get_field(b, PERI_FIELD_DISPLACEMENT, now, 96));
-    CHECK(alike(now, u, 96, 1e-6) && peri_broken_count(b) == 0);
+    CHECK(largest(now, 96) == 0 && peri_broken_count(b) == 0);
     peri_body_destroy(b);
 }
 

@@ -285,6 +285,54 @@ static void blocks_that_touch(void) {
     }
 }
 
+/* A ball of its own mass that falls on a beam, turns, rubs and bounces: saved while it touches. */
+static peri_body *falling_ball(int32_t law, int32_t *ball) {
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, law, 0.2, 0.37, 2.1, 12, 4, 0);
+    s.material.critical_stretch = 0.05;
+    s.desc.number = 5;
+    peri_body *b = specimen_make(&s);
+    peri_obstacle_desc d;
+    peri_obstacle_desc_init(&d, PERI_SHAPE_BALL);
+    d.place[0] = 2.1, d.place[1] = 2.5;
+    d.radius = 0.9;
+    d.density = 2;
+    d.friction = 0.4, d.friction_speed = 0.01;
+    d.restitution = 0.8;
+    d.velocity[0] = 0.1, d.velocity[1] = -0.2;
+    d.spin[0] = 0.3;
+    *ball = (int32_t)MUST(b, peri_add_obstacle(b, &d));
+    return b;
+}
+
+static void a_free_ball_that_rubs(void) {
+    for (int law = 0; law < 4; ++law) {
+        buffer file = { NULL, 0, 0, 0 };
+        int32_t ball;
+        peri_obstacle_state at[2];
+        peri_body *a = falling_ball(laws[law], &ball), *b = falling_ball(laws[law], &ball);
+        memset(at, 0, sizeof at);
+        for (int k = 0; k < 40 && !(at[0].lost > 0 && at[0].stored > 0); ++k) {
+            scene_run(a, 2);
+            (void)MUST(a, peri_get_obstacle_state(a, ball, &at[0]));
+        }
+        CHECK(at[0].stored > 0 && at[0].lost > 0);
+        save(a, &file);
+        (void)MUST(b, load(b, &file));
+        CHECK(same_state(a, b));
+        for (int k = 0; k < 2; ++k) {
+            (void)MUST(a, peri_get_obstacle_state(a, ball, &at[0]));
+            (void)MUST(b, peri_get_obstacle_state(b, ball, &at[1]));
+            CHECK(memcmp(&at[0], &at[1], sizeof at[0]) == 0 && at[0].mass > 0);
+            scene_run(a, 30);
+            scene_run(b, 30);
+            CHECK(same_state(a, b));
+        }
+        peri_body_destroy(a);
+        peri_body_destroy(b);
+        free(file.data);
+    }
+}
+
 /* Flags of bonds that one body has and the other has not, either way. */
 static void cuts_come_and_go(void) {
     const double from[2] = { 1.5, -1 }, to[2] = { 1.5, 1 };
@@ -386,6 +434,7 @@ int main(int argc, char **argv) {
     RUN(a_frame_that_is_left_by_a_jump);
     RUN(between_two_solves);
     RUN(blocks_that_touch);
+    RUN(a_free_ball_that_rubs);
     RUN(cuts_come_and_go);
     RUN(frames_may_save_not_load);
     RUN(values_of_loads_may_differ);

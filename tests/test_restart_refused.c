@@ -17,7 +17,7 @@ static peri_body *little_body(const specimen *s) {
     peri_body *b = specimen_make(s);
     const int32_t set = (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi));
     (void)MUST(b, peri_prescribe_velocity(b, set, PERI_AXIS_X, pull, NULL, NULL));
-    (void)MUST(b, peri_add_plane_obstacle(b, place, up, 0, NULL, NULL));
+    (void)MUST(b, plane_obstacle(b, place, up, 0, NULL, NULL));
     (void)MUST(b, peri_add_velocity(b, PERI_ALL, push));
     return b;
 }
@@ -158,7 +158,7 @@ static void other_scenes(void) {
     o = s, o.desc.break_timing = PERI_BREAK_AFTER_DRIFT, foreign(little_body(&o), "peri_body_desc");
     b = little_body(&s), (void)MUST(b, peri_apply_body_force(b, PERI_ALL, by, NULL, NULL)), foreign(b, "loads");
     b = little_body(&s), (void)MUST(b, peri_remove_load(b, peri_id(b, PERI_KIND_LOAD, 1))), foreign(b, "loads");
-    b = little_body(&s), (void)MUST(b, peri_add_plane_obstacle(b, place, up, 0, NULL, NULL)), foreign(b, "obstacles");
+    b = little_body(&s), (void)MUST(b, plane_obstacle(b, place, up, 0, NULL, NULL)), foreign(b, "obstacles");
     b = little_body(&s), (void)MUST(b, peri_set_no_fail(b, peri_id(b, PERI_KIND_SET, 1), 1)), foreign(b, "peri_set_no_fail");
     peri_contact_desc c;
     peri_contact_desc_init(&c);

@@ -170,13 +170,12 @@ static size_t peri__plane_bytes(const peri_body *b) { return (size_t)(b->model->
 
 /* ---- the body stays ------------------------------------------------------------------------------------------------ */
 
-/* f += loads and obstacles. */
-static int32_t peri__external_at(peri_body *b, const peri_evaluate_desc *e, const void *u, void *f) {
+/* f += loads. */
+static int32_t peri__external_at(peri_body *b, const peri_evaluate_desc *e, void *f) {
     const double time = peri__is_nan(e->time) ? peri__load_time(b) : e->time;
     const double factor = peri__is_nan(e->load_factor) ? b->now.load_factor : e->load_factor;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
-    int32_t status = peri__apply_loads_at(b, time, factor, f);
-    if (status == PERI_OK) status = peri__apply_obstacles_at(b, time, u, f);
+    const int32_t status = peri__apply_loads_at(b, time, factor, f);
     peri__leave(b, former);
     return status;
 }
@@ -186,7 +185,7 @@ static int32_t peri__evaluate_there(peri_body *b, const peri_evaluate_desc *e, c
     const peri__model *m = b->model;
     int32_t status = PERI_OK;
     memset(f, 0, peri__plane_bytes(b));
-    if (e->external) status = peri__external_at(b, e, u, f);
+    if (e->external) status = peri__external_at(b, e, f);
     if (status < 0) return status;
     if (e->bonds && e->force) {
         peri__operands operands = peri__operands_of(b);
@@ -203,9 +202,8 @@ static int32_t peri__evaluate_there(peri_body *b, const peri_evaluate_desc *e, c
 
 /* ---- the body moves there ------------------------------------------------------------------------------------------- */
 
-/* Loads and obstacles are asked first: what fails there has moved nothing. */
-static int32_t peri__ask_external(peri_body *b, const peri_evaluate_desc *e) {
-    const peri__progress was = b->now;
+/* Takes the time and the load factor, and sets f to what acts on the body where it is. */
+static int32_t peri__act(peri_body *b, const peri_evaluate_desc *e) {
     if (!peri__is_nan(e->time)) {
         b->now.still = 0;
         b->now.time = e->time;
@@ -214,14 +212,18 @@ static int32_t peri__ask_external(peri_body *b, const peri_evaluate_desc *e) {
     b->now.loaded = 1;
     memset(b->f, 0, peri__plane_bytes(b));
     int32_t status = e->external ? peri__apply_loads(b, peri__load_time(b), 0.0) : PERI_OK;
-    if (e->external && status == PERI_OK) status = peri__move_obstacles(b, peri__load_time(b));
-    if (status < 0) {
-        b->now.still = was.still;
-        b->now.time = was.time;
-        b->now.load_factor = was.load_factor;
-        b->now.loaded = was.loaded;
-    }
+    if (e->external && status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     return status;
+}
+
+static void peri__exchange(void *a, void *b, size_t bytes) {
+    unsigned char *p = (unsigned char *)a, *q = (unsigned char *)b, kept[PERI_BLOCK * sizeof(double)];
+    for (size_t at = 0; at < bytes; at += sizeof kept) {
+        const size_t some = bytes - at < sizeof kept ? bytes - at : sizeof kept;
+        memcpy(kept, p + at, some);
+        memcpy(p + at, q + at, some);
+        memcpy(q + at, kept, some);
+    }
 }
 
 /* The force and the breaks of the body where it is, f holding what else acts on it. */
@@ -246,18 +248,24 @@ static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, pe
     return status;
 }
 
-/* u, v: where the body moves, laid out as in the body; NULL: nothing else than now. */
-static int32_t peri__evaluate_here(peri_body *b, const peri_evaluate_desc *e, const void *u, const void *v, peri_evaluate_report *report) {
+/* u, v: where the body moves, laid out as in the body; NULL: nothing else than now. Where a load or an obstacle fails it moves back. */
+static int32_t peri__evaluate_here(peri_body *b, const peri_evaluate_desc *e, void *u, void *v, peri_evaluate_report *report) {
+    const peri__progress was = b->now;
     const int32_t former = peri__begin_run(b);
     peri__changed(b, PERI__MOTION);
-    int32_t status = peri__ask_external(b, e);
+    if (u) peri__exchange(b->u, u, peri__plane_bytes(b));
+    if (v) peri__exchange(b->v, v, peri__plane_bytes(b));
+    int32_t status = peri__act(b, e);
     if (status == PERI_OK) {
-        (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
-        if (u) memcpy(b->u, u, peri__plane_bytes(b));
-        if (v) memcpy(b->v, v, peri__plane_bytes(b));
-        if (e->external) status = peri__push_body(b, 0.0);
+        status = peri__evaluate_body(b, e, report);
+    } else {
+        if (u) peri__exchange(b->u, u, peri__plane_bytes(b));
+        if (v) peri__exchange(b->v, v, peri__plane_bytes(b));
+        b->now.still = was.still;
+        b->now.time = was.time;
+        b->now.load_factor = was.load_factor;
+        b->now.loaded = was.loaded;
     }
-    if (status == PERI_OK) status = peri__evaluate_body(b, e, report);
     peri__end_run(b, former);
     return status == PERI_OK ? peri__heed_callbacks(b) : status;
 }

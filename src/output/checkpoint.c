@@ -107,7 +107,10 @@ static uint64_t peri__hash_loads(const peri_body *b) {
 
 static uint64_t peri__hash_obstacles(const peri_body *b) {
     uint64_t h = (uint64_t)b->obstacle_count;
-    for (int64_t k = 0; k < b->obstacle_count; ++k) h = peri__hash_word(h, (uint64_t)b->obstacles[k].kind);
+    for (int64_t k = 0; k < b->obstacle_count; ++k) {
+        const peri__obstacle *o = &b->obstacles[k];
+        h = peri__hash_word(h, (uint64_t)(8 * (int64_t)o->kind + 4 * (o->kept != NULL) + 2 * (o->free != NULL)));
+    }
     return h;
 }
 
@@ -215,6 +218,7 @@ static void peri__progress_from_words(peri_body *b, const uint64_t *words) {
     b->sharp = peri__word_as_double(words[n++]);
     b->softens = peri__word_as_int32_t(words[n]);
     now->torn = 0;
+    now->fragments = 0;
 }
 
 /* Up to eight letters. */
@@ -235,7 +239,20 @@ static void peri__put_section(peri__section **end, const char *name, int64_t num
     s->at = -1;
 }
 
-static int64_t peri__most_sections(const peri_body *b) { return 6 + PERI_ARRAYS + 3 * b->load_count + b->obstacle_count; }
+static int64_t peri__most_sections(const peri_body *b) { return 6 + PERI_ARRAYS + 3 * b->load_count + 11 * b->obstacle_count; }
+
+/* Where an obstacle is and goes, what it keeps of points, and of a free one all: what that is made of follows from the scene. */
+static void peri__list_obstacle(peri__section **end, peri__obstacle *o, int64_t k, int64_t points) {
+    peri__put_section(end, "position", k, o->position, sizeof o->position, -1);
+    peri__put_section(end, "turn", k, o->turn, sizeof o->turn, -1);
+    peri__put_section(end, "velocity", k, o->velocity, sizeof o->velocity, -1);
+    peri__put_section(end, "spin", k, o->spin, sizeof o->spin, -1);
+    peri__put_section(end, "pushed", k, o->force, sizeof o->force, -1);
+    peri__put_section(end, "moment", k, o->moment, sizeof o->moment, -1);
+    peri__put_section(end, "lost", k, (void *)&o->lost, sizeof o->lost, -1);
+    if (o->kept) peri__put_section(end, "kept", k, o->kept, points * PERI_KEPT * (int64_t)sizeof *o->kept, -1);
+    if (o->free) peri__put_section(end, "free", k, (void *)o->free, sizeof *o->free, -1);
+}
 
 /* In the order of the file. words: of progress. */
 static int64_t peri__list_sections(const peri_body *b, uint64_t *words, peri__section *list) {
@@ -263,7 +280,7 @@ static int64_t peri__list_sections(const peri_body *b, uint64_t *words, peri__se
         if (load->force) peri__put_section(&end, "stepped", k, (void *)&load->stepped, sizeof load->stepped, -1);
     }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
-        peri__put_section(&end, "obstacle", k, b->obstacles[k].position, sizeof b->obstacles[k].position, -1);
+        if (b->obstacles[k].kind) peri__list_obstacle(&end, &b->obstacles[k], k, m->points);
     if (b->contact) peri__put_section(&end, "crowd", 0, (void *)&b->contact->crowd, sizeof b->contact->crowd, -1);
     if (b->contact && b->contact->drag)
         peri__put_section(&end, "drag", 0, b->contact->drag, m->stride * m->dim * (int64_t)sizeof *b->contact->drag, -1);
@@ -409,13 +426,15 @@ static int peri__need_sections(peri_body *b, peri__section *list, int64_t count)
 static void peri__take_sections(peri_body *b, const char *bytes, const peri__section *list, int64_t count, const uint64_t *words) {
     const peri__model *m = b->model;
     b->stop = 0;
-    peri__forget_contact(b->contact, m); /* its lists are made anew, as those of clones are                              */
+    peri__forget_contact(b->contact, m); /* its lists are made anew, as those of clones are; and so are fragments         */
     for (int64_t k = 0; k < count; ++k) {
         if (list[k].at >= 0) memcpy(list[k].data, bytes + list[k].at, (size_t)list[k].bytes);
         else if (list[k].data) peri__set_flags(m, (uint32_t *)(void *)list[k].data);
     }
     peri__progress_from_words(b, words);
     peri__clear_arrays(b, 0);
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        if (b->obstacles[k].kind) peri__update_axes(&b->obstacles[k], b->dim);
     for (int64_t g = 0; b->masks && g < m->stencil.groups; ++g) peri__group_masks(m, g, ~(uint32_t)0, b->alive, b->masks);
 }
 

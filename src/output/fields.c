@@ -29,7 +29,7 @@ static int32_t peri__ensure_fragments(peri_body *b) { return peri__label_fragmen
     X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, none)                                            \
     X(REACTION, 2016, dim, peri__force_unit(m), read, reaction, force)                                                   \
     X(FRAGMENT, 2017, 1, 1.0, read, fragment, fragments)                                                        \
-    X(MASS, 2018, 1, 1.0, read, mass, none)                                                                              \
+    X(MASS, 2018, 1, 1.0, read, point_mass, none)                                                                              \
     X(DENSITY, 2019, 1, 1.0, read, density, none)                                                                        \
     X(HELD, 2020, dim, 1.0, read, held, none)
 
@@ -168,7 +168,7 @@ static void peri__read_density(peri_body *b, double *out) {
     for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->materials[b->model->material[i]].density;
 }
 
-static void peri__read_mass(peri_body *b, double *out) {
+static void peri__read_point_mass(peri_body *b, double *out) {
     const peri__model *m = b->model;
     const double unit = pow(m->length, m->dim) * (m->dim == 3 ? 1.0 : b->desc.thickness);
     for (int64_t i = 0; i < m->points; ++i) out[i] = b->materials[m->material[i]].density * (m->volume[i] * unit);
