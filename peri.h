@@ -110,7 +110,8 @@ typedef enum peri_status { /* peri_status_text says the same */
     PERI_ERROR_INDEFINITE = -34,  /* the tangent is not positive: buckling or softening */
     PERI_ERROR_CONVERGENCE = -35, /* no equilibrium within the iterations; value: residual */
     PERI_ERROR_WRITE = -36,       /* the file or the write callback failed */
-    PERI_ERROR_LEFT_OUT = -37     /* left out of this build, by the switch that the field names */
+    PERI_ERROR_LEFT_OUT = -37,    /* left out of this build, by the switch that the field names */
+    PERI_ERROR_STATE = -38        /* no saved state of such a body, or damaged; value: the byte */
 } peri_status;
 
 typedef struct peri_error {
@@ -179,6 +180,9 @@ typedef int32_t (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, 
 
 /* Takes the next `count` bytes of a file; all but 0 is a failure: PERI_ERROR_WRITE. */
 typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
+
+/* Writes the next `count` bytes to `bytes`; all but 0 is a failure, as where fewer are left. */
+typedef int32_t (*peri_read_fn)(void *user, void *bytes, int64_t count);
 
 /* ---- ids -------------------------------------------------------------------- */
 
@@ -732,6 +736,39 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *desc);
    then reset or destroy it. */
 PERI_API int32_t peri_advance(peri_body *body, const peri_advance_desc *desc);
 
+/* ---- a time loop or a solver of yours (examples/own_loop.c) ------------------ */
+
+typedef struct peri_evaluate_desc {
+    uint64_t cookie;          /* set by init */
+    int32_t type;             /* of all arrays: PERI_TYPE_F64 (default) or PERI_TYPE_F32 */
+    int32_t nodal;            /* 1: forces [M L T^-2]; 0 (default): per volume [M L^-2 T^-2] */
+    int32_t bonds;            /* 1 (default): theirs; 0: not */
+    int32_t external;         /* 1 (default): of loads (moving: obstacles, contact); 0: not */
+    int32_t fracture;         /* 1: the body moves there, and bonds break. Default 0: it stays */
+    int32_t energy;           /* 1: report.energy, for one more pass. Default 0 */
+    int64_t point_stride;     /* in elements. Default 0: dim */
+    int64_t component_stride; /* Default 0: 1 */
+    const void *displacement; /* [L]. Default NULL: where the body is */
+    const void *velocity;     /* [L T^-1], with fracture. Default NULL: that of the body */
+    double time_step;         /* [T], with fracture: how long `velocity` took it there. Default 0 */
+    double time;              /* of loads. NaN (default): peri_time */
+    double load_factor;       /* Default NaN: the body's */
+    void *force;              /* out, supports aside. Default NULL */
+    void *impulse;            /* out, with time_step: force times [T] of bonds that broke */
+} peri_evaluate_desc;
+
+typedef struct peri_evaluate_report {
+    int64_t broken; /* bonds, by this call */
+    double energy;  /* elastic [M L^2 T^-2], of the bonds that are left */
+} peri_evaluate_report;
+
+PERI_API void peri_evaluate_desc_init(peri_evaluate_desc *desc);
+
+/* Forces at a displacement of yours. A step, rho of PERI_FIELD_DENSITY: v += dt/2 force/rho,
+   u += dt v, peri_evaluate, v += (dt/2 force + impulse)/rho. report may be NULL. */
+PERI_API int32_t peri_evaluate(peri_body *body, const peri_evaluate_desc *desc,
+    peri_evaluate_report *report);
+
 /* ---- equilibrium (docs/statics.md) ------------------------------------------ */
 
 typedef enum peri_method {
@@ -830,6 +867,10 @@ PERI_API int32_t peri_solve(peri_body *body, const peri_solve_desc *desc,
 PERI_API int32_t peri_multiply_stiffness(peri_body *body, const double *in, double *out,
     int64_t count);
 
+/* The same at `displacement` [points*dim] of yours instead: the body stays where it is. */
+PERI_API int32_t peri_multiply_stiffness_at(peri_body *body, const double *displacement,
+    const double *in, double *out, int64_t count);
+
 /* The same as a matrix by compressed rows, points*dim square ([T] 3.2, 3.3). It outlives the body;
    free it by peri_matrix_destroy. */
 typedef struct peri_matrix peri_matrix;
@@ -866,7 +907,10 @@ typedef enum peri_field {
     PERI_FIELD_STRESS = 2014,           /* [tensor] Cauchy, of the material [M L^-1 T^-2] */
     PERI_FIELD_FORCE_STRESS = 2015,     /* [tensor] Cauchy, what the bonds carry [T] 4.10, 4.13 */
     PERI_FIELD_REACTION = 2016,         /* [dim] force density of supports, mean of the last step */
-    PERI_FIELD_FRAGMENT = 2017          /* peri_find_fragments */
+    PERI_FIELD_FRAGMENT = 2017,         /* peri_find_fragments */
+    PERI_FIELD_MASS = 2018,             /* [M]; planes: thickness included */
+    PERI_FIELD_DENSITY = 2019,          /* of the material [M L^-3] */
+    PERI_FIELD_HELD = 2020              /* [dim] 1: a support prescribes it; else 0 */
 } peri_field;
 
 typedef enum peri_type {
@@ -881,7 +925,8 @@ PERI_API int64_t peri_size_of_field(const peri_body *body, int32_t field);
 /* Copies a field, as double, in your units and order. capacity counts doubles. */
 PERI_API int32_t peri_get_field(peri_body *body, int32_t field, double *out, int64_t capacity);
 
-/* Sets displacement or velocity of all points; count = points*dim. */
+/* Sets displacement or velocity of all points; count = points*dim. What peri_get_field gives
+   changes no bit. */
 PERI_API int32_t peri_set_field(peri_body *body, int32_t field, const double *in, int64_t count);
 
 /* A field in place: component k of point i, in your units, is offset[k] + scale *
@@ -970,6 +1015,19 @@ PERI_API int32_t peri_export_history_to(peri_body *body, int32_t header, peri_wr
 PERI_API int32_t peri_export_vtu(peri_body *body, const char *path);
 /* append = 0 starts the file with a header, 1 adds a line. */
 PERI_API int32_t peri_export_history(peri_body *body, const char *path, int32_t append);
+#endif
+
+/* Saves the state: motion, bonds, what criteria keep, time, ledger. Not the scene: load it into a
+   body that the same calls built. What follows has the same bits. */
+PERI_API int32_t peri_save_state_to(peri_body *body, peri_write_fn write, void *user);
+
+/* Reads all, verifies it, then takes it. PERI_ERROR_STATE: nothing has changed; field: what is of
+   another scene, or "". */
+PERI_API int32_t peri_load_state_from(peri_body *body, peri_read_fn read, void *user);
+
+#ifndef PERI_NO_STDIO
+PERI_API int32_t peri_save_state(peri_body *body, const char *path);
+PERI_API int32_t peri_load_state(peri_body *body, const char *path);
 #endif
 
 /* ---- what a scene costs (docs/accuracy.md) ---------------------------------- */

@@ -122,6 +122,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/dynamics/stretched.c" /* what deformation does to it                                                  */
 #include "src/dynamics/failure.c"  /* state-based bonds that break                                                 */
 #include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
+#include "src/dynamics/evaluate.c" /* displacements of the caller   -> forces, breaks                               */
 
 /* ---- statics --------------------------------------------------------------------------- */
 #ifndef PERI_NO_STATICS
@@ -143,6 +144,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 
 /* ---- output ---------------------------------------------------------------------------- */
 #include "src/output/fields.c"     /* fields by copy and by view, the ledger                                       */
+#include "src/output/checkpoint.c" /* the state                     -> bytes, and back                             */
 #ifndef PERI_NO_OUTPUT
 #include "src/output/output.c"     /* VTU, CSV                                                                     */
 #include "src/output/paths.c"      /* broken bonds                  -> cracks and tips in 2D                       */

@@ -108,6 +108,7 @@ static void try_statics(peri_body *b, int p, int dim) {
     left_out(b, peri_apply_pressure(b, PERI_ALL, 1.0, NULL, NULL), no_statics);
     left_out(b, peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1.0, NULL, NULL), no_statics);
     left_out(b, peri_multiply_stiffness(b, work, work, 1), no_statics);
+    left_out(b, peri_multiply_stiffness_at(b, work, work, work, 1), no_statics);
     left_out(b, peri_matrix_create(b, &matrix), no_statics);
     CHECK(matrix == NULL && peri_matrix_rows(matrix) == PERI_ERROR_ARGUMENT && peri_matrix_entries(matrix) == PERI_ERROR_ARGUMENT);
     CHECK(peri_get_matrix(matrix, NULL, NULL, NULL) == PERI_ERROR_ARGUMENT);

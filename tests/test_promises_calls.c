@@ -64,6 +64,8 @@ static int32_t told_break(void *user, int32_t i, int32_t j, double time, double 
 }
 static int32_t take_bytes(void *user, const void *bytes, int64_t count) { return (void)bytes, (void)count, user != NULL; }
 
+static int32_t no_bytes(void *user, void *bytes, int64_t count) { return (void)user, (void)bytes, (void)count, 1; }
+
 static specimen plate_of(int32_t law) {
     specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, law, 0.2, 1, 2.1, 12, 10, 1);
     s.desc.allocate = take;
@@ -78,39 +80,9 @@ static int32_t ints[512];
 static peri_material_desc stuff;
 static peri_view view;
 static peri_energy energy;
+static peri_evaluate_desc forces;
 
-/* What asks for cracks, of a body that has none or of one that is: then by what is wrong beside. */
-static void with_cracks(peri_body *b, const peri_body *unbuilt) {
-    peri_cracks *cracks = NULL;
-    peri_cracks_desc desc;
-    peri_cracks_desc_init(&desc);
-    if (unbuilt || !b) {
-        ASK(peri_record_breaks(b, 1)), ASK(peri_cracks_create(b, &desc, &cracks)), ASK(peri_cracks_paths(cracks));
-        ASK(peri_cracks_vertices(cracks)), ASK(peri_cracks_tips(cracks)), ASK(peri_get_cracks(cracks, NULL, NULL, NULL, NULL));
-        ASK(peri_export_cracks_to(cracks, take_bytes, NULL));
-        return;
-    }
-    ASK(peri_cracks_create(b, NULL, &cracks)), ASK(peri_cracks_create(b, &desc, NULL));
-    desc.shortest = -1, ASK(peri_cracks_create(b, &desc, &cracks));
-    desc.shortest = 0, desc.current = 2, ASK(peri_cracks_create(b, &desc, &cracks));
-    desc.current = 1, desc.initial = -1, ASK(peri_cracks_create(b, &desc, &cracks));
-    desc.initial = 0, desc.cookie++, ASK(peri_cracks_create(b, &desc, &cracks));
-    desc.cookie--, MUST(b, peri_cracks_create(b, &desc, &cracks));
-    ASK(peri_export_cracks_to(cracks, take_bytes, b)), ASK(peri_export_cracks_to(cracks, NULL, NULL));
-    peri_cracks_destroy(cracks);
-}
-
-/* Fragments, outlines and what goes by present positions. */
-static void ask_of_pieces(peri_body *b, const double *place) {
-    static peri_fragment pieces[256];
-    int64_t count[2];
-    ASK(peri_find_fragments(b, ints, 512)), ASK(peri_get_fragments(b, pieces, 256)), ASK(peri_size_of_outline(b, -1, count, count + 1));
-    ASK(peri_get_outline(b, -1, numbers, 4, ints, NULL, NULL, 4)), ASK(peri_find_point(b, place)), ASK(peri_find_point_in_place(b, place));
-    ASK(peri_select_box_in_place(b, "b", place, far3)), ASK(peri_select_ball_in_place(b, "b", place, 9));
-    ASK(peri_size_of_outline(b, 7, count, count + 1)), ASK(peri_get_outline(b, 7, numbers, 4, ints, NULL, NULL, 4));
-    ASK(peri_find_fragments(b, ints, 1)), ASK(peri_get_fragments(b, pieces, 0)), ASK(peri_find_fragments(b, NULL, 1));
-    ASK(peri_select_box_in_place(b, NULL, up3, zero3)), ASK(peri_select_ball_in_place(b, NULL, far3, 1e-9));
-}
+#include "calls_parts.h"
 
 /* Every function, without a body or a matrix. */
 static void without_a_body(void) {
@@ -143,6 +115,9 @@ static void without_a_body(void) {
     ASK(ball_obstacle(n, zero3, 1, 0, NULL, NULL)), ASK(peri_remove_obstacle(n, 1)), ASK(peri_get_obstacle_force(n, 1, numbers, NULL));
     ASK(peri_get_obstacle_state(n, 1, &placed)), ASK(peri_set_obstacle_state(n, 1, &placed));
     ASK(peri_set_contact(n, 1, 1, NULL));
+    ASK(peri_save_state_to(n, take_bytes, NULL)), ASK(peri_save_state(n, "build/x")), ASK(peri_load_state(n, "build/x"));
+    ASK(peri_load_state_from(n, no_bytes, NULL));
+    ASK(peri_evaluate(n, NULL, NULL)), ASK(peri_multiply_stiffness_at(n, numbers, numbers, numbers, 2));
     ASK(peri_multiply_stiffness(n, numbers, numbers, 2)), ASK(peri_matrix_create(n, &m)), ASK(peri_matrix_rows(m));
     ASK(peri_matrix_entries(m)), with_cracks(n, n);
     ASK(peri_get_matrix(m, NULL, NULL, NULL)), ASK(peri_export_matrix_to(m, take_bytes, NULL));
@@ -266,7 +241,12 @@ static void with_wrong_arguments(void) {
     ASK(peri_cut_rectangle(t, PERI_CUT_NOW, nan3, up3, one3)), ASK(peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_X, nan3, NULL, NULL));
     ASK(peri_apply_traction(b, PERI_ALL, -1, one3, one3, NULL, NULL)), ASK(peri_apply_pressure(b, PERI_ALL, HUGE_VAL, NULL, NULL));
     ASK(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, HUGE_VAL, NULL, NULL)), ASK(peri_multiply_stiffness(b, NULL, numbers, 240));
-    ASK(peri_multiply_stiffness(b, numbers, numbers, 3)), numbers[0] = (double)NAN, ASK(peri_multiply_stiffness(b, numbers, numbers, 240));
+    ASK(peri_multiply_stiffness(b, numbers, numbers, 3)), ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 3));
+    peri_evaluate_desc_init(&forces), forces.nodal = 2, ASK(peri_evaluate(b, &forces, NULL));
+    forces.cookie = 1, ASK(peri_evaluate(b, &forces, NULL)), peri_evaluate_desc_init(&forces);
+    forces.time_step = -1, ASK(peri_evaluate(b, &forces, NULL));
+    numbers[0] = (double)NAN, ASK(peri_multiply_stiffness(b, numbers, numbers, 240));
+    ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
     ASK(peri_matrix_create(b, NULL)), MUST(b, peri_matrix_create(b, &matrix)), ASK(peri_export_matrix_to(matrix, NULL, NULL));
     ASK(peri_export_matrix_to(matrix, take_bytes, b)), ASK(peri_export_history_to(b, 1, NULL, NULL)), ASK(peri_export_history(b, NULL, 0));
     peri_matrix_destroy(matrix);
@@ -320,6 +300,7 @@ static void with_failing_callbacks(void) {
         ASK(peri_get_reaction(b, load, f)), ASK(peri_get_reaction_moment(b, load, zero3, f));
         ASK(peri_get_obstacle_force(b, wall, f, NULL)), ASK(peri_get_obstacle_state(b, wall, &placed));
         ASK(peri_multiply_stiffness(b, f, f, 240));
+        peri_evaluate_desc_init(&forces), ASK(peri_evaluate(b, &forces, NULL));
         peri_body_destroy(b);
     }
     s.desc.precision = PERI_PRECISION_DOUBLE;
@@ -392,6 +373,10 @@ static void without_memory(void) {
     plane.place[1] = wall[1];
     plane.normal[1] = 1;
     SHORT(peri_add_obstacle(b, &plane)), SHORT(ball_obstacle(b, wall, 1, 0, NULL, NULL));
+    SHORT(peri_save_state_to(b, take_bytes, NULL)), SHORT(peri_save_state(b, "build/short.state"));
+    MUST(b, peri_save_state(b, "build/short.state")), SHORT(peri_load_state(b, "build/short.state"));
+    SHORT(peri_load_state_from(b, no_bytes, NULL));
+    SHORT(peri_evaluate(b, &forces, NULL)), SHORT(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
     SHORT(peri_multiply_stiffness(b, numbers, numbers, 240)), SHORT(peri_matrix_create(b, &m));
     SHORT(peri_view_field(b, PERI_FIELD_DAMAGE, &view)), SHORT(peri_advance(b, &one_step));
     SHORT(peri_export_vtu_to(b, take_bytes, NULL)), SHORT(peri_export_vtu(b, "build/short.vtu"));
@@ -528,6 +513,7 @@ static void gather(void) {
     without_a_body();
     with_wrong_ids();
     at_the_wrong_time();
+    with_evaluations();
     with_wrong_arguments();
     with_failing_callbacks();
     without_memory();
@@ -569,7 +555,7 @@ static void no_others_are(void) {
 static void never_where_it_says_so(void) {
     int never = 0;
     for (int k = 0; k < calls_of_table; ++k) never += table_rows[k].never;
-    CHECK(never == 2 + 9 + 3 + 12 + 1);
+    CHECK(never == 2 + 10 + 3 + 12 + 1);
     CHECK(peri_version() > 0 && peri_status_text(12345)[0] != 0);
     peri_body_destroy(NULL);
     peri_matrix_destroy(NULL);

@@ -122,7 +122,7 @@ static inline void wrong_runs_and_reads(peri_body *b, int32_t mat) {
     REFUSE(b, PERI_ERROR_CAPACITY, peri_get_field(b, PERI_FIELD_VELOCITY, buffer, n - 1));
     CHECK_NEAR(seen.value, (double)n, 0, 0);
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_get_field(b, PERI_FIELD_VELOCITY, NULL, n));
-    REFUSE(b, PERI_ERROR_CHOICE, peri_view_field(b, PERI_FIELD_FRAGMENT + 1, &view));
+    REFUSE(b, PERI_ERROR_CHOICE, peri_view_field(b, peri__end_field, &view));
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_view_field(b, PERI_FIELD_DAMAGE, NULL));
     u = get(b, PERI_FIELD_VELOCITY);
     REFUSE(b, PERI_ERROR_FIELD, peri_set_field(b, PERI_FIELD_POSITION, u, n));
@@ -136,6 +136,8 @@ static inline void wrong_runs_and_reads(peri_body *b, int32_t mat) {
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_get_energy(b, NULL));
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_export_vtu_to(b, NULL, NULL));
     REFUSE(b, PERI_ERROR_WRITE, peri_export_vtu_to(b, write_nothing, NULL));
+    REFUSE(b, PERI_ERROR_WRITE, peri_save_state_to(b, write_nothing, NULL));
+    REFUSE(b, PERI_ERROR_STATE, peri_load_state(b, "/nonexistent-dir/x.state"));
     REFUSE(b, PERI_ERROR_WRITE, peri_export_history_to(b, 1, write_nothing, NULL));
     REFUSE(b, PERI_ERROR_WRITE, peri_export_vtu(b, "/nonexistent-dir/x.vtu"));
     REFUSE(b, PERI_ERROR_WRITE, peri_export_history(b, "/nonexistent-dir/x.csv", 0));

@@ -44,7 +44,8 @@
     X(ERROR_INDEFINITE, -34, "the tangent is not positive: buckling or softening")                                     \
     X(ERROR_CONVERGENCE, -35, "no equilibrium within the iterations; value: residual")                                 \
     X(ERROR_WRITE, -36, "the file or the write callback failed")                                                       \
-    X(ERROR_LEFT_OUT, -37, "left out of this build, by the switch that the field names")
+    X(ERROR_LEFT_OUT, -37, "left out of this build, by the switch that the field names")                               \
+    X(ERROR_STATE, -38, "no saved state of such a body, or damaged; value: the byte")
 
 #define PERI_STATUS_NUMBER_(name, number, text) PERI_SAME_NUMBER_(name, PERI_##name == (number))
 PERI_STATUS_LIST(PERI_STATUS_NUMBER_)

@@ -353,6 +353,8 @@ typedef struct peri__tangent { /* a change of the displacements, and what the ta
     const void *p;      /* real [dim][stride] with margins: the change                                                   */
     void       *q;      /* real [dim][stride] with margins: the change of the force density                              */
     void       *change; /* as body->response: that of p and Q; NULL without constants                                    */
+    const void *u;      /* real [dim][stride] with margins: the displacement there; NULL, like the next: those of the body */
+    void       *response; /* as body->response: of u                                                                     */
 } peri__tangent;
 
 typedef struct peri__krylov { /* vectors of conjugate gradients, real [dim][stride], forces times volumes                 */
@@ -430,7 +432,7 @@ typedef struct peri__fragment { /* connected points: fragments.c                
     int32_t first, points, parent; /* as of peri_fragment                                                                */
 } peri__fragment;
 
-typedef struct peri__ledger { /* inner units of energy                                                                    */
+typedef struct peri__ledger { /* inner units of energy; doubles alone                                                     */
     double external, obstacle, damping, fracture, initial;
     double before; /* kinetic + elastic before the first unaccounted change, while PERI__STALE_LEDGER                    */
 } peri__ledger;
@@ -446,17 +448,33 @@ typedef enum peri__stale {
     PERI__STALE_STRETCH = 64   /* now.stiffer: displacements were changed since, not by a run                            */
 } peri__stale;
 
-/* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. */
+/* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. A list, so
+   that no member is missing in a checkpoint:
+     cut, broken  directed bonds
+     time         [T], the caller's unit: a run ends at its duration to the last bit
+     fragments, fragment_dead   how many are known, 0: none; `cut` + `broken` when they were
+     loaded       1: loads have acted, by a solve or a run
+     load_factor  of constant loads and supports; the time of callbacks where `still`
+     still        1: the last motion was a static one
+     torn         1: a run is under way; where no call is, a callback left it by a jump
+     stiffer      what the deformation makes of the square of the highest frequency: stretched.c
+     stale        bits of peri__stale */
+#define PERI_PROGRESS_LIST(X)                                                                                          \
+    X(int64_t, cut)                                                                                                    \
+    X(int64_t, broken)                                                                                                 \
+    X(int64_t, steps)                                                                                                  \
+    X(int64_t, fragments)                                                                                              \
+    X(int64_t, fragment_dead)                                                                                          \
+    X(double, time)                                                                                                    \
+    X(int32_t, loaded)                                                                                                 \
+    X(double, load_factor)                                                                                             \
+    X(int32_t, still)                                                                                                  \
+    X(int32_t, torn)                                                                                                   \
+    X(double, stiffer)                                                                                                 \
+    X(uint32_t, stale)
+#define PERI_PROGRESS_MEMBER_(type, name) type name;
 typedef struct peri__progress {
-    int64_t      cut, broken, steps; /* cut, broken: directed                                                            */
-    int64_t      fragments, fragment_dead; /* how many are known, 0: none; `cut` + `broken` when they were              */
-    double       time;               /* [T], the caller's unit: a run ends at its duration to the last bit               */
-    int32_t      loaded;             /* 1: loads have acted, by a solve or a run                                       */
-    double       load_factor;        /* of constant loads and supports; the time of callbacks where `still`              */
-    int32_t      still;              /* 1: the last motion was a static one                                              */
-    int32_t      torn;               /* 1: a run is under way; and where no call is, a callback left it by a jump        */
-    double       stiffer;            /* what the deformation makes of the square of the highest frequency: stretched.c   */
-    uint32_t     stale;              /* bits of peri__stale                                                              */
+    PERI_PROGRESS_LIST(PERI_PROGRESS_MEMBER_)
     peri__ledger ledger;
 } peri__progress;
 
@@ -536,8 +554,9 @@ struct peri_body {
     void     *pull;          /* real force density of bonds when last worked out: on the list [entries][dim], on columns [columns][dim]
                                 [PERI_GROUP]                                                                             */
     void     *worked;        /* real [dim][stride] displacement then, with a margin before and after                     */
-    void     *change_u;      /* of products with the stiffness, which take them when first asked for: a change of u,    */
-    void     *change_f;      /* of the force, both laid out as u with its margins,                                       */
+    void     *change_u;      /* displacements that are not those of the body, or a change of them: of peri_evaluate and products with the
+                                stiffness, which take these when first asked for;                                        */
+    void     *change_f;      /* what that makes of the force, both laid out as u with its margins,                       */
     void     *change_response; /* and of the response                                                                     */
     uint32_t *fragment_alive; /* [points][words] alive when fragments were made; NULL, like the next, until they are asked for */
     int32_t  *fragment_of;   /* [points] fragment                                                                        */

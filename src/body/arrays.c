@@ -27,13 +27,26 @@ typedef enum peri__purpose {
     PERI__PURPOSES
 } peri__purpose;
 
-/* An array: where its pointer is in the model or the body, how much it points to, whether peri_build takes it, and what for. */
+/* What peri_reset and checkpoints make of an array of a body. */
+typedef enum peri__role {
+    PERI__SCRATCH, /* nothing: it is filled before it is read, or follows from others                                     */
+    PERI__SCENE,   /* what the caller has set; peri_reset leaves it                                                       */
+    PERI__BONDS_LEFT, /* flags of bonds, all set where there is no array: saved                                          */
+    PERI__FOLLOWS, /* follows from the rest but for the last digits, which depend on the way: saved                       */
+    PERI__HISTORY, /* saved; 0 after peri_reset                                                                           */
+    PERI__RESTING  /* 0 between steps                                                                                     */
+} peri__role;
+
+/* An array: the name of its member, where its pointer is in the model or the body, how much it points to, whether peri_build takes it, what
+   for, and of a body its role. */
 typedef struct peri__array {
+    const char   *name;
     size_t        place;
     int64_t       count;
     size_t        size;
     int           wanted;
     peri__purpose purpose;
+    peri__role    role;
 } peri__array;
 #define PERI_ARRAYS 32       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
@@ -57,7 +70,7 @@ static void *peri__model_array(const peri__model *m, const peri__array *array) {
 static void peri__list_model(const peri_body *b, const peri__model *m, peri__array *list) {
     const int64_t n = m->points, bonds = m->entries, groups = m->stencil.groups, pairs = (int64_t)m->materials * m->materials;
     const size_t real = peri__real(b), bond_real = peri__bond_real(b);
-#define PERI_ARRAY_(member, number, bytes, purpose) { offsetof(peri__model, member), number, bytes, 1, purpose }
+#define PERI_ARRAY_(member, number, bytes, purpose) { #member, offsetof(peri__model, member), number, bytes, 1, purpose, PERI__SCENE }
     const peri__array arrays[PERI_MODEL_ARRAYS] = {
         PERI_ARRAY_(order, n, sizeof(int32_t), PERI__FAMILIES),
         PERI_ARRAY_(start, n, sizeof(int64_t), PERI__FAMILIES),
@@ -104,43 +117,54 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const int64_t constants = peri__constant_planes(m);
     const int32_t states = !m->pairwise, breaks = !m->pairwise && m->breakable;
     const size_t real = peri__real(b), bond = peri__bond_real(b);
-#define PERI_ARRAY_(member, number, bytes, want, purpose) { offsetof(peri_body, member), number, bytes, want, purpose }
+#define PERI_ARRAY_(member, number, bytes, want, purpose, role) { #member, offsetof(peri_body, member), number, bytes, want, purpose, role }
     const peri__array arrays[PERI_ARRAYS] = {
-        PERI_ARRAY_(records, n * m->record_reals, real, m->record_reals > 0, PERI__STATE),
-        PERI_ARRAY_(alive, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
-        PERI_ARRAY_(masks, m->stencil.columns, sizeof(uint16_t), 0, PERI__DAMAGE),
-        PERI_ARRAY_(uncut, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
-        PERI_ARRAY_(before, flags, sizeof(uint32_t), 0, PERI__DAMAGE),
-        PERI_ARRAY_(fragment_alive, flags, sizeof(uint32_t), 0, PERI__FIELDS),
-        PERI_ARRAY_(fragment_of, n, sizeof(int32_t), 0, PERI__FIELDS),
-        PERI_ARRAY_(fragments, n, sizeof(peri__fragment), 0, PERI__FIELDS),
-        PERI_ARRAY_(no_fail, n, 1, 0, PERI__DAMAGE),
-        PERI_ARRAY_(point_class, n, 1, 0, PERI__LAWS),
-        PERI_ARRAY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof(peri__pair), 1, PERI__LAWS),
-        PERI_ARRAY_(sums, m->blocks, sizeof(peri__sums), 1, PERI__STATE),
-        PERI_ARRAY_(push, vector, sizeof(double), 0, PERI__LOADS),
-        PERI_ARRAY_(constant, constants * m->stride + 2 * m->margin, bond, states, PERI__LAWS),
-        PERI_ARRAY_(response, peri__response_reals(m), bond, states, PERI__LAWS),
-        PERI_ARRAY_(change_u, peri__vector_reals(m), real, 0, PERI__STATE),
-        PERI_ARRAY_(change_f, peri__vector_reals(m), real, 0, PERI__STATE),
-        PERI_ARRAY_(change_response, peri__response_reals(m), bond, 0, PERI__STATE),
-        PERI_ARRAY_(row_sum, n, sizeof(double), states, PERI__LAWS),
-        PERI_ARRAY_(gather_row_sum, n, sizeof(double), states, PERI__LAWS),
-        PERI_ARRAY_(central, n / PERI_GROUP + 1, 1, (m->gathers & PERI__GRADIENT) != 0, PERI__LAWS),
-        PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE),
-        PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE),
-        PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE),
-        PERI_ARRAY_(closing, vector, real, m->breakable && b->desc.break_timing == PERI_BREAK_WITHIN_STEP, PERI__DAMAGE),
-        PERI_ARRAY_(work, bonds, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
-        PERI_ARRAY_(pull, bonds * m->dim, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
-        PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE),
-        PERI_ARRAY_(node, n, sizeof(double), (m->seen_by & PERI__BY_NODE_ENERGY) != 0, PERI__DAMAGE),
-        PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE),
-        PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE),
-        PERI_ARRAY_(side_time, b->side_count, sizeof(double), 0, PERI__DAMAGE),
+        PERI_ARRAY_(records, n * m->record_reals, real, m->record_reals > 0, PERI__STATE, PERI__SCRATCH),
+        PERI_ARRAY_(alive, flags, sizeof(uint32_t), 0, PERI__DAMAGE, PERI__BONDS_LEFT),
+        PERI_ARRAY_(masks, m->stencil.columns, sizeof(uint16_t), 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(uncut, flags, sizeof(uint32_t), 0, PERI__DAMAGE, PERI__BONDS_LEFT),
+        PERI_ARRAY_(before, flags, sizeof(uint32_t), 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(no_fail, n, 1, 0, PERI__DAMAGE, PERI__SCENE),
+        PERI_ARRAY_(point_class, n, 1, 0, PERI__LAWS, PERI__SCENE),
+        PERI_ARRAY_(pairs, 4 * (int64_t)m->materials * m->materials, sizeof(peri__pair), 1, PERI__LAWS, PERI__SCENE),
+        PERI_ARRAY_(sums, m->blocks, sizeof(peri__sums), 1, PERI__STATE, PERI__SCRATCH),
+        PERI_ARRAY_(push, vector, sizeof(double), 0, PERI__LOADS, PERI__HISTORY),
+        PERI_ARRAY_(constant, constants * m->stride + 2 * m->margin, bond, states, PERI__LAWS, PERI__FOLLOWS),
+        PERI_ARRAY_(response, peri__response_reals(m), bond, states, PERI__LAWS, PERI__FOLLOWS),
+        PERI_ARRAY_(change_u, peri__vector_reals(m), real, 0, PERI__STATE, PERI__SCRATCH),
+        PERI_ARRAY_(change_f, peri__vector_reals(m), real, 0, PERI__STATE, PERI__SCRATCH),
+        PERI_ARRAY_(change_response, peri__response_reals(m), bond, 0, PERI__STATE, PERI__SCRATCH),
+        PERI_ARRAY_(row_sum, n, sizeof(double), states, PERI__LAWS, PERI__FOLLOWS),
+        PERI_ARRAY_(gather_row_sum, n, sizeof(double), states, PERI__LAWS, PERI__FOLLOWS),
+        PERI_ARRAY_(central, n / PERI_GROUP + 1, 1, (m->gathers & PERI__GRADIENT) != 0, PERI__LAWS, PERI__FOLLOWS),
+        PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(closing, vector, real, m->breakable && b->desc.break_timing == PERI_BREAK_WITHIN_STEP, PERI__DAMAGE, PERI__RESTING),
+        PERI_ARRAY_(work, bonds, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
+        PERI_ARRAY_(pull, bonds * m->dim, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
+        PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
+        PERI_ARRAY_(node, n, sizeof(double), (m->seen_by & PERI__BY_NODE_ENERGY) != 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE, PERI__SCENE),
+        PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE, PERI__SCENE),
+        PERI_ARRAY_(side_time, b->side_count, sizeof(double), 0, PERI__DAMAGE, PERI__HISTORY),
+        PERI_ARRAY_(fragment_alive, flags, sizeof(uint32_t), 0, PERI__FIELDS, PERI__SCRATCH),
+        PERI_ARRAY_(fragment_of, n, sizeof(int32_t), 0, PERI__FIELDS, PERI__SCRATCH),
+        PERI_ARRAY_(fragments, n, sizeof(peri__fragment), 0, PERI__FIELDS, PERI__SCRATCH),
     };
 #undef PERI_ARRAY_
     memcpy(list, arrays, sizeof arrays);
+}
+
+/* Sets to 0 what is so between steps; and the history. */
+static void peri__clear_arrays(peri_body *b, int history) {
+    peri__array arrays[PERI_ARRAYS];
+    peri__list_arrays(b, arrays);
+    for (int k = 0; k < PERI_ARRAYS; ++k) {
+        void *array = peri__array_of(b, &arrays[k]);
+        if (array && (arrays[k].role == PERI__RESTING || (history && arrays[k].role == PERI__HISTORY)))
+            memset(array, 0, (size_t)arrays[k].count * arrays[k].size);
+    }
 }
 
 /* Takes what the scene has use for. 0 where memory is short. */

@@ -12,17 +12,18 @@ static int64_t peri__dof(const peri_body *b, const peri__load *load, int64_t k, 
     return d * b->model->stride + peri__set_point(b, load->set, k);
 }
 
-/* Component d of the value of point k of a load, user's units. */
-static double peri__load_value(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
-    if (load->value) return load->value[k * b->dim + d];
-    return load->kind == PERI__VELOCITY ? load->constant[d] : b->now.load_factor * load->constant[d];
+/* Component d of the value of point k of a load, user's units, by what its callback wrote, if it has one; constants act by `factor`. */
+static double peri__value_by(const peri_body *b, const peri__load *load, const double *wrote, double factor, int64_t k, int32_t d) {
+    if (wrote) return wrote[k * b->dim + d];
+    return load->kind == PERI__VELOCITY ? load->constant[d] : factor * load->constant[d];
 }
 
-/* Component d of the force density that a load gives to its point k, inner units. */
-static double peri__load_force(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
+/* Component d of the force density that a load gives to its point k, inner units, likewise. */
+static double peri__force_by(const peri_body *b, const peri__load *load, const double *wrote, double factor, int64_t k, int32_t d) {
     double sum = 0.0, unit = load->per_value / peri__force_unit(b->model);
-    if (!load->spread) return unit * peri__load_value(b, load, k, d);
-    for (int32_t c = 0; c < b->dim; ++c) sum += load->spread[(k * b->dim + d) * b->dim + c] * peri__load_value(b, load, k, c);
+    if (!load->spread) return unit * peri__value_by(b, load, wrote, factor, k, d);
+    for (int32_t c = 0; c < b->dim; ++c)
+        sum += load->spread[(k * b->dim + d) * b->dim + c] * peri__value_by(b, load, wrote, factor, k, c);
     return unit * sum;
 }
 
@@ -59,20 +60,31 @@ static int32_t peri__refresh_rigid(peri_body *b, peri__load *load, double time) 
     return PERI_OK;
 }
 
-/* Asks the callback for its values at a time. */
-static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
-    if (load->rigid) return peri__refresh_rigid(b, load, time);
-    if (!load->fn) return PERI_OK;
+static double peri__load_value(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
+    return peri__value_by(b, load, load->value, b->now.load_factor, k, d);
+}
+
+static double peri__load_force(const peri_body *b, const peri__load *load, int64_t k, int32_t d) {
+    return peri__force_by(b, load, load->value, b->now.load_factor, k, d);
+}
+
+/* Has the callback write its values at a time to wrote[count*dim]. */
+static int32_t peri__ask_load(peri_body *b, const peri__load *load, double time, double *wrote) {
     for (int64_t k = 0; k < load->count; ++k)
-        for (int32_t d = 0; d < b->dim; ++d) load->value[k * b->dim + d] = load->constant[d];
+        for (int32_t d = 0; d < b->dim; ++d) wrote[k * b->dim + d] = load->constant[d];
     const int32_t *points = load->all ? load->all : b->sets[load->set - 1].points;
-    const int32_t said = load->fn(load->user, time, load->count, points, load->value);
+    const int32_t said = load->fn(load->user, time, load->count, points, wrote);
     if (said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_load_fn", -1, said);
     if (said > 0) b->stop = 1;
     for (int64_t k = 0; k < load->count * b->dim; ++k)
-        if (!peri__finite(load->value[k]))
-            return peri__fail(b, PERI_ERROR_CALLBACK, "value", peri__set_point(b, load->set, k / b->dim), load->value[k]);
+        if (!peri__finite(wrote[k]))
+            return peri__fail(b, PERI_ERROR_CALLBACK, "value", peri__set_point(b, load->set, k / b->dim), wrote[k]);
     return PERI_OK;
+}
+
+static int32_t peri__refresh_load(peri_body *b, peri__load *load, double time) {
+    if (load->rigid) return peri__refresh_rigid(b, load, time);
+    return load->fn ? peri__ask_load(b, load, time, load->value) : PERI_OK;
 }
 
 /* sum over the load's points of b.v V, inner units of power */
@@ -86,10 +98,23 @@ static double peri__load_power(const peri_body *b, const peri__load *load) {
     return power;
 }
 
-/* Adds all loads at `time` to f; dt > 0: counts the work of the step that ends there. */
-static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
+/* Adds a load to f, which is laid out as b->f. */
+static int32_t peri__give_load(peri_body *b, const peri__load *load, const double *wrote, double factor, void *f) {
     const peri__model *m = b->model;
     const double most = peri__most_force(b);
+    for (int64_t k = 0; k < load->count; ++k)
+        for (int32_t d = 0; d < m->dim; ++d) {
+            int64_t at = peri__dof(b, load, k, d);
+            double force = peri__get_real(f, b->f32, at) + peri__force_by(b, load, wrote, factor, k, d);
+            if (!(fabs(force) < most))
+                return peri__fail(b, PERI_ERROR_RANGE, "value", peri__set_point(b, load->set, k), force * peri__force_unit(m));
+            peri__put_real(f, b->f32, at, force);
+        }
+    return PERI_OK;
+}
+
+/* Adds all loads at `time` to f; dt > 0: counts the work of the step that ends there. */
+static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
     for (int64_t s = 0; s < b->load_count; ++s) {
         peri__load *load = &b->loads[s];
         if (load->kind != PERI__FORCE) continue;
@@ -97,16 +122,28 @@ static int32_t peri__apply_loads(peri_body *b, double time, double dt) {
         int32_t status = peri__refresh_load(b, load, time);
         if (status < 0) return status;
         if (b->desc.ledger && dt > 0.0) b->now.ledger.external += 0.5 * dt * peri__load_power(b, load);
-        for (int64_t k = 0; k < load->count; ++k)
-            for (int32_t d = 0; d < m->dim; ++d) {
-                int64_t at = peri__dof(b, load, k, d);
-                double force = peri__get_real(b->f, b->f32, at) + peri__load_force(b, load, k, d);
-                if (!(fabs(force) < most))
-                    return peri__fail(b, PERI_ERROR_RANGE, "value", peri__set_point(b, load->set, k), force * peri__force_unit(m));
-                peri__put_real(b->f, b->f32, at, force);
-            }
+        status = peri__give_load(b, load, load->value, b->now.load_factor, b->f);
+        if (status < 0) return status;
     }
     return PERI_OK;
+}
+
+/* The same to f at a time and a load factor that are not those of the body, which keeps nothing of it. */
+static int32_t peri__apply_loads_at(peri_body *b, double time, double factor, void *f) {
+    int32_t status = PERI_OK;
+    for (int64_t s = 0; s < b->load_count && status == PERI_OK; ++s) {
+        const peri__load *load = &b->loads[s];
+        const int64_t reals = load->count * b->dim;
+        double *wrote = NULL;
+        if (load->kind != PERI__FORCE) continue;
+        if (load->fn) {
+            wrote = (double *)peri__new(&b->scratch, reals, sizeof *wrote);
+            status = wrote ? peri__ask_load(b, load, time, wrote) : peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
+        }
+        if (status == PERI_OK) status = peri__give_load(b, load, wrote, factor, f);
+        peri__delete(&b->scratch, wrote, reals, sizeof *wrote);
+    }
+    return status;
 }
 
 static double *peri__support_at(const peri_body *b, const peri__load *load, int plane, int64_t k, int32_t d) {

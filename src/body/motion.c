@@ -74,19 +74,13 @@ PERI_API int32_t peri_reset(peri_body *b) {
     memset(b->u, 0, vector);
     memset(b->v, 0, vector);
     memset(b->f, 0, vector);
-    if (b->push) memset(b->push, 0, (size_t)(m->stride * m->dim) * sizeof *b->push);
+    peri__clear_arrays(b, 1);
     if (b->alive) {
         peri__set_flags(m, b->alive);
         if (b->uncut) memcpy(b->alive, b->uncut, (size_t)(m->points * m->words) * sizeof *b->alive);
     }
     peri__forget_breaks(b);
-    if (b->closing) memset(b->closing, 0, vector);
     peri__forget_contact(b->contact, m);
-    if (b->work) {
-        memset(b->work, 0, (size_t)peri__bond_slots(m) * peri__real(b));
-        memset(b->pull, 0, (size_t)(peri__bond_slots(m) * m->dim) * peri__real(b));
-        memset(b->worked, 0, (size_t)peri__vector_reals(m) * peri__real(b));
-    }
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) peri__restart_obstacle(&b->obstacles[k], b->dim, m->points);
     for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;

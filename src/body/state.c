@@ -99,3 +99,20 @@ static double peri__most_force(const peri_body *b) {
 static void peri__inner(const peri_body *b, const double *place, double *out) {
     for (int32_t d = 0; d < b->dim; ++d) out[d] = (place[d] - b->model->origin[d]) / b->model->length;
 }
+
+/* Memory for displacements that are not those of the body, and for their forces: all of it, which then stays, or none and 0. */
+static int peri__need_change(peri_body *b) {
+    const peri__model *m = b->model;
+    const int64_t vector = peri__vector_reals(m), response = peri__response_reals(m);
+    if (b->change_f) return 1;
+    void *u = peri__new(&b->memory, vector, peri__real(b)), *r = !m->pairwise ? peri__new(&b->memory, response, peri__bond_real(b)) : NULL;
+    if (u && (r || m->pairwise)) b->change_f = peri__new(&b->memory, vector, peri__real(b));
+    if (b->change_f) {
+        b->change_u = u;
+        b->change_response = r;
+        return 1;
+    }
+    peri__delete(&b->memory, u, vector, peri__real(b));
+    peri__delete(&b->memory, r, response, peri__bond_real(b));
+    return 0;
+}

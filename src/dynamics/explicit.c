@@ -103,13 +103,31 @@ static int32_t peri__unstagger(peri_body *b, double dt, double damping) {
     return bad >= 0 ? peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time) : PERI_OK;
 }
 
+/* Adds the force of bonds to f and breaks those that meet their criterion: as within a step that took operands->step, whose drift was v,
+   where operands->closing is given. Did some break? */
+static int peri__forces_and_breaks(peri_body *b, peri__operands *operands) {
+    const peri__model *m = b->model;
+    if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
+    operands->breaking = b->alive != NULL && m->breakable;
+    operands->working = m->seen_by & PERI__BY_WORK;
+    peri__bond_forces(b, operands);
+    if (!operands->breaking) return 0;
+    const peri__sums total = peri__total(b->sums, m->points);
+    if (!m->pairwise && total.n > 0) {
+        peri__break_states(b, operands);
+    } else {
+        b->now.ledger.fracture += total.a;
+        b->now.broken += total.n;
+    }
+    return total.n > 0;
+}
+
 /* One step of dt (inner units) to the time `next`. */
 static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double dt, double next, double damping) {
-    const peri__model *m = b->model;
     int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
-    int broke = 0, listed = 1;
+    int listed = 1;
     peri__operands operands = peri__operands_of(b);
     int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
@@ -132,22 +150,9 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
         peri__changed(b, PERI__ACTION);
         return status;
     }
-    if (b->before && b->alive) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->before);
-    operands.breaking = b->alive != NULL && m->breakable;
-    operands.working = m->seen_by & PERI__BY_WORK;
     operands.step = dt;
-    peri__bond_forces(b, &operands);
-    if (operands.breaking) {
-        peri__sums total = peri__total(b->sums, m->points);
-        if (!m->pairwise && total.n > 0) {
-            peri__break_states(b, &operands);
-        } else {
-            b->now.ledger.fracture += total.a;
-            b->now.broken += total.n;
-        }
-        broke = total.n > 0;
-        if (broke && b->closing) peri__close_step(b);
-    }
+    const int broke = peri__forces_and_breaks(b, &operands);
+    if (broke && b->closing) peri__close_step(b);
     if (b->contact) {
         listed = peri__ready_contact(b);
         peri__apply_touch(b, dt, 1);

@@ -28,7 +28,10 @@ static int32_t peri__ensure_fragments(peri_body *b) { return peri__label_fragmen
     X(STRESS, 2014, PERI_PACKED(dim), m->stress, read, stress, none)                                                        \
     X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, none)                                            \
     X(REACTION, 2016, dim, peri__force_unit(m), read, reaction, force)                                                   \
-    X(FRAGMENT, 2017, 1, 1.0, read, fragment, fragments)
+    X(FRAGMENT, 2017, 1, 1.0, read, fragment, fragments)                                                        \
+    X(MASS, 2018, 1, 1.0, read, point_mass, none)                                                                              \
+    X(DENSITY, 2019, 1, 1.0, read, density, none)                                                                        \
+    X(HELD, 2020, dim, 1.0, read, held, none)
 
 #define PERI_FIELD_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(FIELD_##name, PERI_FIELD_##name == (number))
 PERI_FIELD_LIST(PERI_FIELD_NUMBER_)
@@ -161,6 +164,25 @@ static void peri__read_fragment(peri_body *b, double *out) {
     for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->fragment_of[i];
 }
 
+static void peri__read_density(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->materials[b->model->material[i]].density;
+}
+
+static void peri__read_point_mass(peri_body *b, double *out) {
+    const peri__model *m = b->model;
+    const double unit = pow(m->length, m->dim) * (m->dim == 3 ? 1.0 : b->desc.thickness);
+    for (int64_t i = 0; i < m->points; ++i) out[i] = b->materials[m->material[i]].density * (m->volume[i] * unit);
+}
+
+static void peri__read_held(peri_body *b, double *out) {
+    const peri__model *m = b->model;
+    memset(out, 0, (size_t)(m->points * m->dim) * sizeof *out);
+    for (int64_t s = 0; s < b->load_count; ++s)
+        for (int64_t k = 0; b->loads[s].owned && k < b->loads[s].count; ++k)
+            for (int32_t d = 0; d < m->dim; ++d)
+                if (b->loads[s].owned[k] >> d & 1) out[peri__set_point(b, b->loads[s].set, k) * m->dim + d] = 1.0;
+}
+
 /* ---- any field ---------------------------------------------------------------------------------------------------- */
 
 /* One of both functions. */
@@ -238,6 +260,12 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     return PERI_OK;
 }
 
+/* Does a copy of the field tell `in` of component d of point i? Then what is stored stays: several reals in inner units may be one number
+   in those of the caller, and what is read and written back is to change no bit. */
+static int peri__tells(const peri_view *view, int64_t i, int32_t d, const double *in) {
+    return peri__view_at(view, i, d) == in[i * view->components + d];
+}
+
 PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, int64_t count) {
     PERI_NEED_IDLE(b);
     PERI_NEED_CHOICE(b, field, field);
@@ -250,10 +278,14 @@ PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, i
     void *data = field == PERI_FIELD_VELOCITY ? b->v : b->u;
     int32_t status = peri__check_state(b, data, in, count, view.scale, "in");
     if (status < 0) return status;
+    int64_t i = 0;
+    for (int32_t d = 0; i < m->points && peri__tells(&view, i, d, in);)
+        if (++d == m->dim) d = 0, ++i;
+    if (i == m->points) return PERI_OK; /* nothing changes, and so nothing is stale                                       */
     peri__changed(b, PERI__MOTION);
-    for (int64_t i = 0; i < m->points; ++i)
+    for (; i < m->points; ++i)
         for (int32_t d = 0; d < m->dim; ++d)
-            peri__put_real(data, b->f32, d * m->stride + i, in[i * m->dim + d] / view.scale);
+            if (!peri__tells(&view, i, d, in)) peri__put_real(data, b->f32, d * m->stride + i, in[i * m->dim + d] / view.scale);
     return PERI_OK;
 }
 

@@ -194,10 +194,6 @@ PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write
 }
 
 #ifndef PERI_NO_STDIO
-static int32_t peri__to_file(void *user, const void *bytes, int64_t count) {
-    return fwrite(bytes, 1, (size_t)count, (FILE *)user) != (size_t)count;
-}
-
 /* Opens path, writes a VTU (history = 0) or a line of history, closes. */
 static int32_t peri__save(peri_body *b, const char *path, const char *mode, int history) {
     PERI_NEED_BUILT(b);

@@ -12,6 +12,8 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     const peri__model *m = b->model;
     peri__operands operands = peri__operands_of(b);
     void *change = t->change ? (char *)t->change + (size_t)m->margin * peri__bond_real(b) : NULL;
+    if (t->u) operands.u = t->u;
+    if (t->response) operands.response = (char *)t->response + (size_t)m->margin * peri__bond_real(b);
     if (at_rest || b->desc.geometry == PERI_GEOMETRY_LINEAR) {
         operands.u = t->p; /* the same bonds with other displacements */
         operands.f = t->q;
@@ -188,29 +190,11 @@ static void peri__from_planes(void *context, int64_t begin, int64_t end, peri__s
     }
 }
 
-/* Memory for the changes that a product works on: all of it, which then stays with the body, or none and 0. */
-static int peri__need_change(peri_body *b) {
+static int32_t peri__check_product(peri_body *b, peri__product *product, const double *in, double *out, int64_t count) {
     const peri__model *m = b->model;
-    const int64_t vector = peri__vector_reals(m), response = peri__response_reals(m);
-    if (b->change_f) return 1;
-    void *u = peri__new(&b->memory, vector, peri__real(b)), *r = !m->pairwise ? peri__new(&b->memory, response, peri__bond_real(b)) : NULL;
-    if (u && (r || m->pairwise)) b->change_f = peri__new(&b->memory, vector, peri__real(b));
-    if (b->change_f) {
-        b->change_u = u;
-        b->change_response = r;
-        return 1;
-    }
-    peri__delete(&b->memory, u, vector, peri__real(b));
-    peri__delete(&b->memory, r, response, peri__bond_real(b));
-    return 0;
-}
-
-PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
-    PERI_NEED_CHANGEABLE(b);
-    const peri__model *m = b->model;
-    peri__product product;
     int64_t wrong;
     int exponent = 0;
+    memset(product, 0, sizeof *product);
     PERI_NEED(b, in, "in");
     PERI_NEED(b, out, "out");
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
@@ -219,19 +203,67 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     if (wrong >= 0) return peri__fail(b, PERI_ERROR_RANGE, "in", wrong, in[wrong]);
     if (largest > 0.0) (void)frexp(largest, &exponent);
     if (exponent < -1000) exponent = -1000; /* so that its inverse is a number, too */
-    const int32_t status = peri__ensure(b, PERI__STALE_FORCE);
-    if (status < 0) return status;
-    if (!peri__need_change(b)) return peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
-    product.t.body = b;
-    product.t.p = (char *)b->change_u + (size_t)m->margin * peri__real(b);
-    product.t.q = (char *)b->change_f + (size_t)m->margin * peri__real(b);
-    product.t.change = b->change_response;
-    product.in = in;
-    product.out = out;
-    product.scale = ldexp(1.0, exponent - 1); /* of order one inside, whatever the size in the caller's units */
-    product.unit = m->energy / m->length / m->length;
-    peri__for_points(b, m->points, 1, peri__to_planes, &product, NULL);
-    peri__apply_tangent(&product.t, 0);
-    peri__for_points(b, m->points, 1, peri__from_planes, &product, NULL);
+    product->in = in;
+    product->out = out;
+    product->scale = ldexp(1.0, exponent - 1); /* of order one inside, whatever the size in the caller's units */
+    product->unit = m->energy / m->length / m->length;
     return PERI_OK;
+}
+
+static int32_t peri__multiply(peri_body *b, peri__product *product) {
+    const peri__model *m = b->model;
+    if (!peri__need_change(b)) return peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
+    product->t.body = b;
+    product->t.p = (char *)b->change_u + (size_t)m->margin * peri__real(b);
+    product->t.q = (char *)b->change_f + (size_t)m->margin * peri__real(b);
+    product->t.change = b->change_response;
+    peri__for_points(b, m->points, 1, peri__to_planes, product, NULL);
+    peri__apply_tangent(&product->t, 0);
+    peri__for_points(b, m->points, 1, peri__from_planes, product, NULL);
+    return PERI_OK;
+}
+
+PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
+    peri__product product;
+    PERI_NEED_CHANGEABLE(b);
+    int32_t status = peri__check_product(b, &product, in, out, count);
+    if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE); /* the response is then that of u */
+    return status == PERI_OK ? peri__multiply(b, &product) : status;
+}
+
+/* The displacement to u, and what laws respond with to it. */
+static void peri__respond_at(peri_body *b, const double *displacement, void *u, void *response) {
+    const peri__model *m = b->model;
+    peri__operands operands = peri__operands_of(b);
+    for (int64_t i = 0; i < m->points; ++i)
+        for (int32_t d = 0; d < m->dim; ++d) peri__put_real(u, b->f32, d * m->stride + i, displacement[i * m->dim + d] / m->length);
+    operands.u = u;
+    operands.node = NULL;
+    if (response) operands.response = (char *)response + (size_t)m->margin * peri__bond_real(b);
+    if (m->record_reals) peri__for_points(b, m->points, 2, b->ops->fill_records, &operands, NULL);
+    if (m->gathers) peri__for_points(b, m->points, m->width, b->ops->gather, &operands, NULL);
+}
+
+PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displacement, const double *in, double *out, int64_t count) {
+    peri__product product;
+    PERI_NEED_CHANGEABLE(b);
+    PERI_NEED(b, displacement, "displacement");
+    int32_t status = peri__check_product(b, &product, in, out, count);
+    if (status == PERI_OK) status = peri__check_state(b, b->u, displacement, count, b->model->length, "displacement");
+    if (status < 0) return status;
+    (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
+    if (b->desc.geometry == PERI_GEOMETRY_LINEAR) return peri__multiply(b, &product);
+    const int64_t reals = peri__response_reals(b->model);
+    void *u = peri__new_vector(b, &b->scratch), *response = NULL;
+    if (!b->model->pairwise) response = peri__new(&b->scratch, reals, peri__bond_real(b));
+    if (!u || (!response && !b->model->pairwise)) status = peri__fail(b, PERI_ERROR_MEMORY, "displacement", -1, 0.0);
+    if (status == PERI_OK) {
+        peri__respond_at(b, displacement, u, response);
+        product.t.u = u;
+        product.t.response = response;
+        status = peri__multiply(b, &product);
+    }
+    peri__delete_vector(b, &b->scratch, u);
+    peri__delete(&b->scratch, response, reals, peri__bond_real(b));
+    return status;
 }

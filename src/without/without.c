@@ -42,6 +42,11 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     return peri__without(b, "PERI_NO_STATICS");
 }
 
+PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displacement, const double *in, double *out, int64_t count) {
+    (void)displacement, (void)in, (void)out, (void)count;
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
 PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
     if (matrix) *matrix = NULL;
     return peri__without(b, "PERI_NO_STATICS");

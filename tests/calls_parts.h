@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/* calls_parts.h - of test_promises_calls.c, whose names it uses: what cracks as paths, peri_evaluate and checkpoints refuse. */
+#ifndef CALLS_PARTS_H
+#define CALLS_PARTS_H
+
+/* What asks for cracks, of a body that has none or of one that is: then by what is wrong beside. */
+static void with_cracks(peri_body *b, const peri_body *unbuilt) {
+    peri_cracks *cracks = NULL;
+    peri_cracks_desc desc;
+    peri_cracks_desc_init(&desc);
+    if (unbuilt || !b) {
+        ASK(peri_record_breaks(b, 1)), ASK(peri_cracks_create(b, &desc, &cracks)), ASK(peri_cracks_paths(cracks));
+        ASK(peri_cracks_vertices(cracks)), ASK(peri_cracks_tips(cracks)), ASK(peri_get_cracks(cracks, NULL, NULL, NULL, NULL));
+        ASK(peri_export_cracks_to(cracks, take_bytes, NULL));
+        return;
+    }
+    ASK(peri_cracks_create(b, NULL, &cracks)), ASK(peri_cracks_create(b, &desc, NULL));
+    desc.shortest = -1, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.shortest = 0, desc.current = 2, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.current = 1, desc.initial = -1, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.initial = 0, desc.cookie++, ASK(peri_cracks_create(b, &desc, &cracks));
+    desc.cookie--, MUST(b, peri_cracks_create(b, &desc, &cracks));
+    ASK(peri_export_cracks_to(cracks, take_bytes, b)), ASK(peri_export_cracks_to(cracks, NULL, NULL));
+    peri_cracks_destroy(cracks);
+}
+
+/* Fragments, outlines and what goes by present positions. */
+static void ask_of_pieces(peri_body *b, const double *place) {
+    static peri_fragment pieces[256];
+    int64_t count[2];
+    ASK(peri_find_fragments(b, ints, 512)), ASK(peri_get_fragments(b, pieces, 256)), ASK(peri_size_of_outline(b, -1, count, count + 1));
+    ASK(peri_get_outline(b, -1, numbers, 4, ints, NULL, NULL, 4)), ASK(peri_find_point(b, place)), ASK(peri_find_point_in_place(b, place));
+    ASK(peri_select_box_in_place(b, "b", place, far3)), ASK(peri_select_ball_in_place(b, "b", place, 9));
+    ASK(peri_size_of_outline(b, 7, count, count + 1)), ASK(peri_get_outline(b, 7, numbers, 4, ints, NULL, NULL, 4));
+    ASK(peri_find_fragments(b, ints, 1)), ASK(peri_get_fragments(b, pieces, 0)), ASK(peri_find_fragments(b, NULL, 1));
+    ASK(peri_select_box_in_place(b, NULL, up3, zero3)), ASK(peri_select_ball_in_place(b, NULL, far3, 1e-9));
+}
+
+/* Forces at a displacement: too early, stopped by a load, and a rule that has no tangent. */
+static int32_t stop_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
+    return (void)user, (void)time, (void)count, (void)points, (void)value, 1;
+}
+static void with_evaluations(void) {
+    specimen s = plate_of(PERI_LAW_BOND_BASED);
+    s.desc.quadrature = PERI_QUADRATURE_PARTIAL_CENTROID;
+    peri_body *d = specimen_start(&s), *b = specimen_make(&s);
+    memset(numbers, 0, sizeof numbers);
+    peri_evaluate_desc_init(&forces), ASK(peri_evaluate(d, &forces, NULL));
+    ASK(peri_multiply_stiffness_at(d, numbers, numbers, numbers, 240)), ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
+    ASK(peri_save_state_to(d, take_bytes, NULL)), ASK(peri_save_state(d, "build/x")), ASK(peri_load_state(d, "build/x"));
+    ASK(peri_load_state_from(d, no_bytes, NULL)), ASK(peri_load_state_from(b, no_bytes, NULL)), ASK(peri_load_state(b, "build/none"));
+    ASK(peri_save_state_to(b, take_bytes, b)), ASK(peri_save_state(b, "build/none/x"));
+    MUST(b, peri_apply_body_force(b, PERI_ALL, one3, stop_load, NULL)), forces.fracture = 1, ASK(peri_evaluate(b, &forces, NULL));
+    peri_body_destroy(d), peri_body_destroy(b);
+}
+
+#endif
