@@ -62,8 +62,7 @@ int main(void) {
     peri_advance_desc_init(&run);
     run.duration = duration;
     run.frame_steps = 2;
-    run.on_frame = watch;
-    run.user = &w;
+    run.on_frame = watch, run.user = &w;
     must(plate, peri_advance(plate, &run));
 
     must(plate, peri_get_obstacle_state(plate, w.ball, &after));

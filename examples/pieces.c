@@ -41,22 +41,22 @@ static void draw(peri_body *pane, const int32_t *piece_of) {
 }
 
 int main(void) {
-    const double stone[2] = {0.25, -0.05}, down[2] = {0, -fall};
+    const double down[2] = {0, -fall};
     peri_body_desc desc;
     peri_material_desc glass;
+    peri_obstacle_desc stone;
     peri_advance_desc run;
     peri_body_desc_init(&desc);
-    desc.space = PERI_SPACE_PLANE_STRESS;
-    desc.horizon = 3.015 * h;
-    desc.thickness = 4e-3;
+    desc.space = PERI_SPACE_PLANE_STRESS, desc.horizon = 3.015 * h, desc.thickness = 4e-3;
     peri_body *pane = must_create(&desc);
     peri_material_desc_init(&glass, PERI_LAW_BOND_BASED);
-    glass.young = 70e9, glass.density = 2500;
-    glass.fracture_energy = 135;
+    glass.young = 70e9, glass.density = 2500, glass.fracture_energy = 135;
     must(pane, peri_add_box(pane, must(pane, peri_add_material(pane, &glass)), lo, hi, h));
     must(pane, peri_build(pane));
     must(pane, peri_add_velocity(pane, PERI_ALL, down));
-    must(pane, peri_add_ball_obstacle(pane, stone, 0.05, 0, NULL, NULL));
+    peri_obstacle_desc_init(&stone, PERI_SHAPE_BALL);
+    stone.place[0] = 0.25, stone.place[1] = -0.05, stone.radius = 0.05;
+    must(pane, peri_add_obstacle(pane, &stone));
     peri_advance_desc_init(&run);
     run.duration = 1.2e-3;
     must(pane, peri_advance(pane, &run));
