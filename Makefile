@@ -6,6 +6,7 @@
 # make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
 # make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, more than an hour
 # make examples  builds and runs every example
+# make gallery   the experiments and figures of the source texts, some minutes -> docs/gallery.md and its pictures
 # make lib       build/libperi.a and build/libperi.so (with WERROR= where a compiler warns of what ours do not)
 # make install   header, single file, libraries, pkg-config and CMake files, licence: PREFIX=/usr/local, DESTDIR=, INCLUDEDIR=, LIBDIR=
 # make uninstall the same, removed
@@ -34,9 +35,10 @@ export OMP_WAIT_POLICY ?= passive
 SOURCES = peri.h peri_impl.c $(wildcard src/*/*)
 EXAMPLES = $(basename $(notdir $(wildcard examples/*.c)))
 TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
+GALLERY = $(basename $(notdir $(wildcard examples/gallery/*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench tradeoff machines examples lib install uninstall dist mutants fuzz lint clean
+.PHONY: all demo programs test validate bench tradeoff machines examples gallery lib install uninstall dist mutants fuzz lint clean
 all: lib
 
 # The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
@@ -132,6 +134,10 @@ build/tests/%.o: tests/%.c peri.h $(wildcard tests/*.h)
 	@mkdir -p $(@D)
 	$(COMPILE) $(UNOPTIMISED) -c $< -o $@
 
+build/gallery/%.o: examples/gallery/%.c peri.h examples/example.h $(wildcard examples/gallery/*.h)
+	@mkdir -p $(@D)
+	$(COMPILE) -c $< -o $@
+
 build/extremes/%.o: tests/extremes/%.c peri.h tests/peri_test.h $(wildcard tests/extremes/*.h)
 	@mkdir -p $(@D)
 	$(COMPILE) $(UNOPTIMISED) -c $< -o $@
@@ -181,6 +187,12 @@ demo: build/demo/branching
 examples: $(EXAMPLES:%=build/examples/%)
 	@mkdir -p out
 	@for e in $(EXAMPLES); do echo "== $$e"; build/examples/$$e || exit 1; done
+
+gallery: $(GALLERY:%=build/gallery/%)
+	@mkdir -p out/gallery
+	@for g in $(GALLERY); do echo "== $$g"; build/gallery/$$g || exit 1; done
+	@for p in python3 /usr/bin/python3; do $$p -c 'import matplotlib' 2> /dev/null && exec $$p tools/gallery.py; done; \
+	echo "gallery: no python3 has matplotlib (Debian: python3-matplotlib): out/gallery has the tables, the pictures and the page are as they were"
 
 programs: $(TESTS:%=build/tests/%) build/tests/extremes $(EXAMPLES:%=build/examples/%) build/libperi.so
 
