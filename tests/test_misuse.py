@@ -14,6 +14,14 @@ import sys
 SCALARS = {"int32_t": C.c_int32, "int64_t": C.c_int64, "uint64_t": C.c_uint64, "double": C.c_double, "void": None}
 
 
+def number(text):
+    """As C writes it: whole in any base, or not."""
+    try:
+        return float(int(text, 0))
+    except ValueError:
+        return float(text)
+
+
 def header(path):
     """peri.h without comments and what the preprocessor reads."""
     with open(path, encoding="ascii") as file:
@@ -203,7 +211,7 @@ class Scene:
             self.must("peri_get_error(body, error)", body=self.names[whose])
         told = result == int(status) and not self.made.value
         if whose != "NONE":
-            told = told and e.code == result and e.field.decode() == field and (value == "ANY" or e.value == float(int(value, 0)))
+            told = told and e.code == result and e.field.decode() == field and (value == "ANY" or e.value == number(value))
         return None if told else "%s %s: %d, %s, %g; expected %s, %s, %s" % (member, call, result, e.field, e.value, status, field, value)
 
 

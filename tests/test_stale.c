@@ -399,6 +399,7 @@ static int32_t run_with(peri_body *b, visit *v, int statics) {
     r.user = s.user = v;
     s.tolerance = 1e-3;
     s.loose = PERI_LOOSE_BALANCED;
+    s.criticality = 0; /* all at once, which takes the fewest rounds */
     s.steps = 2;
     return statics ? peri_solve(b, &s, NULL) : peri_advance(b, &r);
 }

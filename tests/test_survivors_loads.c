@@ -117,7 +117,7 @@ static void single_points_have_two_motions(void) {
             pairs[2 * n] = j;
             pairs[2 * n++ + 1] = corner[0];
         }
-    CHECK(peri_cut_pairs(b, PERI_CUT_NOW, n, pairs) == n && n > 3);
+    CHECK(peri_cut_pairs(b, PERI_CUT_INITIAL, n, pairs) == n && n > 3);
     MUST(b, peri_prescribe_displacement(b, part_of(b, 0, 3), PERI_AXIS_XY, NULL, NULL, NULL));
     MUST(b, peri_apply_body_force(b, part_of(b, 7, 9), force, NULL, NULL));
     peri_solve_desc_init(&s);

@@ -36,7 +36,7 @@ typedef struct peri__free_body { /* the motion of an obstacle that has a mass; i
     double velocity[3], turning[3]; /* of the centre of mass; angular momentum about it, [2] in 2D                        */
     double velocity0[3], turning0[3];
     double force[3], moment[3]; /* of the body on it, at its centre of mass, when last worked out                         */
-    double near, swept;         /* sum of V, and of V |r x n|^2, over the points near then                                 */
+    double touched, swept;        /* sum of V, and of V |r x n|^2, over the points near then                                 */
 } peri__free_body;
 
 #define PERI_TALLIED 9 /* per block of points: force, moment about the frame's origin, energy lost, V, V |r x n|^2, of those near */

@@ -170,7 +170,7 @@ static double peri__free_kinetic(const peri__free_body *f, const double *spin) {
    into touch counts before it does: the first push of a light body would else be too large for the step. */
 static double peri__free_stiffness(const peri__obstacle *o) {
     const peri__free_body *f = o->free;
-    return o->stiffness * (f->near / f->mass + f->swept * (f->inverse[0] + f->inverse[4] + f->inverse[8]));
+    return o->stiffness * (f->touched / f->mass + f->swept * (f->inverse[0] + f->inverse[4] + f->inverse[8]));
 }
 
 /* Back to the start. */
@@ -184,7 +184,7 @@ static void peri__restart_obstacle(peri__obstacle *o, int32_t dim, int64_t point
     if (!o->free) return;
     memcpy(o->free->velocity, o->free->velocity0, sizeof o->free->velocity);
     memcpy(o->free->turning, o->free->turning0, sizeof o->free->turning);
-    o->free->near = o->free->swept = 0.0;
+    o->free->touched = o->free->swept = 0.0;
     for (int d = 0; d < 3; ++d) o->free->force[d] = o->free->moment[d] = 0.0;
     peri__update_velocity(o);
 }

@@ -270,7 +270,7 @@ static void peri__close_obstacle(peri_body *b, peri__obstacle *o, double dt) {
         o->free->force[d] = -total[d];
         o->free->moment[d] = turned[d] - total[3 + d];
     }
-    o->free->near = total[7];
+    o->free->touched = total[7];
     o->free->swept = total[8];
     if (!(dt > 0.0)) return;
     peri__kick_free(o->free, 0.5 * dt);

@@ -172,13 +172,13 @@ static void peri__grow_tree(peri__mesh *mesh, peri__keyed *keyed) {
 
 /* ---- the nearest place ------------------------------------------------------------------------------------------- */
 
-/* near = (1-t) a + t b, t in [0, 1]; returns t. */
-static double peri__nearest_on_segment(const double *a, const double *b, const double *y, double *near) {
+/* nearest = (1-t) a + t b, t in [0, 1]; returns t. */
+static double peri__nearest_on_segment(const double *a, const double *b, const double *y, double *nearest) {
     double way[3], to[3];
     peri__way_to(a, b, way);
     peri__way_to(a, y, to);
     const double t = fmax(0.0, fmin(1.0, peri__dot(way, to, 3) / peri__dot(way, way, 3)));
-    for (int d = 0; d < 3; ++d) near[d] = t == 1.0 ? b[d] : a[d] + t * way[d];
+    for (int d = 0; d < 3; ++d) nearest[d] = t == 1.0 ? b[d] : a[d] + t * way[d];
     return t;
 }
 
@@ -192,7 +192,7 @@ static int peri__is_inside_edge(const peri__mesh *mesh, int64_t f, int k, const 
 }
 
 /* The place of a face nearest to y; returns the pseudo-normal there. */
-static const double *peri__nearest_on_face(const peri__mesh *mesh, int64_t f, const double *y, double *near) {
+static const double *peri__nearest_on_face(const peri__mesh *mesh, int64_t f, const double *y, double *nearest) {
     const int corners = mesh->corners;
     double best = HUGE_VAL;
     const double *normal = &mesh->face_normal[3 * f];
@@ -200,7 +200,7 @@ static const double *peri__nearest_on_face(const peri__mesh *mesh, int64_t f, co
         double to[3];
         peri__way_to(peri__vertex_of(mesh, f, 0), y, to);
         const double height = peri__dot(to, normal, 3);
-        for (int d = 0; d < 3; ++d) near[d] = y[d] - height * normal[d];
+        for (int d = 0; d < 3; ++d) nearest[d] = y[d] - height * normal[d];
         return normal;
     }
     for (int k = 0; k < (corners == 3 ? 3 : 1); ++k) {
@@ -209,7 +209,7 @@ static const double *peri__nearest_on_face(const peri__mesh *mesh, int64_t f, co
         peri__way_to(at, y, way);
         if (!(peri__dot(way, way, 3) < best)) continue;
         best = peri__dot(way, way, 3);
-        memcpy(near, at, sizeof at);
+        memcpy(nearest, at, sizeof at);
         const int32_t vertex = mesh->face[f * corners + (t < 0.5 ? k : (k + 1) % corners)];
         if (t == 0.0 || t == 1.0) normal = &mesh->vertex_normal[3 * (int64_t)vertex];
         else normal = corners == 3 ? &mesh->edge_normal[9 * f + 3 * k] : &mesh->face_normal[3 * f];
@@ -237,9 +237,9 @@ static double peri__mesh_depth(const peri__mesh *mesh, const double *place, doub
         const peri__branch at = stack[--height];
         if (!(peri__square_to_box(&mesh->box[6 * at.node], y) < best)) continue;
         if (at.end - at.begin == 1) {
-            double near[3], to[3];
-            const double *side = peri__nearest_on_face(mesh, mesh->order[at.begin], y, near);
-            peri__way_to(y, near, to);
+            double nearest[3], to[3];
+            const double *side = peri__nearest_on_face(mesh, mesh->order[at.begin], y, nearest);
+            peri__way_to(y, nearest, to);
             const double square = peri__dot(to, to, 3);
             if (!(square < best)) continue;
             best = square;

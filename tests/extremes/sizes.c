@@ -323,7 +323,7 @@ static outcome off_by_one(const extreme *row, int32_t precision) {
                 ENDS(PERI_ERROR_FIELD, peri_set_field(b, field, x, n));
             free(x);
         }
-        ENDS(PERI_ERROR_CHOICE, peri_size_of_field(b, PERI_FIELD_FRAGMENT + 1));
+        ENDS(PERI_ERROR_CHOICE, peri_size_of_field(b, peri__end_field));
         ENDS(PERI_ERROR_CHOICE, peri_size_of_field(b, 0));
         const int32_t edge = peri_find_set(b, "edge"), foreign = edge ^ 1 << 20;
         const int64_t n = peri_point_count(b), width = peri_family_width(b), held = peri_size_of_set(b, edge);
