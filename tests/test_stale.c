@@ -88,6 +88,8 @@ static int32_t settle(peri_body *b) {
     peri_solve_desc_init(&s);
     s.tolerance = 1e-3;
     s.loose = PERI_LOOSE_BALANCED;
+    s.criticality = 0; /* all at once, which takes the fewest rounds; and of those that find no equilibrium once is enough */
+    s.halvings = 0;
     s.steps = 2;
     return peri_solve(b, &s, NULL);
 }
@@ -399,7 +401,8 @@ static int32_t run_with(peri_body *b, visit *v, int statics) {
     r.user = s.user = v;
     s.tolerance = 1e-3;
     s.loose = PERI_LOOSE_BALANCED;
-    s.criticality = 0; /* all at once, which takes the fewest rounds */
+    s.criticality = 0; /* all at once, which takes the fewest rounds; and of those that find no equilibrium once is enough */
+    s.halvings = 0;
     s.steps = 2;
     return statics ? peri_solve(b, &s, NULL) : peri_advance(b, &r);
 }
