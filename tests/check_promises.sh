@@ -43,7 +43,7 @@ symbols() {
     none "needs more than it should" $out/more
     of $out/one.o | comm -23 - $out/always > $out/more
     none "without advice and stdio there is still" $out/more
-    grep -hE 'fopen\(|peri__save\(' src/*/*.c | grep '"r' > $out/more || true
+    grep -E 'fopen\(|peri__save\(' src/*/*.c | grep '"r' | grep -v '^src/output/checkpoint.c:' > $out/more || true
     none "reads a file" $out/more
 }
 

@@ -236,6 +236,7 @@ static int32_t solve(peri_body *b, int32_t method, double load_to, int64_t steps
     peri_solve_desc_init(&s);
     s.method = method;
     s.loose = PERI_LOOSE_PINNED;
+    s.criticality = 0; /* all at once: few equilibria */
     s.load_to = load_to;
     s.steps = steps;
     s.on_iteration = on_iteration;
