@@ -73,7 +73,7 @@ int main(void) {
     figure(f, "kinetic energy; likewise", 1e3 * usual.kinetic, 1e3 * fine.kinetic, 5e-3 * 1e3 * fine.kinetic, "mJ");
     figure(f, "broken bonds; likewise", usual.broken, fine.broken, 0.01 * fine.broken, "");
     figure(f, "error of the ledger over the work done", 1e2 * usual.open, 0, 1, "%");
-    figure(f, "broken and cut bonds by the step and rule of [P]; PDMATLAB2D", published.broken + published.cut, 8930, 0.5, "");
+    figure(f, "broken and cut bonds by the step and rule of [P]; PDMATLAB2D", published.broken + published.cut, 8930, 0, "");
     fclose(f);
     return 0;
 }

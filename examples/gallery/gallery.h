@@ -22,7 +22,7 @@ static inline FILE *table(const char *name, const char *columns) {
 
 /* A line of out/gallery/SCENE.figures.csv: what was found, the reference, and how far off it may be (0: nothing is asked of it). */
 static inline void figure(FILE *figures, const char *what, double value, double reference, double within, const char *unit) {
-    fprintf(figures, "%s,%.6g,%.6g,%.6g,%s\n", what, value, reference, within, unit);
+    fprintf(figures, "\"%s\",%.6g,%.6g,%.6g,%s\n", what, value, reference, within, unit);
     printf("  %-48s %10.4g   reference %10.4g   %s\n", what, value, reference, unit);
 }
 

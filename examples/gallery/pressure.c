@@ -54,7 +54,7 @@ static double write_out(FILE *file, const char *panel, double (*field)[2]) {
         exact(x[i], want);
         off += pow(field[i][0] - want[0], 2) + pow(field[i][1] - want[1], 2), all += want[0] * want[0] + want[1] * want[1];
         if (fabs(x[i][0]) < 8.5 && fabs(x[i][1]) < 6)
-            fprintf(file, "%s,%g,%g,%.6g,%.6g\n", panel, x[i][0], x[i][1], field[i][0], field[i][1]);
+            fprintf(file, "\"%s\",%g,%g,%.6g,%.6g\n", panel, x[i][0], x[i][1], field[i][0], field[i][1]);
     }
     return sqrt(off / all);
 }
