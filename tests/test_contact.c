@@ -204,10 +204,11 @@ static void equal_bars_exchange_their_velocities(void) {
     bars_exchange(3, 2, 1, PERI_INTEGRATOR_VELOCITY_VERLET, 40);
 }
 
+/* In 3D bars of 80 cells: of 40 keep 0.976 at m = 3, since the front of a wave, a horizon and a bulge wide, is no small part of them. */
 static void equal_bars_of_any_horizon(void) {
     for (int dim = 2; dim <= 3; ++dim)
         for (int m = 2; m <= 5; ++m)
-            for (int p = 0; p < 3; ++p) bars_exchange(dim, m, p, PERI_INTEGRATOR_VELOCITY_VERLET, 40);
+            for (int p = 0; p < 3; ++p) bars_exchange(dim, m, p, PERI_INTEGRATOR_VELOCITY_VERLET, dim == 3 ? 80 : 40);
 }
 
 /* Of pieces that are stiff beside their contact, whatever their mass and however many points meet. */
