@@ -14,6 +14,15 @@ static int32_t peri__tell_force(peri_body *b, const double *total, double *force
     return PERI_OK;
 }
 
+/* A total moment in inner units to moment[1] in 2D, [3]. */
+static int32_t peri__tell_moment(peri_body *b, const double *total, double *moment) {
+    double told[3];
+    for (int d = 0; d < 3; ++d) told[d] = total[d] * b->model->energy;
+    if (!peri__finite_vector(told, 3)) return peri__fail(b, PERI_ERROR_RANGE, "moment", -1, peri__not_finite(told, 3));
+    memcpy(moment, b->dim == 3 ? told : &told[2], (size_t)(b->dim == 3 ? 3 : 1) * sizeof *moment);
+    return PERI_OK;
+}
+
 /* Force and moment about the origin of the frame, to total[6]: noted where tallied; of smooth ones by the places of the points. */
 static int32_t peri__sum_obstacle(peri_body *b, const peri__obstacle *o, double *total) {
     peri__pusher pusher = { b, 0.0, 0.0, PERI_OK };
@@ -33,7 +42,7 @@ static int32_t peri__sum_obstacle(peri_body *b, const peri__obstacle *o, double 
 }
 
 PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force, double *moment) {
-    double total[6], told[3] = { 0.0 };
+    double total[6], turns[3]; /* either is told only where both can be */
     PERI_NEED_BUILT(b);
     const int64_t obstacle = peri__find(b, PERI_KIND_OBSTACLE, id, "obstacle");
     if (obstacle < 0) return (int32_t)obstacle;
@@ -41,10 +50,9 @@ PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force
     int32_t status = peri__ensure_force(b); /* moves the obstacle to where it is now */
     if (status == PERI_OK) status = peri__sum_obstacle(b, &b->obstacles[obstacle], total);
     if (status < 0) return status;
-    for (int k = 0; k < 3; ++k) told[k] = total[b->dim == 3 ? 3 + k : 5] * b->model->energy;
-    if (moment && !peri__finite_vector(told, 3)) return peri__fail(b, PERI_ERROR_RANGE, "moment", -1, peri__not_finite(told, 3));
-    if (force) status = peri__tell_force(b, total, force);
-    if (status == PERI_OK && moment) memcpy(moment, told, (b->dim == 3 ? 3 : 1) * sizeof *moment);
+    if (moment) status = peri__tell_moment(b, total + 3, turns);
+    if (status == PERI_OK && force) status = peri__tell_force(b, total, force);
+    if (status == PERI_OK && moment) memcpy(moment, turns, (size_t)(b->dim == 3 ? 3 : 1) * sizeof *moment);
     return status;
 }
 
@@ -108,8 +116,5 @@ PERI_API int32_t peri_get_reaction_moment(peri_body *b, int32_t id, const double
         peri__cross(arm, force, part);
         for (int d = 0; d < 3; ++d) total[d] += part[d];
     }
-    for (int d = 0; d < 3; ++d) total[d] *= b->model->energy;
-    if (!peri__finite_vector(total, 3)) return peri__fail(b, PERI_ERROR_RANGE, "moment", -1, peri__not_finite(total, 3));
-    memcpy(moment, dim == 3 ? total : &total[2], (size_t)(dim == 3 ? 3 : 1) * sizeof *moment);
-    return PERI_OK;
+    return peri__tell_moment(b, total, moment);
 }

@@ -100,6 +100,9 @@ static void peri__inner(const peri_body *b, const double *place, double *out) {
     for (int32_t d = 0; d < b->dim; ++d) out[d] = (place[d] - b->model->origin[d]) / b->model->length;
 }
 
+/* Of u, v or f, without margins. */
+static size_t peri__vector_bytes(const peri_body *b) { return (size_t)(b->model->stride * b->model->dim) * peri__real(b); }
+
 /* Memory for displacements that are not those of the body, and for their forces: all of it, which then stays, or none and 0. */
 static int peri__need_change(peri_body *b) {
     const peri__model *m = b->model;

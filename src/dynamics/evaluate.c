@@ -166,8 +166,6 @@ static void peri__give_array(const peri_body *b, const peri_evaluate_desc *e, vo
     peri__for_points(b, b->model->points, 1, peri__carry_out, &c, NULL);
 }
 
-static size_t peri__plane_bytes(const peri_body *b) { return (size_t)(b->model->stride * b->dim) * peri__real(b); }
-
 /* ---- the body stays ------------------------------------------------------------------------------------------------ */
 
 /* f += loads. */
@@ -184,7 +182,7 @@ static int32_t peri__external_at(peri_body *b, const peri_evaluate_desc *e, void
 static int32_t peri__evaluate_there(peri_body *b, const peri_evaluate_desc *e, const void *u, void *f, peri_evaluate_report *report) {
     const peri__model *m = b->model;
     int32_t status = PERI_OK;
-    memset(f, 0, peri__plane_bytes(b));
+    memset(f, 0, peri__vector_bytes(b));
     if (e->external) status = peri__external_at(b, e, f);
     if (status < 0) return status;
     if (e->bonds && e->force) {
@@ -210,7 +208,7 @@ static int32_t peri__act(peri_body *b, const peri_evaluate_desc *e) {
     }
     if (!peri__is_nan(e->load_factor)) b->now.load_factor = e->load_factor;
     b->now.loaded = 1;
-    memset(b->f, 0, peri__plane_bytes(b));
+    memset(b->f, 0, peri__vector_bytes(b));
     int32_t status = e->external ? peri__apply_loads(b, peri__load_time(b), 0.0) : PERI_OK;
     if (e->external && status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     return status;
@@ -237,9 +235,9 @@ static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, pe
     const int32_t status = e->external ? peri__touch_now(b) : PERI_OK;
     if (b->desc.ledger) b->now.ledger.before -= b->now.ledger.fracture - fracture;
     peri__give_array(b, e, b->f, 1.0, e->force);
-    if (!b->closing) memset(b->f, 0, peri__plane_bytes(b)); /* f is out of date as soon as the caller has it */
+    if (!b->closing) memset(b->f, 0, peri__vector_bytes(b)); /* f is out of date as soon as the caller has it */
     peri__give_array(b, e, b->closing ? b->closing : b->f, b->model->time, e->impulse);
-    if (broke && b->closing) memset(b->closing, 0, peri__plane_bytes(b));
+    if (broke && b->closing) memset(b->closing, 0, peri__vector_bytes(b));
     if (broke) peri__note_breaks(b, peri__load_time(b));
     if (b->before && broke) peri__report_breaks(b);
     if (!report) return status;
@@ -253,14 +251,14 @@ static int32_t peri__evaluate_here(peri_body *b, const peri_evaluate_desc *e, vo
     const peri__progress was = b->now;
     const int32_t former = peri__begin_run(b);
     peri__changed(b, PERI__MOTION);
-    if (u) peri__exchange(b->u, u, peri__plane_bytes(b));
-    if (v) peri__exchange(b->v, v, peri__plane_bytes(b));
+    if (u) peri__exchange(b->u, u, peri__vector_bytes(b));
+    if (v) peri__exchange(b->v, v, peri__vector_bytes(b));
     int32_t status = peri__act(b, e);
     if (status == PERI_OK) {
         status = peri__evaluate_body(b, e, report);
     } else {
-        if (u) peri__exchange(b->u, u, peri__plane_bytes(b));
-        if (v) peri__exchange(b->v, v, peri__plane_bytes(b));
+        if (u) peri__exchange(b->u, u, peri__vector_bytes(b));
+        if (v) peri__exchange(b->v, v, peri__vector_bytes(b));
         b->now.still = was.still;
         b->now.time = was.time;
         b->now.load_factor = was.load_factor;

@@ -29,8 +29,6 @@ static void *peri__take_vector(peri__solver *s) {
     return taken;
 }
 
-static size_t peri__vector_bytes(const peri_body *b) { return (size_t)(b->model->stride * b->model->dim) * peri__real(b); }
-
 static void peri__free_solver(peri__solver *s) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
