@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Cracks as paths, tips and sides: where cuts of known shape are found, how long, and how fast they grow. */
+#include "pool.h"
 #include "scene.h"
 
 typedef struct found {
@@ -479,18 +480,7 @@ static void files_for_paraview(void) {
     peri_cracks_destroy(NULL);
 }
 
-static int64_t held_bytes, calls, fail_at;
-static void *lend(void *user, uint64_t bytes) {
-    (void)user;
-    if (++calls == fail_at) return NULL;
-    held_bytes += (int64_t)bytes;
-    return malloc((size_t)bytes);
-}
-static void give(void *user, void *p, uint64_t bytes) {
-    (void)user;
-    if (p) held_bytes -= (int64_t)bytes;
-    free(p);
-}
+static pool lent;
 
 /* Truth: what the allocator of the body lent. Whichever allocation fails, nothing is lost, and the next call succeeds. */
 static void failing_allocations(void) {
@@ -500,40 +490,40 @@ static void failing_allocations(void) {
         peri_memory before, after;
         peri_cracks_desc d;
         peri_cracks *c = NULL;
-        s.desc.allocate = lend;
-        s.desc.release = give;
-        held_bytes = calls = fail_at = 0;
+        hook(&s.desc, &lent);
+        memset(&lent, 0, sizeof lent);
+        lent.fail_at = -1;
         peri_body *b = specimen_make(&s);
         turned_by = 0;
         if (solid) (void)MUST(b, peri_cut_disc(b, PERI_CUT_INITIAL, centre, up, 2));
         else cut(b, PERI_CUT_INITIAL, 1, 3, 5, 3.5);
         (void)MUST(b, peri_get_memory(b, &before));
-        CHECK(before.total == held_bytes);
+        CHECK(before.total == lent.bytes);
         int32_t status = PERI_ERROR_MEMORY;
         for (int64_t n = 1; status == PERI_ERROR_MEMORY && n < 50; ++n) {
-            fail_at = calls + n;
+            lent.fail_at = lent.calls + n - 1;
             status = peri_record_breaks(b, 1);
-            if (status < 0) CHECK(held_bytes == before.total);
+            if (status < 0) CHECK(lent.bytes == before.total);
         }
-        fail_at = 0;
+        lent.fail_at = -1;
         (void)MUST(b, peri_record_breaks(b, 1));
         (void)MUST(b, peri_get_memory(b, &after));
-        CHECK(after.total == held_bytes && after.damage > before.damage && after.state == before.state);
-        const int64_t recorded = held_bytes;
+        CHECK(after.total == lent.bytes && after.damage > before.damage && after.state == before.state);
+        const int64_t recorded = lent.bytes;
         peri_cracks_desc_init(&d);
         d.shortest = 0;
         for (int64_t n = 1, made = PERI_ERROR_MEMORY; made == PERI_ERROR_MEMORY && n < 100; ++n) {
-            fail_at = calls + n;
+            lent.fail_at = lent.calls + n - 1;
             made = peri_cracks_create(b, &d, &c);
-            if (made < 0) CHECK(held_bytes == recorded && c == NULL);
+            if (made < 0) CHECK(lent.bytes == recorded && c == NULL);
         }
-        CHECK(c != NULL && peri_cracks_paths(c) > 0 && held_bytes > recorded);
+        CHECK(c != NULL && peri_cracks_paths(c) > 0 && lent.bytes > recorded);
         peri_cracks_destroy(c);
-        CHECK(held_bytes == recorded);
+        CHECK(lent.bytes == recorded);
         (void)MUST(b, peri_record_breaks(b, 0));
-        CHECK(held_bytes == before.total);
+        CHECK(lent.bytes == before.total);
         peri_body_destroy(b);
-        CHECK(held_bytes == 0);
+        CHECK(lent.bytes == 0);
     }
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Rigid grips: sets that move as rigid bodies, and the moments of supports and loads. */
+#include "pool.h"
 #include "refusal.h"
 
 /* Truth: the rotation by the angle |w| about w, through the quaternion of half of it. */
@@ -289,36 +290,25 @@ static void wrong_grips(void) {
     peri_body_destroy(b);
 }
 
-static int64_t held_bytes, calls, fail_at;
-static void *lend(void *user, uint64_t bytes) {
-    (void)user;
-    if (++calls == fail_at) return NULL;
-    held_bytes += (int64_t)bytes;
-    return malloc((size_t)bytes);
-}
-static void give(void *user, void *p, uint64_t bytes) {
-    (void)user;
-    if (p) held_bytes -= (int64_t)bytes;
-    free(p);
-}
+static pool lent;
 
 static void failing_allocations(void) {
     const double motion[6] = {0.1, 0, 0, 0, 0, 0.1}, zero[3] = {0, 0, 0};
     specimen s = specimen_of(PERI_SPACE_SOLID, PERI_LAW_BOND_BASED, 0, 1, 1.5, 5, 4, 3);
     peri_memory memory;
-    s.desc.allocate = lend;
-    s.desc.release = give;
-    held_bytes = calls = fail_at = 0;
+    hook(&s.desc, &lent);
+    memset(&lent, 0, sizeof lent);
+    lent.fail_at = -1;
     peri_body *b = specimen_make(&s);
     const int32_t before = (int32_t)MUST(b, peri_prescribe_displacement(b, PERI_ALL, PERI_AXIS_XYZ, zero, NULL, NULL));
     int32_t grip = PERI_ERROR_MEMORY;
     for (int64_t n = 1; grip == PERI_ERROR_MEMORY && n < 20; ++n) {
-        fail_at = calls + n;
+        lent.fail_at = lent.calls + n - 1;
         grip = peri_prescribe_rigid(b, PERI_ALL, zero, motion, NULL, NULL);
         (void)MUST(b, peri_get_memory(b, &memory));
-        CHECK(memory.total == held_bytes);
+        CHECK(memory.total == lent.bytes);
         if (grip > 0) break;
-        fail_at = 0; /* the dofs are those of the support before */
+        lent.fail_at = -1; /* the dofs are those of the support before */
         peri_body *copy = NULL;
         double *u;
         (void)MUST(b, peri_body_clone(b, &copy, NULL));
@@ -329,9 +319,9 @@ static void failing_allocations(void) {
         peri_body_destroy(copy);
     }
     CHECK(grip > 0 && PERI_ID_INDEX(grip) == 2 && PERI_ID_INDEX(before) == 1);
-    fail_at = 0;
+    lent.fail_at = -1;
     peri_body_destroy(b);
-    CHECK(held_bytes == 0);
+    CHECK(lent.bytes == 0);
 }
 
 int main(int argc, char **argv) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Points that do not span the space, and families that are not those of the horizon: what the constants do not hold for. */
+#include "pool.h"
 #include "refusal.h"
 #include "scene.h"
 
@@ -328,18 +329,7 @@ static void cells_at_the_edge_may_be_in_or_out(void) {
 
 /* ---- memory ------------------------------------------------------------ */
 
-static int64_t held_bytes, calls, fail_at;
-static void *lend(void *user, uint64_t bytes) {
-    (void)user;
-    if (++calls == fail_at) return NULL;
-    held_bytes += (int64_t)bytes;
-    return malloc((size_t)bytes);
-}
-static void give(void *user, void *p, uint64_t bytes) {
-    (void)user;
-    if (p) held_bytes -= (int64_t)bytes;
-    free(p);
-}
+static pool lent;
 
 /* Whichever allocation fails, what is refused is so in the end, and nothing is lost. */
 static void failing_allocations(void) {
@@ -351,18 +341,18 @@ static void failing_allocations(void) {
             if (given) choose_rows(1.5, NULL);
             specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS, 0.2, 1, 3, 1, 1, 1);
             s.desc.log = count_remarks;
-            s.desc.allocate = lend;
-            s.desc.release = give;
-            held_bytes = calls = fail_at = 0;
+            hook(&s.desc, &lent);
+            memset(&lent, 0, sizeof lent);
+            lent.fail_at = -1;
             peri_body *b = specimen_start(&s);
             (void)MUST(b, peri_add_points(b, c.count, c.x, c.volume, NULL));
             if (given) (void)MUST(b, peri_set_families(b, WIDTH, rows));
-            const int64_t before = held_bytes;
-            fail_at = calls + n;
+            const int64_t before = lent.bytes;
+            lent.fail_at = lent.calls + n - 1;
             status = peri_build(b);
-            CHECK(status == PERI_OK || held_bytes == before);
+            CHECK(status == PERI_OK || lent.bytes == before);
             peri_body_destroy(b);
-            CHECK(held_bytes == 0);
+            CHECK(lent.bytes == 0);
         }
         CHECK(status == (given ? PERI_ERROR_IBOND : PERI_OK));
     }
