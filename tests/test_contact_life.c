@@ -4,6 +4,7 @@
    SOURCE OF TRUTH: the ledger balances; a clone, a reset body and one on other threads have the same bits; a call that fails has changed
    nothing; a closed crack carries what the whole block does, an open one nothing; rubble comes to rest, apart. */
 #include "contact_scene.h"
+#include "pool.h"
 
 /* ---- bonds ---------------------------------------------------------------------------------------------------------------------- */
 
@@ -275,25 +276,11 @@ static void insides_are_not_searched(void) {
 
 /* ---- memory and misuse ---------------------------------------------------------------------------------------------------------- */
 
-typedef struct pool {
-    int64_t live, calls, fail_at;
-} pool;
-static void *pool_take(void *user, uint64_t bytes) {
-    pool *p = (pool *)user;
-    if (p->calls++ == p->fail_at) return NULL;
-    p->live += (int64_t)bytes;
-    return malloc((size_t)bytes);
-}
-static void pool_give(void *user, void *block, uint64_t bytes) {
-    ((pool *)user)->live -= (int64_t)bytes;
-    free(block);
-}
-
 /* Allocations of the run, each of the first searches and many of the later ones, fail once; the call is made again, and the end has
    the same bits, but where steps were done before memory ran short: the last of them was done by the lists that there were. */
 static void memory_may_fail_anywhere(void) {
     bars s = crash();
-    pool never = {0, 0, -1}, p;
+    pool never = {0, 0, 0, 0, -1, 0}, p;
     peri_body *want, *b;
     peri_memory held;
     int64_t failed = 0, same = 0;
@@ -301,17 +288,15 @@ static void memory_may_fail_anywhere(void) {
     s.contact.restitution = 1;
     s.across[0] = s.across[1] = 5;
     s.offset = 1.3;
-    s.desc.allocate = pool_take;
-    s.desc.release = pool_give;
-    s.desc.memory_user = &never;
+    hook(&s.desc, &never);
     want = bars_make(&s);
     const int64_t built = never.calls;
     for (int k = 0; k < 160; ++k) CHECK(run_steps(want, 5) == PERI_OK);
     CHECK(peri_broken_count(want) > 10);
     (void)MUST(want, peri_get_memory(want, &held));
-    CHECK(never.live >= held.total && never.live < held.total + 64);
+    CHECK(never.bytes >= held.total && never.bytes < held.total + 64);
     for (int64_t at = built; at < never.calls + 20; at += at < built + 24 ? 1 : 13) {
-        p.live = p.calls = 0;
+        memset(&p, 0, sizeof p);
         p.fail_at = at;
         s.desc.memory_user = &p;
         b = bars_make(&s);
@@ -330,51 +315,49 @@ static void memory_may_fail_anywhere(void) {
             same++;
         }
         peri_body_destroy(b);
-        CHECK(p.live == 0);
+        CHECK(p.bytes == 0);
     }
     CHECK(failed > 5 && same > 5);
     peri_body_destroy(want);
-    CHECK(never.live == 0);
+    CHECK(never.bytes == 0);
 }
 
 /* So does every allocation of the declaration itself, and of a clone: nothing is lost, nothing changed. */
 static void declarations_may_fail(void) {
     bars s = crash();
-    pool p = {0, 0, -1};
+    pool p = {0, 0, 0, 0, -1, 0};
     peri_contact_desc c = s.contact;
     peri_body *copy;
     int refused = 0;
-    s.desc.allocate = pool_take;
-    s.desc.release = pool_give;
-    s.desc.memory_user = &p;
+    hook(&s.desc, &p);
     peri_body *b = bars_make(&s);
     CHECK(run_steps(b, 700) == PERI_OK);
     const double step = peri_stable_step(b);
     c.stiffness = 1;
     for (int64_t at = 0; at < 12; ++at) {
-        const int64_t live = p.live;
+        const int64_t live = p.bytes;
         p.fail_at = p.calls + at;
         const int32_t status = peri_set_contact(b, PERI_ALL, PERI_ALL, &c);
         p.fail_at = -1;
         if (status == PERI_OK) break;
         refused++;
         CHECK(status == PERI_ERROR_MEMORY);
-        CHECK(p.live == live);
+        CHECK(p.bytes == live);
         CHECK(peri_stable_step(b) == step);
     }
     CHECK(refused >= 4);
     CHECK(peri_stable_step(b) < step);
     for (int64_t at = 0; at < 60; ++at) {
-        const int64_t live = p.live;
+        const int64_t live = p.bytes;
         p.fail_at = p.calls + at;
         const int32_t status = peri_body_clone(b, &copy, NULL);
         p.fail_at = -1;
-        if (status < 0) CHECK(p.live == live);
+        if (status < 0) CHECK(p.bytes == live);
         if (status == PERI_OK) break;
     }
     peri_body_destroy(copy);
     peri_body_destroy(b);
-    CHECK(p.live == 0);
+    CHECK(p.bytes == 0);
 }
 
 #define REFUSED(change, wanted, name, number)                                                                          \

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_obstacles.c - the shapes of obstacles, where they are, and the forces and moments that they give.
    SOURCE OF TRUTH: signed distances worked out here, place by place; sums over the points; kinematics of rigid bodies. */
+#include "pool.h"
 #include "refusal.h"
 
 static peri_obstacle_desc shaped(int32_t shape) {
@@ -428,24 +429,9 @@ static void distances_are_asked_for(void) {
 
 /* ---- memory -------------------------------------------------------------------------------------------------------------- */
 
-typedef struct pool {
-    int64_t bytes;
-    int     calls, fail_at;
-} pool;
-static void *take(void *user, uint64_t bytes) {
-    pool *p = (pool *)user;
-    if (p->calls++ == p->fail_at) return NULL;
-    p->bytes += (int64_t)bytes;
-    return malloc((size_t)bytes);
-}
-static void give(void *user, void *pointer, uint64_t bytes) {
-    ((pool *)user)->bytes -= (int64_t)bytes;
-    free(pointer);
-}
-
 /* Each allocation of adding and cloning the most that there is fails once: nothing leaks, and peri_get_memory tells what is held. */
 static void memory_may_be_short(void) {
-    pool p = {0, 0, -1};
+    pool p = {0, 0, 0, 0, -1, 0};
     int dim = 3;
     peri_memory told;
     peri_body *b = NULL, *copy = NULL;
@@ -455,9 +441,7 @@ static void memory_may_be_short(void) {
     peri_body_desc_init(&desc);
     desc.space = PERI_SPACE_SOLID;
     desc.horizon = 0.3;
-    desc.allocate = take;
-    desc.release = give;
-    desc.memory_user = &p;
+    hook(&desc, &p);
     MUST(NULL, peri_body_create(&desc, &b, NULL));
     MUST(b, peri_add_box(b, unbreakable(b, 1, 1), lo, hi, 0.1));
     MUST(b, peri_build(b));

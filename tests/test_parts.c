@@ -3,6 +3,7 @@
 
    SOURCE OF TRUTH: peri.h; equilibrium of the body without what came off; the ledger; the criterion that every event meets; a second body
    on which the same is done another way. */
+#include "pool.h"
 #include "solid.h"
 #include "equilibrium.h"
 
@@ -349,38 +350,19 @@ static void the_same_path_again(void) {
 
 /* ---- without memory ----------------------------------------------------------------------------------------------- */
 
-typedef struct pool {
-    int64_t blocks, calls, fail_at;
-} pool;
-static void *pool_allocate(void *user, uint64_t bytes) {
-    pool *p = (pool *)user;
-    if (p->calls++ == p->fail_at) return NULL;
-    p->blocks++;
-    return malloc((size_t)bytes);
-}
-static void pool_release(void *user, void *pointer, uint64_t bytes) {
-    pool *p = (pool *)user;
-    (void)bytes;
-    if (!pointer) return;
-    p->blocks--;
-    free(pointer);
-}
-
 /* Every allocation of a solve under fracture control fails once: PERI_ERROR_MEMORY, nothing kept, and the next solve does it. */
 static void every_allocation_fails_once(void) {
     int64_t calls = 1, k;
     for (k = -1; k < calls; ++k) {
         const double up[2] = {0, 0.5 * H};
-        pool p = {0, 0, -1};
+        pool p = {0, 0, 0, 0, -1, 0};
         solid s = solid_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS, PERI_CORRECTION_NONE);
         specimen q = specimen_of(s.space, s.law, s.nu, H, 2, 8, 10, 1);
         peri_solve_desc st = statics_of(1e-8);
         peri_body *b;
         int64_t before;
         int32_t code;
-        q.desc.allocate = pool_allocate;
-        q.desc.release = pool_release;
-        q.desc.memory_user = &p;
+        hook(&q.desc, &p);
         q.material = solid_material(&s);
         q.material.critical_stretch = LIMIT;
         b = specimen_make(&q);
