@@ -112,7 +112,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/callbacks.c"    /* how runs begin and end; a body that a callback was left in by a jump          */
 #include "src/body/boundary.c"     /* supports and loads, added and removed                                        */
 #include "src/body/obstacle_desc.c" /* obstacles, added, removed, read and set                                     */
-#include "src/body/touch.c"        /* contact between materials, declared                                          */
+#include "src/body/contact_desc.c" /* contact between materials, declared                                          */
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/fragments.c"    /* points joined by live bonds; what they are as rigid bodies                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */

@@ -79,6 +79,14 @@ static int64_t peri__sides_of(const peri__model *m, int64_t i, const peri__row *
     return count;
 }
 
+/* The same of the points above i, as recorded where they are. */
+static int64_t peri__upper_sides_of(const peri_body *b, int64_t i, const peri__row *row, peri__sorter *s) {
+    if (!b->side) return peri__sides_of(b->model, i, row, i, s);
+    const int64_t first = b->side_start[i], count = b->side_start[i + 1] - first;
+    memcpy(s->bond, &b->side[first], (size_t)count * sizeof *s->bond);
+    return count;
+}
+
 /* ---- when they broke ---------------------------------------------------------------------------------------------- */
 
 /* Notes `time` for what has broken since the last note. */

@@ -38,7 +38,7 @@ static void peri__look_at_point(peri__patch *p, int64_t i, peri__row *row) {
     for (int64_t k = 0; k < row->count && !broken; ++k) broken = !peri__is_alive(b, i, k);
     if (!broken) return;
     p->degree[i] = (int32_t)peri__sides_of(m, i, row, -1, &p->sorter);
-    const int64_t count = peri__sides_of(m, i, row, i, &p->sorter);
+    const int64_t count = peri__upper_sides_of(b, i, row, &p->sorter);
     for (int64_t n = 0; n < count; ++n) {
         const int64_t k = p->sorter.bond[n];
         const double time = peri__time_of_side(b, p->desc->initial, i, k, n);

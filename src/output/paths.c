@@ -73,7 +73,7 @@ static int peri__find_sides(peri__graph *g) {
         int64_t at = 0;
         for (int64_t i = 0; i < m->points; ++i) {
             peri__read_row(b, i, &row);
-            const int64_t count = peri__sides_of(m, i, &row, i, &s);
+            const int64_t count = peri__upper_sides_of(b, i, &row, &s);
             for (int64_t n = 0; filling && n < count; ++n) {
                 g->end[2 * (at + n)] = (int32_t)i;
                 g->end[2 * (at + n) + 1] = row.ids[s.bond[n]];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* touch.c - contact between materials, as the caller declares it. */
+/* contact_desc.c - contact between materials, as the caller declares it. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
