@@ -2,7 +2,7 @@
 # check_docs.awk - called by check_docs.sh: peri.h, then README.md and docs/*.md.
 #
 # Where things must be said: functions, callback types, structs, enums and enumerators anywhere in docs/; functions, enumerators of status and
-# fields in manual.md, or in a page that it links to (statics, theory, accuracy); the fields of a struct in the first cells of a table under the
+# fields in manual.md, or in a page that it links to (statics, theory, accuracy, laws); the fields of a struct in the first cells of a table under the
 # heading that names it. The table under the heading "Calls and statuses" has every function, and only statuses that there are.
 
 function complain(what) { print "docs: " what; bad = 1 }
@@ -109,7 +109,7 @@ FNR == 1 {
 }
 
 {
-    said_in = page ~ /^(manual|statics|theory|accuracy)\.md$/
+    said_in = page ~ /^(manual|statics|theory|accuracy|laws)\.md$/
     text = $0
     while (match(text, /(peri|PERI)_[A-Za-z0-9_]+/)) {
         name = substr(text, RSTART, RLENGTH)
