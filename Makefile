@@ -14,6 +14,7 @@
 # make mutants   small mistakes put into the library, one at a time: which do the tests not see? About two hours; NEAR=1 the nearest tests
 #                alone, M=17, M=100-150 or M=part_of_a_name, LONG=1 with the long tables, too; needs python3
 # make fuzz      random programs by libFuzzer under sanitizers, FUZZ_TIME seconds long (300); needs clang
+# make bindings  bindings/api.json, peri.h as data, and what is made of it for other languages; needs python3
 # make lint      strict warnings under every compiler found, static analysis, house rules
 # make clean     removes build/ and out/
 
@@ -38,7 +39,7 @@ TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 GALLERY = $(basename $(notdir $(wildcard examples/gallery/*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench tradeoff machines examples gallery lib install uninstall dist mutants fuzz lint clean
+.PHONY: all demo programs test validate bench tradeoff machines examples gallery lib install uninstall dist mutants fuzz bindings lint clean
 all: lib
 
 # The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
@@ -263,6 +264,9 @@ fuzz:
 	    build/fuzz/fuzz -max_total_time=$(FUZZ_TIME) -timeout=20 -max_len=400 -print_final_stats=1 -artifact_prefix=build/fuzz/ \
 	        build/fuzz_corpus; \
 	else echo "fuzz: no clang with libFuzzer on this machine, skipped"; fi
+
+bindings:
+	python3 tools/api.py
 
 lint:
 	@CC="$(CC)" sh tools/lint.sh
