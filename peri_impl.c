@@ -129,8 +129,9 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/statics/tangent.c"   /* products with the tangent stiffness, its diagonal                            */
 #include "src/statics/touch.c"     /* obstacles in equilibria: what holds, and what may come to hold              */
 #include "src/statics/rigid_modes.c"     /* parts and points that can move without resistance                            */
-#include "src/statics/grids.c"     /* regular grids: smoothing, V-cycle                                            */
-#include "src/statics/multilevel.c" /* elasticity on coarser grids, as a preconditioner                            */
+#include "src/statics/levels.c"    /* levels of nodes: smoothing, V-cycle                                          */
+#include "src/statics/coarsen.c"   /* which nodes a coarser level has, its stiffness                               */
+#include "src/statics/multilevel.c" /* elasticity on these levels, as a preconditioner                             */
 #include "src/statics/conjugate.c" /* conjugate gradients                                                          */
 #include "src/statics/matrix.c"    /* the tangent assembled, BiCGSTAB                                              */
 #include "src/statics/equilibrium.c" /* Newton's method                                                            */

@@ -59,7 +59,8 @@
      floating part connected points that some rigid-body modes leave without resistance
      singular  of a point: its bonds resist only in some of its free directions
      tangent   the derivative of the forces; product: what it makes of a change of the displacements
-     level     a grid of the multigrid preconditioner; node_blocks: what couples its nodes
+     level     nodes of the multigrid preconditioner at the sites of a grid, several where the body is cut through at a site; block: what
+               couples two of them; patch: connected points of a cell
    Advice:
      estimate  peri__estimate: a body that is only described, and the counts found of it; jitter: how far its points may be off their sites
 
@@ -403,6 +404,8 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int32_t            *leaning;  /* [points] 1, 2, ...: of a part that would be loose without obstacles; NULL without them */
     int32_t             leaning_count, counted, bridged, hanging; /* see touch.c                                         */
     peri__multilevel   *levels;
+    double              pace;     /* iterations per e-fold of the residual that the levels took when they were new; 0: not yet known */
+    double              lost;     /* iterations that they have taken more since, as bonds broke                           */
     int64_t             singular;  /* points that are                                                                    */
     double              stiff;    /* mean of the diagonal of the stiffness                                               */
     double              softest;  /* the smallest trace of a diagonal block                                              */

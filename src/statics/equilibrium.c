@@ -152,13 +152,13 @@ static void peri__note_bytes(peri__solver *s) {
     if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
 }
 
-/* Marks what supports hold, then what else must not move, and makes the preconditioner for the body as it is; its coarse grids only where
-   `anew`: bonds that broke since matter little to them. */
+/* Marks what supports hold, then what else must not move, and makes the preconditioner for the body as it is; its levels only where `anew`,
+   or where bonds that broke since have cost more iterations than the levels do. */
 static int32_t peri__prepare(peri__solver *s, int anew) {
     peri_body *b = s->body;
     peri__mark_supports(s);
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
-    if (anew && s->levels) {
+    if ((anew || s->lost > PERI_LEVELS_WORTH) && s->levels) {
         s->bytes -= s->levels->bytes;
         peri__free_levels(s->levels);
         s->levels = NULL;
@@ -176,6 +176,7 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
         s->levels = peri__build_levels(s);
         if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "peri_solve", -1, 0.0);
         s->bytes += s->levels->bytes;
+        s->pace = s->lost = 0.0;
     }
     peri__note_bytes(s);
     status = peri__invert_blocks(s);
@@ -301,6 +302,15 @@ static void peri__lift(peri__solver *s, int at_rest) {
     (void)peri__krylov_pass(s, &whole, b->ops->krylov_step);
 }
 
+/* The pace of a linear solve that began at `iterations` and was to lessen the residual by `folds` powers of e, with what its levels lose by
+   now. */
+static void peri__note_pace(peri__solver *s, int64_t iterations, double folds) {
+    const double taken = (double)(s->report.iterations - iterations);
+    if (!s->levels || !(folds > 1.0)) return;
+    if (s->pace == 0.0) s->pace = taken / folds;
+    else s->lost = fmax(0.0, s->lost + taken - s->pace * folds);
+}
+
 /* Finds the equilibrium at the present load factor. */
 static int32_t peri__newton(peri__solver *s) {
     peri_body *b = s->body;
@@ -333,9 +343,11 @@ static int32_t peri__newton(peri__solver *s) {
         double reach = peri__newton_reach(s, residual, gap || s->bridged);
         last = residual;
         s->report.newton++;
+        const int64_t iterations = s->report.iterations;
         s->negative = s->energy_done = 0;
         if (s->settings->method == PERI_METHOD_BICGSTAB) status = peri__solve_assembled(s, reach, loads);
         else status = peri__conjugate(s, reach, loads, at_rest);
+        peri__note_pace(s, iterations, log(residual / (reach * s->scale)));
         s->negative = status == PERI_ERROR_INDEFINITE;
         if (status == PERI_ERROR_MEMORY || status == PERI_ERROR_CALLBACK) return status;
         if (status == PERI_ERROR_LOOSE || (linear && s->negative))
