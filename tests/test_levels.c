@@ -3,8 +3,8 @@
 
    SOURCE OF TRUTH: the equilibrium, which no preconditioner changes: the solution by the blocks of the diagonal alone; parts that no bond
    joins do not act on each other; and the bounds that the levels were made for: 40 iterations to 1e-8 for plates and blocks with 3, 9 and
-   27 cracks, 12 passes over the bonds per bond that breaks one by one. Parts thinner than the horizon, side by side, are what the levels serve
-   least: at most four times the iterations of the blocks. */
+   27 cracks, 12 passes over the bonds per bond that breaks one by one. Parts thinner than the horizon, side by side, are what the levels
+   serve least: at most four times the iterations of the blocks. */
 #include "scene.h"
 
 static uint32_t state;
@@ -33,7 +33,8 @@ static void hold(peri_body *b, int axis, double from, double to, double way) {
     lo[axis] = from;
     hi[axis] = to;
     value[axis] = way;
-    MUST(b, peri_prescribe_displacement(b, (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi)), all_axes(peri_dimension(b)), value, NULL, NULL));
+    const int32_t set = (int32_t)MUST(b, peri_select_box(b, NULL, lo, hi));
+    MUST(b, peri_prescribe_displacement(b, set, all_axes(peri_dimension(b)), value, NULL, NULL));
 }
 
 static peri_body *unit_body(int32_t space, int32_t law, int n, double poisson) {

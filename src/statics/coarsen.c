@@ -67,7 +67,8 @@ static int32_t peri__join(const peri__mesh_level *fine, peri__joiner *j) {
 
 /* What lies under the shape function of a site of the next level: nodes at up to a site beside twice its place; or, over `cells`, the
    patches of the cells around it. */
-static void peri__gather_members(const peri__mesh_level *fine, const peri__mesh_level *coarse, int dim, int cells, int64_t site, peri__joiner *j) {
+static void peri__gather_members(const peri__mesh_level *fine, const peri__mesh_level *coarse, int dim, int cells, int64_t site,
+                                 peri__joiner *j) {
     const int wide = cells ? 2 : 3, all = dim == 3 ? wide * wide * wide : wide * wide;
     int64_t at[3] = { 0, 0, 0 };
     for (int d = 0; d < dim; ++d) {

@@ -145,7 +145,8 @@ static void peri__multiply_level(const peri__multilevel *l, const peri_body *b, 
 }
 
 /* out = keep out + gain inverse in, of one level. */
-static void peri__level_scale(const peri__multilevel *l, const peri__mesh_level *v, double keep, double gain, const double *in, double *out) {
+static void peri__level_scale(const peri__multilevel *l, const peri__mesh_level *v, double keep, double gain, const double *in,
+                              double *out) {
     const int dim = l->dim;
     for (int64_t n = 0; n < v->count; ++n)
         for (int p = 0; p < dim; ++p) {

@@ -162,7 +162,8 @@ static int peri__link_point(peri__multilevel *l, const peri_body *b, int64_t i, 
 
 /* Which patches of cells beside each other live bonds link: the rows of `patches`, of which `entries` is the room. Points are looked at
    from both ends of a patch, until there is nothing left to find. */
-static int peri__link_patches(peri__multilevel *l, const peri_body *b, const int32_t *cell, const int32_t *patch, peri__mesh_level *patches) {
+static int peri__link_patches(peri__multilevel *l, const peri_body *b, const int32_t *cell, const int32_t *patch,
+                              peri__mesh_level *patches) {
     int32_t *linked = (int32_t *)peri__take_level(l, l->patches, sizeof *linked);
     int64_t count = 0;
     patches->start = (int64_t *)peri__take_level(l, l->patches + 1, sizeof *patches->start);
@@ -253,7 +254,8 @@ static void peri__assemble_finest(const peri__solver *s, peri__multilevel *l) {
                 float *block = &v->block[peri__entry_of(v, l->node[p * corners + a], l->node[p * corners + c]) * dim * dim];
                 for (int d = 0; d < dim; ++d)
                     for (int e = 0; e < dim; ++e)
-                        block[d * dim + e] += (float)(a <= c ? dense[(a * dim + d) * wide + c * dim + e] : dense[(c * dim + e) * wide + a * dim + d]);
+                        block[d * dim + e] += (float)(a <= c ? dense[(a * dim + d) * wide + c * dim + e]
+                                                             : dense[(c * dim + e) * wide + a * dim + d]);
             }
     }
 }
