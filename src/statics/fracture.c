@@ -51,13 +51,40 @@ static double peri__most_excess(peri_body *b) {
     return most;
 }
 
+/* Masks, constants and row sums, where they were up to date before: only those of the `losing` points of near_dying and next to them have
+   changed. Unmarks all. */
+static void peri__refresh_near(peri_body *b, int64_t losing, uint32_t stale) {
+    const uint32_t kept = PERI__STALE_MASKS | PERI__STALE_CONSTANTS;
+    const peri__model *m = b->model;
+    int64_t count = losing;
+    peri__row row;
+    for (int64_t n = 0; n < losing; ++n) {
+        const int64_t i = b->near_dying[n];
+        peri__read_row(b, i, &row);
+        for (int64_t k = 0; k < row.count; ++k)
+            if (peri__is_alive(b, i, k)) peri__mark(b, row.ids[k], 2, &count);
+        if (stale & kept) continue;
+        if (b->masks) peri__group_masks(m, i / PERI_GROUP, (uint32_t)1 << (i % PERI_GROUP), b->alive, b->masks);
+        peri__set_constants(b, i, &row);
+        peri__set_gather_row_sum(b, i, &row);
+    }
+    for (int64_t n = 0; n < count; ++n) {
+        if (!(stale & kept)) peri__set_row_sum(b, b->near_dying[n]);
+        b->marked[b->near_dying[n]] = 0;
+    }
+    if (stale & kept) return;
+    peri__find_largest_row_sum(b);
+    b->now.stale &= ~kept;
+}
+
 /* Of the bonds whose excess passes `limit` breaks those of `criticality` of the largest, `most`, or more; returns their number. The ledger
    is up to the caller. */
 static int64_t peri__break_static(peri__solver *s, double most, double limit) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     const double least = s->settings->criticality * most * (1.0 - PERI_EQUAL(b));
-    int64_t count = 0;
+    const uint32_t stale = b->now.stale;
+    int64_t count = 0, losing = 0;
     if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
@@ -71,11 +98,15 @@ static int64_t peri__break_static(peri__solver *s, double most, double limit) {
             b->alive[i * m->words + k / 32] &= ~((uint32_t)1 << (k % 32));
             b->alive[j * m->words + back / 32] &= ~((uint32_t)1 << (back % 32));
             count++;
+            if (!b->near_dying) continue;
+            peri__mark(b, i, 1, &losing);
+            peri__mark(b, j, 1, &losing);
         }
     }
     b->now.broken += 2 * count;
     s->report.broken += count;
     peri__changed(b, PERI__BONDS);
+    if (losing > 0) peri__refresh_near(b, losing, stale);
     peri__note_breaks(b, peri__load_time(b));
     if (b->before) peri__report_breaks(b);
     return count;
