@@ -267,6 +267,7 @@ fuzz:
 
 bindings:
 	python3 tools/api.py
+	python3 tools/bind.py
 
 lint:
 	@CC="$(CC)" sh tools/lint.sh

@@ -54,6 +54,7 @@ if command -v g++ > /dev/null; then
 else
     skip cxx11 "no g++ on this machine"
 fi
+queue bindings "CC='$CC' OPENMP='$OPENMP' sh tests/test_bindings.sh"
 . tests/check_hygiene.sh
 queue install "sh tests/check_install.sh"
 queue docs "sh tests/check_docs.sh"

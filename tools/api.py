@@ -5,6 +5,7 @@
   api.py              writes bindings/api.json (make bindings)
   api.py --check      ends with 1 where bindings/api.json is not what peri.h says, or a rule below is broken
   api.py --sizes      writes a C program that prints the size of every struct and the offset of every field, as JSON
+  api.py --layout T   writes C that compiles where sizes and offsets are those of layout() for target T: x86-64, i386, aarch64, wasm32
 
 The header is read by its own conventions, which lint holds: a comment before a declaration belongs to it, as does one after a member on the
 same line or below it; a comment "---- title" begins a section. What a signature cannot say follows from the text and from names:
@@ -252,6 +253,9 @@ LENGTHS = {
     ("peri_size_of_outline", "vertices"): "1",
     ("peri_size_of_outline", "faces"): "1",
     ("peri_prescribe_rigid", "motion"): "dim+turns",
+    ("peri_rigid_fn", "motion"): "dim+turns",
+    ("peri_motion_fn", "turn"): "3*dim-5",  # 1 in 2D, 4 in 3D
+    ("peri_distance_fn", "distance"): "1",
 }
 NUMBERS = ("double", "float", "int32_t", "int64_t", "uint32_t", "uint64_t")
 
@@ -282,7 +286,7 @@ def is_optional(function, p, doc):
         return True
     name = r"\b" + p["name"] + r"\b"
     return bool(p["role"] in ("user", "callback") or re.search(name + r"(\[[^\]]*\])?[^.;:]{0,25}\bNULL\b", doc)
-                or (p["role"].endswith("out") and re.search(r"([Ee]ither|any) may be NULL", doc)))
+                or (p["role"].endswith("out") and re.search(r"([Ee]ither|[Aa]ny) may be NULL", doc)))
 
 
 def roles(api):
@@ -372,6 +376,41 @@ def sizes(api):
     return "\n".join(lines + ['    printf("}}\\n");', "    return 0;", "}", ""])
 
 
+# Bytes of a pointer, and what numbers of 8 bytes are aligned to.
+TARGETS = {"x86-64": (8, 8), "aarch64": (8, 8), "i386": (4, 4), "wasm32": (4, 8)}
+
+
+def layout(api, target):
+    """{struct: (size, alignment, {field: (offset, size)})} by the rules that C compilers share: each field at the next multiple of its
+    alignment."""
+    pointer, wide = TARGETS[target]
+    basic = {"double": (8, wide), "int64_t": (8, wide), "uint64_t": (8, wide), "float": (4, 4), "int32_t": (4, 4), "uint32_t": (4, 4)}
+    callbacks = {c["name"] for c in api["callbacks"]}
+    out = {}
+    for s in api["structs"]:
+        at, most, fields = 0, 1, {}
+        for f in s["fields"]:
+            if f["pointer"] or f["type"] in callbacks:
+                size, align = pointer, pointer
+            else:
+                size, align = basic[f["type"]] if f["type"] in basic else out[f["type"]][:2]
+            at = -(-at // align) * align
+            fields[f["name"]] = (at, size * (f["length"] or 1))
+            at += size * (f["length"] or 1)
+            most = max(most, align)
+        out[s["name"]] = (-(-at // most) * most, most, fields)
+    return out
+
+
+def asserted(api, target):
+    lines = ['#include "peri.h"']
+    for name, (size, _, fields) in layout(api, target).items():
+        tests = ["sizeof(%s) == %d" % (name, size)]
+        tests += ["offsetof(%s, %s) == %d && sizeof(((%s *)0)->%s) == %d" % (name, f, at, name, f, n) for f, (at, n) in fields.items()]
+        lines += ["typedef char %s_%d[%s ? 1 : -1];" % (name, k, t) for k, t in enumerate(tests)]
+    return "\n".join(lines) + "\n"
+
+
 def text_of(api):
     """JSON with an entry a line: differences are then read as such."""
     out = ["{"]
@@ -402,6 +441,9 @@ def main(arguments):
     api = load()
     if "--sizes" in arguments:
         sys.stdout.write(sizes(api))
+        return 0
+    if "--layout" in arguments:
+        sys.stdout.write(asserted(api, arguments[arguments.index("--layout") + 1]))
         return 0
     text = text_of(api)
     assert json.loads(text) == api

@@ -46,7 +46,10 @@ sh tools/check_docs.sh || status=1
 sh tests/promises/check.sh || fail "what the pages promise is not proven"
 sh tests/check_docs.sh --compile || fail "code in the docs does not compile"
 sh tools/spdx.sh --check || fail "files without a licence line"
-if command -v python3 > /dev/null; then python3 tools/api.py --check || status=1; fi
+if command -v python3 > /dev/null; then
+    python3 tools/api.py --check || status=1
+    python3 tools/bind.py --check || status=1
+fi
 awk -f tools/fields.awk peri.h src/*/*.c || status=1
 # peri.h and peri_status_text say the same of each status
 awk -f - peri.h src/base/status.c << 'END' || fail "peri.h and src/base/status.c differ in the text of a status"

@@ -1,0 +1,3 @@
+module peri/glass
+
+go 1.19
