@@ -122,7 +122,7 @@ $(foreach o,san clang fast,$(eval $(call other,$(o))))
 
 # programs are compiled beside the library, which takes longest
 .SECONDARY:
-build/examples/%.o: examples/%.c peri.h $(wildcard examples/*.h)
+build/examples/%.o: examples/%.c peri.h $(wildcard examples/*.h extras/*.h)
 	@mkdir -p $(@D)
 	$(COMPILE) $(UNOPTIMISED) -c $< -o $@
 

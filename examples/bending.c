@@ -5,7 +5,7 @@
    a crack grows where the energy that it would release, K^2/E per area, is the fracture energy G0. With ASTM E399,
    K = P S/(B W^1.5) f(a/W), that makes a peak load. A notch of half the depth softens then; below 0.3 the beam would snap.
    Writes out/bending.csv (the curve) and out/bending.png (damage, deflection magnified). */
-#include "png.h"
+#include "picture.h"
 
 #define STEPS 62
 static double curve[STEPS][6]; /* load factor, mean displacement x y [m], force x y [N], broken bonds                      */
@@ -73,7 +73,7 @@ int main(void) {
     /* 18 bonds cross the middle per row of points at horizon 3 h. More than G0 is lost as the crack leaps from row to row. */
     printf("the crack took %.1f mJ, %.1f mJ of it in bonds; G0 times its area is %.1f mJ\n", 1e3 * (e.external - e.elastic),
            1e3 * e.fracture, 1e3 * fracture_energy * thickness * h * curve[STEPS - 1][5] / 18);
-    must(beam, picture_field("out/bending.png", beam, PERI_FIELD_DAMAGE, 0, 0.6, 1300, 300));
+    must(beam, picture("out/bending.png", beam, PERI_FIELD_DAMAGE, "damage", 0, 0.6, 1300, 300));
     peri_body_destroy(beam);
     return 0;
 }

@@ -5,7 +5,7 @@
    are pulled apart with 2 MPa. A bond breaks for good at the stretch s0, chosen such that all bonds across a unit of
    area together take the fracture energy G0: in plane stress s0^2 = 4 pi G0/(9 E horizon).
    Writes out/branching.png (damage), out/branching.vtu and the energies over time to out/branching.csv. */
-#include "png.h"
+#include "picture.h"
 #include <time.h>
 
 static int32_t watch(void *user, peri_body *body) {
@@ -24,6 +24,7 @@ int main(void) {
     peri_body_desc desc;
     peri_material_desc glass;
     peri_advance_desc run;
+    peri_picture_desc view;
 
     peri_body_desc_init(&desc);
     desc.space = PERI_SPACE_PLANE_STRESS;
@@ -59,7 +60,11 @@ int main(void) {
            (long)peri_point_count(pane), (long)peri_bond_count(pane), (long)peri_cut_count(pane),
            (long)peri_broken_count(pane), (long)peri_step_count(pane), (double)(clock() - start) / CLOCKS_PER_SEC);
     print_energy(pane);
-    must(pane, picture_field("out/branching.png", pane, PERI_FIELD_DAMAGE, 0, 0.6, 1300, 20));
+    peri_picture_desc_init(&view);
+    view.title = "A crack branches in glass (displacements x 20)";
+    view.label = "damage", view.hi = 0.6, view.magnify = 20, view.width = 1300;
+    view.length_scale = 1e3, view.length_unit = "mm", view.time_scale = 1e6, view.time_unit = "us", view.show_time = 1;
+    must(pane, peri_picture_save("out/branching.png", pane, &view));
     must(pane, peri_export_vtu(pane, "out/branching.vtu"));
     peri_body_destroy(pane);
     return 0;

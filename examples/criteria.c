@@ -5,7 +5,7 @@
    ends does. All are set by the same fracture energy G0. The plates are three materials of one body, apart from each
    other. The third criterion spreads the damage: neighbouring points share most of their families, so when one bond is
    over its limit those beside it are, too. Writes out/criteria.png (damage) and out/criteria.vtu. */
-#include "png.h"
+#include "picture.h"
 
 static int32_t watch(void *user, peri_body *body) {
     progress("criteria", body, *(const double *)user);
@@ -59,7 +59,7 @@ int main(void) {
     must(plates, peri_advance(plates, &run));
     printf("%ld bonds broken in %ld steps\n", (long)peri_broken_count(plates), (long)peri_step_count(plates));
     print_energy(plates);
-    must(plates, picture_field("out/criteria.png", plates, PERI_FIELD_DAMAGE, 0, 0.6, 1000, 3));
+    must(plates, picture("out/criteria.png", plates, PERI_FIELD_DAMAGE, "damage", 0, 0.6, 1000, 3));
     must(plates, peri_export_vtu(plates, "out/criteria.vtu"));
     peri_body_destroy(plates);
     return 0;

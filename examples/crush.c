@@ -4,7 +4,7 @@
    Pieces touch each other and the trough, which is made of points that do not move: contact of all materials, with
    friction and with a loss at each bounce. A little damping stands for the air. Writes out/crush.png (damage, where
    the points were) and out/crush.vtu ("Warp By Vector" shows the heap). */
-#include "png.h"
+#include "picture.h"
 
 static const double h = 0.01, duration = 0.8; /* [m], [s] */
 
@@ -72,7 +72,7 @@ int main(void) {
     printf("%ld of %ld bonds broken in %ld steps; the heap is %.2f m high\n", (long)peri_broken_count(body), (long)peri_bond_count(body),
            (long)peri_step_count(body), heap + 4 * h);
     print_energy(body);
-    must(body, picture_field("out/crush.png", body, PERI_FIELD_DAMAGE, 0, 1, 800, 0));
+    must(body, picture("out/crush.png", body, PERI_FIELD_DAMAGE, "damage", 0, 1, 800, 0));
     must(body, peri_export_vtu(body, "out/crush.vtu"));
     peri_body_destroy(body);
     return 0;

@@ -6,10 +6,10 @@
    A strip five holes wide adds 4.7 % at the rim (Heywood: K = (2 + (1 - d/W)^3)/(1 - d/W) = 3.14 in place of 3).
    The rim itself is a point, and a family there averages over a horizon: compare beyond a horizon from it.
    Writes out/hole.png: the stress along the pull, from 0 (dark) to 3 S (bright). */
-#include "png.h"
+#include "picture.h"
 
 static const double radius = 0.01, far_stress = 100e6; /* [m], [Pa]                                                        */
-enum { ACROSS = 200, ALONG = 480, PIXELS = 2 };        /* cells; 20 to a radius                                            */
+enum { ACROSS = 200, ALONG = 480 };                    /* cells; 20 to a radius                                            */
 
 static int32_t outside_hole(void *user, int64_t index, const double *x) {
     (void)user;
@@ -61,14 +61,11 @@ int main(void) {
         printf("%6.3f   %6.3f     %6.3f   %6.3f\n", x[2 * i + 1] / radius, stress[3 * i] / far_stress, kirsch, kirsch * 3.14 / 3);
     }
 
-    static unsigned char picture[ALONG * PIXELS * ACROSS * PIXELS], palette[768];
-    for (int64_t i = 0; i < n; ++i) {
-        const double left_edge = PIXELS * floor((x[2 * i] - lo[0]) / h), below = PIXELS * floor((x[2 * i + 1] - lo[1]) / h);
-        picture_rectangle(picture, ALONG * PIXELS, ACROSS * PIXELS, left_edge, below, left_edge + PIXELS, below + PIXELS,
-                          picture_colour(stress[3 * i], 0, 3 * far_stress));
-    }
-    picture_palette(palette);
-    must(strip, picture_write("out/hole.png", ALONG * PIXELS, ACROSS * PIXELS, picture, palette));
+    peri_picture_desc view;
+    peri_picture_desc_init(&view);
+    view.field = PERI_FIELD_STRESS, view.component = 0, view.hi = 3 * far_stress, view.field_scale = 1 / far_stress, view.width = 1200;
+    view.label = "stress xx / far stress", view.title = "A hole in a strip that is pulled";
+    must(strip, peri_picture_save("out/hole.png", strip, &view));
     free(x);
     free(stress);
     peri_body_destroy(strip);

@@ -4,7 +4,7 @@
    The ball is a free rigid body with friction: a point of the plate at depth d inside it is pushed out with the force
    density k d, and the ball by the opposite. The plate is held at its rim. What the ball loses in motion goes into the
    plate: motion, strain, cracks. Writes out/impact.png (damage, seen from the far side) and out/impact.vtu. */
-#include "png.h"
+#include "picture.h"
 
 static const double h = 2e-3, radius = 10e-3, speed = 20, duration = 90e-6; /* [m], [m/s], [s] */
 
@@ -72,7 +72,7 @@ int main(void) {
     printf("%ld of %ld bonds broken in %ld steps\n", (long)peri_broken_count(plate),
            (long)peri_bond_count(plate), (long)peri_step_count(plate));
     print_energy(plate);
-    must(plate, picture_field("out/impact.png", plate, PERI_FIELD_DAMAGE, 0, 1, 800, 1));
+    must(plate, picture("out/impact.png", plate, PERI_FIELD_DAMAGE, "damage", 0, 1, 800, 1));
     must(plate, peri_export_vtu(plate, "out/impact.vtu"));
     peri_body_destroy(plate);
     return 0;

@@ -3,7 +3,7 @@
 
    Prints the largest pieces with their mass and speed, and writes out/pieces.png: each piece in its colour, filled
    from its outline. */
-#include "png.h"
+#include "picture.h"
 
 enum { WIDTH = 900, HEIGHT = 600, LISTED = 10 };
 static const double lo[2] = {0, 0}, hi[2] = {0.6, 0.3}, h = 8e-3, fall = 12; /* [m], [m/s] */
@@ -22,8 +22,9 @@ static void fill(int *change, const double *p, const double *q, int colour) {
 
 static void draw(peri_body *pane, const int32_t *piece_of) {
     static int change[WIDTH * HEIGHT];
-    static unsigned char index[WIDTH * HEIGHT], palette[256 * 3];
+    peri_picture view;
     int64_t vertices, faces;
+    must(pane, peri_picture_create(&view, WIDTH, HEIGHT, PERI_PICTURE_SEQUENTIAL));
     must(pane, peri_size_of_outline(pane, -1, &vertices, &faces));
     double *vertex = (double *)malloc((size_t)vertices * 2 * sizeof *vertex);
     int32_t *face = (int32_t *)malloc((size_t)faces * 3 * sizeof *face), *owner = face + 2 * faces;
@@ -31,13 +32,11 @@ static void draw(peri_body *pane, const int32_t *piece_of) {
     must(pane, peri_get_outline(pane, -1, vertex, vertices, face, owner, NULL, faces));
     for (int64_t k = 0; k < faces; ++k)
         fill(change, &vertex[2 * face[2 * k]], &vertex[2 * face[2 * k + 1]], 1 + piece_of[owner[k]] * 97 % 255);
-    for (int k = 0, colour = 0; k < WIDTH * HEIGHT; ++k) {
-        colour = (k % WIDTH ? colour : 0) + change[k];
-        index[k] = (unsigned char)colour;
-    }
-    for (int k = 0; k < 256 * 3; ++k) palette[k] = (unsigned char)(k < 3 ? 255 : 40 + k / 3 * (53 + 34 * (k % 3)) % 200);
-    must(pane, picture_write("out/pieces.png", WIDTH, HEIGHT, index, palette));
-    free(vertex), free(face);
+    for (int k = 0, colour = 0; k < WIDTH * HEIGHT; ++k)
+        view.pixels[k] = (unsigned char)(colour = (k % WIDTH ? colour : 0) + change[k]);
+    for (int k = 0; k < 256 * 3; ++k) view.palette[k] = (unsigned char)(k < 3 ? 255 : 40 + k / 3 * (53 + 34 * (k % 3)) % 200);
+    must(pane, peri_picture_write("out/pieces.png", &view));
+    peri_picture_destroy(&view), free(vertex), free(face);
 }
 
 int main(void) {

@@ -4,7 +4,7 @@
    A bond-based solid has one constant and so one Poisson ratio. A state-based bond (LPS) also feels how the volume of
    its two families changes: the second constant frees the ratio. The strips are four materials of one body, a
    horizon apart. Writes out/poisson.png, displacements 12 times too large; colour: change of area. */
-#include "png.h"
+#include "picture.h"
 
 int main(void) {
     const double ratio[4] = {0.0, 0.15, 0.30, 0.45}, h = 1e-3, lx = 0.08, ly = 0.02, pitch = 0.026; /* [m] */
@@ -53,7 +53,7 @@ int main(void) {
     }
     must(strips, peri_get_reaction(strips, grip, force));
     printf("force on the four grips %.0f N, by Hooke's law %.0f N\n", force[0], 4 * 2e9 * 0.01 * ly);
-    must(strips, picture_field("out/poisson.png", strips, PERI_FIELD_DILATATION, 0, 0.01, 900, 12));
+    must(strips, picture("out/poisson.png", strips, PERI_FIELD_DILATATION, "dilatation", 0, 0.01, 900, 12));
     free(strain);
     peri_body_destroy(strips);
     return 0;

@@ -6,7 +6,7 @@
        2 mu u_x = (1 - 2 nu) Re Zb - y Im Z,   2 mu u_y = 2 (1 - nu) Im Zb - y Re Z,
    and Sneddon's ellipse for the faces, 4 (1 - nu^2) P/E sqrt(a^2 - x^2) apart. The edges of the block are moved by it, so that the block
    acts as if it were infinite. Writes out/pressurised.png: the displacement, 300 times enlarged. */
-#include "png.h"
+#include "picture.h"
 
 enum { N = 160 }; /* points along a side of the block, 40 of them along the crack */
 static const double A = 5, SIDE = 40, P = 10e6, YOUNG = 30e9, NU = 0.2; /* half the crack, side [m]; pressure, modulus [Pa] */
@@ -73,7 +73,7 @@ int main(void) {
         all += want[0] * want[0] + want[1] * want[1];
     }
     printf("all displacements: root mean square error %.2f %%\n", 100 * sqrt(off / all));
-    must(block, picture_field("out/pressurised.png", block, PERI_FIELD_DISPLACEMENT, 0, 0, 900, 300));
+    must(block, picture("out/pressurised.png", block, PERI_FIELD_DISPLACEMENT, "displacement [m]", 0, 0, 900, 300));
     peri_body_destroy(block);
     return 0;
 }

@@ -4,7 +4,7 @@
 
    Griffith: a crack grows where the energy that it would release, K^2/E per area, is the fracture energy G0; with ASTM E399,
    K = P S/(B W^1.5) f(a/W), that makes a peak load. Writes out/softening.csv (the curve) and out/softening.png (damage). */
-#include "png.h"
+#include "picture.h"
 
 #define ROWS 300
 static double curve[ROWS][6]; /* load factor, mean displacement x y [m], force x y [N], broken bonds                       */
@@ -70,7 +70,7 @@ int main(void) {
            sqrt(young * g0) * thickness * pow(depth, 1.5) / (span * f));
     printf("the deflection goes back to %.1f um; at the end the load is %.0f N\n", 1e6 * back, -curve[report.curve_rows - 1][4]);
     printf("work %.2f mJ = elastic %.2f + fracture %.2f\n", 1e3 * area, 1e3 * e.elastic, 1e3 * e.fracture);
-    must(beam, picture_field("out/softening.png", beam, PERI_FIELD_DAMAGE, 0, 0.6, 1300, 300));
+    must(beam, picture("out/softening.png", beam, PERI_FIELD_DAMAGE, "damage", 0, 0.6, 1300, 300));
     peri_body_destroy(beam);
     return report.ended == PERI_ENDED_BREAKS && fabs(area - e.elastic - e.fracture) < 1e-6 * area ? 0 : 1;
 }

@@ -5,7 +5,7 @@
    it runs inwards, half outwards. Waves much longer than the horizon have the speed of a thin plate of the continuum,
    c_P = sqrt(E/(rho (1-nu^2))) with nu = 1/3; shorter ones are slower, because a bond averages over the wave.
    Units: length 1 m, E = 1 Pa, rho = 1 kg/m^3. Writes out/wave.png (magnitude of u) and out/wave.vtu. */
-#include "png.h"
+#include "picture.h"
 
 enum { CELLS = 200, POINTS = CELLS * CELLS };
 static const double side = 5, A = 0.025, sigma = 1.0 / 30, R = 6.0 / 30;
@@ -61,7 +61,7 @@ int main(void) {
            last, R, R + speed * 1.8);
     printf("speed over the last 0.9 s: %.4f m/s, in the continuum c_P = %.4f m/s\n", (last - first) / 0.9, speed);
     print_energy(body);
-    must(body, picture_field("out/wave.png", body, PERI_FIELD_DISPLACEMENT, 0, 0, 1000, 0));
+    must(body, picture("out/wave.png", body, PERI_FIELD_DISPLACEMENT, "displacement [m]", 0, 0, 1000, 0));
     must(body, peri_export_vtu(body, "out/wave.vtu"));
     peri_body_destroy(body);
     return 0;

@@ -48,6 +48,8 @@ switches mixed $quick F64 F32
 if command -v g++ > /dev/null; then
     queue cxx11 "g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_user.cpp build/libperi.a \
         -o build/checks/cxx $OPENMP -lm && build/checks/cxx"
+    queue cxx_view "echo '#include \"extras/peri_view.h\"' | g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. \
+        -x c++ -fsyntax-only -"
     queue cxx_throws "$quick $STRICT -O0 -fexceptions -DPERI_NO_3D -DPERI_NO_MIXED -DPERI_NO_F32 -c peri_impl.c -o build/checks/throws.o && \
         g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -I. tests/cxx_throws.cpp build/checks/throws.o \
         -o build/checks/throws -lm && build/checks/throws"

@@ -118,6 +118,8 @@ ran() { # ran NAME COMMAND: prints what the glass program prints
 }
 if command -v g++ > /dev/null; then
     g++ -std=c++11 $strict -O0 -I. -Ibindings/cpp bindings/cpp/glass.cpp build/libperi.a -o $dir/glass_cpp $OPENMP -lm && ran glass.cpp $dir/glass_cpp
+    g++ -std=c++11 -g1 -fsanitize=address,undefined -I. -Ibindings/cpp tests/bindings/scenes.cpp build/libperi.a -o $dir/scenes_san $OPENMP -lm &&
+        $dir/scenes_san > $dir/san.text && same san || bad "C++ under sanitizers"
     g++ -std=c++20 $strict -I. -Ibindings/cpp -fsyntax-only tests/bindings/scenes.cpp || bad "C++20"
 fi
 if has clang++; then

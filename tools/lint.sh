@@ -23,7 +23,7 @@ for file in src/*/* peri_impl.c examples/*.[ch] examples/gallery/* tests/*.c tes
     [ "$lines" -le 600 ] || fail "$file: $lines lines, more than 600"
 done
 awk 'length > 140 { printf "lint: %s:%d: longer than 140\n", FILENAME, FNR; bad = 1 } END { exit bad }' \
-    peri_impl.c src/*/* examples/*.[ch] examples/gallery/* tests/*.c tests/*.h tests/extremes/* tests/promises/*.c bench/* || status=1
+    peri_impl.c src/*/* examples/*.[ch] examples/gallery/* extras/* tests/*.c tests/*.h tests/extremes/* tests/promises/*.c bench/* || status=1
 # peri.h is read in ten minutes
 awk 'length > 100 { printf "lint: peri.h:%d: longer than 100\n", FNR; bad = 1 }
     { size += length + 1; rest = $0
@@ -37,7 +37,7 @@ awk 'length > 100 { printf "lint: peri.h:%d: longer than 100\n", FNR; bad = 1 }
     END { if (size > 80000) { printf "lint: peri.h: %d bytes, more than 80,000\n", size; bad = 1 }
           if (said > 0.55 * size) { printf "lint: peri.h: comments are %.1f %% of it, more than 55\n", 100 * said / size; bad = 1 }
           exit bad }' peri.h || status=1
-grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* examples/*.[ch] examples/gallery/* tests/*.* tests/extremes/* tests/promises/* bench/* tools/* Makefile README.md && fail "trailing blanks"
+grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* extras/* examples/*.[ch] examples/gallery/* tests/*.* tests/extremes/* tests/promises/* bench/* tools/* Makefile README.md && fail "trailing blanks"
 grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the library prints or exits"
 # no state: every variable of the library is const or local
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
