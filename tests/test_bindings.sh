@@ -40,6 +40,14 @@ same() { # same NAME: the lines of $dir/NAME.text are those of C; numbers may be
 
 python3 tools/bind.py --sizes $dir || bad "sizes"
 $CC -std=c99 -I. $dir/sizes.c -o $dir/sizes && $dir/sizes > $dir/sizes.text || bad "sizes in C"
+python3 - << 'END' || bad "julia: blocks or brackets do not close"
+import re, sys
+text = re.sub(r'\"\"\".*?\"\"\"|\"(?:\\.|[^\"\\\n])*\"|#[^\n]*', "", open("bindings/julia/Peri.jl", encoding="utf-8").read(), flags=re.S)
+opened = len(re.findall(r"(?<![:.\w])(?:function|(?:mutable )?struct|if|try|let|for|while|do|begin|module)(?![\w!])", text))
+closed = len(re.findall(r"(?<![:.\w])end(?![\w!])", text))
+brackets = [text.count(a) - text.count(b) for a, b in ("()", "[]", "{}")]
+sys.exit(opened != closed or any(brackets) or opened < 150)
+END
 cmp -s $dir/sizes.jl $dir/sizes.text || bad "julia: other sizes or offsets than C"
 
 if has g++; then

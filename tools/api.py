@@ -282,7 +282,7 @@ def length(function, p, arguments, doc):
 
 
 def is_optional(function, p, doc):
-    if (function, p["name"]) in (("peri_set_contact", "desc"),) or function.startswith("peri_select_") and p["name"] == "name":
+    if (function, p["name"]) in (("peri_set_contact", "desc"), ("peri_prescribe_rigid", "motion")) or function.startswith("peri_select_") and p["name"] == "name":
         return True
     name = r"\b" + p["name"] + r"\b"
     return bool(p["role"] in ("user", "callback") or re.search(name + r"(\[[^\]]*\])?[^.;:]{0,25}\bNULL\b", doc)

@@ -961,9 +961,9 @@ public:
     /* Support: the set moves as a rigid body. motion: displacement [L], then in 2D the angle about centre[dim],
        in 3D a vector along the axis as long as the angle; NULL: 0. The load factor multiplies it; or fn writes
        it (may be NULL). */
-    int32_t prescribe_rigid(int32_t set_, span<const double> centre_, span<const double> motion_, const rigid_fn &fn_ = nullptr) {
+    int32_t prescribe_rigid(int32_t set_, span<const double> centre_, span<const double> motion_ = nullptr, const rigid_fn &fn_ = nullptr) {
         detail::sized(centre_.size(), dimension(), "centre");
-        detail::sized(motion_.size(), dimension()+(2 * dimension() - 3), "motion");
+        if (!motion_.empty()) detail::sized(motion_.size(), dimension()+(2 * dimension() - 3), "motion");
         std::shared_ptr<detail::rigid_fn_holder> context_(new detail::rigid_fn_holder{dimension(), fn_});
         if (fn_) keep_->keep(context_);
         const int32_t result_ = peri_prescribe_rigid(handle_, set_, centre_.data(), motion_.data(), fn_ ? detail::rigid_fn_holder::call_c : nullptr, context_.get());

@@ -3814,7 +3814,7 @@ contains
         type(peri_body), intent(in) :: body
         integer(c_int32_t), intent(in) :: set
         real(c_double), intent(in), target, contiguous :: centre(:)
-        real(c_double), intent(in), target, contiguous :: motion(:)
+        real(c_double), intent(in), optional, target, contiguous :: motion(:)
         procedure(peri_rigid_fn), optional :: fn
         type(c_ptr), intent(in), optional :: user
         integer, intent(out), optional :: stat
@@ -3831,12 +3831,14 @@ contains
         end if
         centre_at = c_null_ptr
         if (size(centre) > 0) centre_at = c_loc(centre)
-        if (size(motion) /= int(c_dimension(body%handle))+(2*int(c_dimension(body%handle)) - 3)) then
-            call refused('motion', stat, errmsg)
-            return
+        if (present(motion)) then
+            if (size(motion) /= int(c_dimension(body%handle))+(2*int(c_dimension(body%handle)) - 3)) then
+                call refused('motion', stat, errmsg)
+                return
+            end if
         end if
         motion_at = c_null_ptr
-        if (size(motion) > 0) motion_at = c_loc(motion)
+        if (present(motion)) motion_at = c_loc(motion)
         fn_at = c_null_funptr
         if (present(fn)) fn_at = c_funloc(fn)
         result_ = c_prescribe_rigid(body%handle, set, centre_at, motion_at, fn_at, c_ptr_of(user))

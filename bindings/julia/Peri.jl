@@ -1487,7 +1487,7 @@ end
 Support: the set moves as a rigid body. motion: displacement [L], then in 2D the angle about centre[dim], in 3D a vector along the
 axis as long as the angle; NULL: 0. The load factor multiplies it; or fn writes it (may be NULL).
 """
-function prescribe_rigid(body::Body, set, centre, motion, fn = nothing)
+function prescribe_rigid(body::Body, set, centre, motion = nothing, fn = nothing)
     sized(centre, dimension(body), "centre")
     sized(motion, dimension(body)+(2 * dimension(body) - 3), "motion")
     context = fn === nothing ? nothing : Context(Dict{Symbol,Any}(:call => fn), nothing, dimension(body))

@@ -1449,7 +1449,7 @@ function Body:prescribe_rigid(set, centre, motion, fn)
     sized(centre_n, self:dimension(), "centre")
     local motion_c, motion_n = nil, 0
     if motion ~= nil then motion_c, motion_n = array("double", motion, "motion") end
-    sized(motion_n, self:dimension()+(2 * self:dimension() - 3), "motion")
+    if motion ~= nil then sized(motion_n, self:dimension()+(2 * self:dimension() - 3), "motion") end
     local fn_c = nil
     if fn then
         keep[#keep + 1] = ffi.cast("peri_rigid_fn", guard(function(_, time, motion) return fn(time, motion) end))

@@ -1918,16 +1918,18 @@ impl Body {
     }
     /// Support: the set moves as a rigid body. motion: displacement \[L\], then in 2D the angle about centre\[dim\], in 3D a vector
     /// along the axis as long as the angle; NULL: 0. The load factor multiplies it; or fn writes it (may be NULL).
-    pub fn prescribe_rigid(&self, set: i32, centre: &[f64], motion: &[f64], r#fn: Option<Box<dyn Fn(f64, &mut [f64]) -> i32 + Send + Sync>>) -> Result<i32> {
+    pub fn prescribe_rigid(&self, set: i32, centre: &[f64], motion: Option<&[f64]>, r#fn: Option<Box<dyn Fn(f64, &mut [f64]) -> i32 + Send + Sync>>) -> Result<i32> {
         sized(centre.len(), i64::from(self.dimension()), "centre")?;
-        sized(motion.len(), i64::from(self.dimension())+(2 * i64::from(self.dimension()) - 3), "motion")?;
+        if let Some(a) = motion.as_deref() {
+                    sized(a.len(), i64::from(self.dimension())+(2 * i64::from(self.dimension()) - 3), "motion")?;
+                }
         let call_c: sys::peri_rigid_fn = if r#fn.is_some() { Some(RigidFnHolder::call_c) } else { None };
         let holder = Arc::new(RigidFnHolder { dim: i64::from(self.dimension()), call: r#fn });
         let user = Arc::as_ptr(&holder) as *mut c_void;
         if call_c.is_some() {
                     keep(&self.keep, holder.clone());
                 }
-        let result = unsafe { sys::peri_prescribe_rigid(self.handle, set, centre.as_ptr(), motion.as_ptr(), call_c, user) };
+        let result = unsafe { sys::peri_prescribe_rigid(self.handle, set, centre.as_ptr(), motion.map_or(std::ptr::null(), |a| a.as_ptr()), call_c, user) };
         self.check(i64::from(result))?;
         Ok(result)
     }
