@@ -13,6 +13,7 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..")
+sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(HERE, "bind"))
 import model as models  # noqa: E402
 

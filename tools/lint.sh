@@ -37,7 +37,7 @@ awk 'length > 100 { printf "lint: peri.h:%d: longer than 100\n", FNR; bad = 1 }
     END { if (size > 80000) { printf "lint: peri.h: %d bytes, more than 80,000\n", size; bad = 1 }
           if (said > 0.55 * size) { printf "lint: peri.h: comments are %.1f %% of it, more than 55\n", 100 * said / size; bad = 1 }
           exit bad }' peri.h || status=1
-grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* extras/* examples/*.[ch] examples/gallery/* tests/*.* tests/extremes/* tests/promises/* bench/* tools/* Makefile README.md && fail "trailing blanks"
+grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* extras/* examples/*.[ch] examples/gallery/* tests/*.* tests/extremes/* tests/promises/* bench/* tools/*.* tools/bind/*.* Makefile README.md && fail "trailing blanks"
 grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the library prints or exits"
 # no state: every variable of the library is const or local
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
