@@ -274,3 +274,61 @@ lint:
 
 clean:
 	rm -rf build out
+
+# WebAssembly and the layer of JavaScript above it: build/js is a package of its own (bindings/js/README.md). peri.wasm is the whole library;
+# peri2d.wasm the plane in motion and single precision, for pages. The kernels, where the time goes, are optimised for speed, the rest for size.
+EMCC ?= emcc
+WASM = $(EMCC) -std=c99 -msimd128 -mnontrapping-fptoint -mbulk-memory -msign-ext -DPERI_NO_STDIO -I.
+WASM_2D = -DPERI_NO_3D -DPERI_NO_F64 -DPERI_NO_MIXED -DPERI_NO_STATICS -DPERI_NO_ADVICE -DPERI_NO_OUTPUT
+WASM_LINK = $(EMCC) -Oz --no-entry -s STANDALONE_WASM=1 -s ALLOW_MEMORY_GROWTH=1 -s MALLOC=emmalloc -Wl,--growable-table,--export-table \
+    -s EXPORTED_FUNCTIONS=@build/wasm/calls.txt
+
+build/wasm/calls.txt: peri.h
+	@mkdir -p $(@D)
+	sed -n 's/^PERI_API [^(]*[ *]\(peri_[a-z0-9_]*\)(.*/_\1/p' peri.h | \
+	    grep -v -x -e _peri_export_vtu -e _peri_export_history -e _peri_save_state -e _peri_load_state > $@
+	printf '_malloc\n_free\n' >> $@
+
+build/wasm/%2.o: $(KERNEL_TEXT)
+	@mkdir -p $(@D)
+	$(WASM) -O2 -DPERI_SPLIT $(KERNEL_$*) -DPERI_T_DIM=2 -c src/kernels/unit.c -o $@
+
+build/wasm/%3.o: $(KERNEL_TEXT)
+	@mkdir -p $(@D)
+	$(WASM) -O2 -DPERI_SPLIT $(KERNEL_$*) -DPERI_T_DIM=3 -c src/kernels/unit.c -o $@
+
+build/wasm/core.o: peri.h peri_impl.c $(filter-out src/kernels/%,$(SOURCES))
+	@mkdir -p $(@D)
+	$(WASM) -Oz -DPERI_SPLIT -c peri_impl.c -o $@
+
+build/wasm/plane.o: $(SOURCES)
+	@mkdir -p $(@D)
+	$(WASM) $(WASM_2D) -Os -c peri_impl.c -o $@
+
+build/js/peri.wasm: build/wasm/core.o $(KERNELS:%=build/wasm/%.o) build/wasm/calls.txt
+	@mkdir -p $(@D)
+	$(WASM_LINK) $(filter %.o,$^) -o $@
+
+build/js/peri2d.wasm: build/wasm/plane.o build/wasm/calls.txt
+	@mkdir -p $(@D)
+	$(WASM_LINK) $(filter %.o,$^) -o $@
+
+# sizes and offsets are what the compiler makes of peri.h for this machine
+build/wasm/sizes.json: tools/api.py peri.h
+	@mkdir -p $(@D)
+	python3 tools/api.py --sizes > build/wasm/sizes.c
+	$(EMCC) -I. -s SINGLE_FILE=1 build/wasm/sizes.c -o build/wasm/sizes.js
+	node build/wasm/sizes.js > $@.new
+	mv $@.new $@
+
+build/js/api.mjs: tools/bind_js.mjs bindings/api.json build/wasm/sizes.json $(wildcard bindings/js/*)
+	@mkdir -p $(@D)
+	cp bindings/js/* build/js/
+	node tools/bind_js.mjs bindings/api.json build/wasm/sizes.json build/js
+
+wasm: build/js/peri.wasm build/js/peri2d.wasm build/js/api.mjs
+	@for f in build/js/*.wasm; do echo "$$f: $$(gzip -9c $$f | wc -c) bytes by gzip"; done
+
+build/wasm/scenes: tests/binding_scenes.c build/libperi.a
+	@mkdir -p $(@D)
+	$(COMPILE) -O0 $^ -o $@ -lm
