@@ -332,3 +332,13 @@ wasm: build/js/peri.wasm build/js/peri2d.wasm build/js/api.mjs
 build/wasm/scenes: tests/binding_scenes.c build/libperi.a
 	@mkdir -p $(@D)
 	$(COMPILE) -O0 $^ -o $@ -lm
+
+# the page, in one file: build/web/index.html (web/README.md)
+build/web/index.html: build/js/peri.wasm build/js/api.mjs docs/accuracy.md $(wildcard web/*.*)
+	node web/build.mjs build/js $@
+
+web: build/web/index.html
+
+# the layer under node, and the page in Chromium; what is not on this machine is skipped by name
+web-test:
+	@EMCC="$(EMCC)" CC="$(CC)" sh tests/web/run.sh

@@ -46,7 +46,7 @@ function makeField(s, f) {
         const own = f.name.replace(/_fn$/, "") + "_user";
         Object.assign(out, { role: "callback", of: f.type, user: s.fields.some(x => x.name === own) ? own : "user" });
     } else if (/(^|_)user$/.test(f.name)) out.role = "user";
-    else if (f.pointer && structs.has(f.type)) Object.assign(out, { role: "struct", of: f.type });
+    else if (structs.has(f.type)) Object.assign(out, { role: f.pointer ? "struct" : "inner", of: f.type });
     else if (f.type === "char") out.role = "text";
     else if (s.name === "peri_view" && f.name === "data") out.role = "pointer";
     else if (f.pointer) Object.assign(out, { role: "array", of: TYPES[f.type], const: f.const, entries: entries(s.name, f) });
@@ -134,7 +134,7 @@ function callbackType(c) {
 
 function fieldType(f, m, isInput) {
     if (m.role === "callback") return Name(m.of);
-    if (m.role === "struct") return Name(m.of);
+    if (m.role === "struct" || m.role === "inner") return Name(m.of);
     if (m.role === "text") return "string";
     if (m.role === "array") return isInput && m.const && m.of !== "void" ? numbers : ARRAYS[m.of];
     return m.length ? (isInput ? numbers : "number[]") : "number";

@@ -158,12 +158,15 @@ class Call {
         const s = api.structs[name], at = this.allocate(s.size);
         new Uint8Array(this.m.memory.buffer, at, s.size).fill(0);
         if (s.init) this.m.exports[s.init](at, ...s.initWith.map(w => this.needed(value, w, name)));
+        this.fill(s, at, value, name);
+        return at;
+    }
+    fill(s, at, value, name) {
         for (const [key, given] of Object.entries(value ?? {})) {
             const f = s.fields[key];
             if (!f || f.role === "user" || key === "cookie") throw new TypeError(`${name}: there is no field "${key}"`);
             if (given !== undefined && given !== null) this.field(f, at + f.at, given, `${name}.${key}`, at, s, value);
         }
-        return at;
     }
     needed(value, key, name) {
         if (typeof value?.[key] !== "number") throw new TypeError(`${name}: ${key} is required`);
@@ -186,7 +189,8 @@ class Call {
             const user = this.user({ [f.of]: value });
             this.m.set("ptr", at, this.m.trampoline(f.of));
             this.m.set("ptr", base + s.fields[f.user].at, user);
-        } else if (f.role === "struct") this.m.set("ptr", at, this.structIn(f.of, value));
+        } else if (f.role === "inner") this.fill(api.structs[f.of], at, value, name);
+        else if (f.role === "struct") this.m.set("ptr", at, this.structIn(f.of, value));
         else if (f.role === "array") this.fieldArray(f, at, value, name, owner);
         else if (f.length) {
             if (value.length > f.length) throw new TypeError(`${name}: at most ${f.length} entries`);
@@ -201,6 +205,7 @@ class Call {
         for (const [key, f] of Object.entries(api.structs[name].fields)) {
             if (key === "cookie" || key === "reserved" || f.role === "user" || f.role === "hook" || f.role === "callback") continue;
             if (f.role === "text") out[key] = this.m.text(this.m.get("ptr", at + f.at));
+            else if (f.role === "inner") out[key] = this.structOut(f.of, at + f.at);
             else if (f.length) out[key] = Array.from({ length: f.length }, (_, k) => this.m.get(f.t, at + f.at + k * SIZES[f.t]));
             else if (!f.role) out[key] = this.m.get(f.t, at + f.at);
         }

@@ -193,6 +193,7 @@ test("a bar pulled by Hooke's law; nested descriptors; results by name", () => {
     const choice = peri.choose({ preset: peri.PRESET_TEACHING, quantity: peri.QUANTITY_WAVES, feature: 0.2, lo: [0, 0], hi: [1, 1] },
         { space: peri.SPACE_PLANE_STRESS }, { law: peri.LAW_BOND_BASED, young: 1, density: 1 });
     assert.ok(choice.report.error <= 0.1 && choice.body.horizon > choice.report.spacing && choice.report.text.length > 10);
+    assert.ok(choice.report.cost.points > 10 && choice.report.cost.stable_step > 0);
     body.destroy();
 });
 
