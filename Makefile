@@ -15,6 +15,9 @@
 #                alone, M=17, M=100-150 or M=part_of_a_name, LONG=1 with the long tables, too; needs python3
 # make fuzz      random programs by libFuzzer under sanitizers, FUZZ_TIME seconds long (300); needs clang
 # make bindings  bindings/api.json, peri.h as data, and what is made of it for other languages; needs python3
+# make wasm      build/js, a package for node and browsers: WebAssembly and a typed layer (bindings/js); needs emcc and node
+# make web       build/web/index.html, the page where one strikes glass, in one file (web)
+# make web-test  the layer under node, the page in headless Chromium; needs npm
 # make lint      strict warnings under every compiler found, static analysis, house rules
 # make clean     removes build/ and out/
 
@@ -326,6 +329,7 @@ build/js/api.mjs: tools/bind_js.mjs bindings/api.json build/wasm/sizes.json $(wi
 	cp bindings/js/* build/js/
 	node tools/bind_js.mjs bindings/api.json build/wasm/sizes.json build/js
 
+.PHONY: wasm web web-test
 wasm: build/js/peri.wasm build/js/peri2d.wasm build/js/api.mjs
 	@for f in build/js/*.wasm; do echo "$$f: $$(gzip -9c $$f | wc -c) bytes by gzip"; done
 

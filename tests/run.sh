@@ -144,6 +144,7 @@ else
         done
     fi
     . tests/sanitizers.sh
+    check web sh tests/web/run.sh
 fi
 
 for name in $all; do cat "build/queue/$name.sum" 2> /dev/null || echo "0 1 0 $name"; done | sort -k 3 -n -r > build/sums

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // bind_js.mjs - bindings/api.json and the sizes that a program printed under WebAssembly -> api.mjs, what bindings/js/peri.mjs works by,
-// and peri.d.ts, the same for TypeScript and editors.
+// and peri.d.mts, the same for TypeScript and editors.
 //   node tools/bind_js.mjs bindings/api.json build/wasm/sizes.json build/js
 import { readFileSync, writeFileSync } from "node:fs";
 
@@ -163,7 +163,7 @@ function resultType(f) {
     const outs = f.params.filter(p => ["new", "struct inout", "array out", "struct out"].includes(p.role)).map(p => {
         const one = p.role === "new" || p.role.startsWith("struct") ? Name(p.of) : p.single ? "number" : ARRAYS[p.of];
         const many = p.role === "struct out" && !p.single ? "[]" : "";
-        return [p.name, one + many + (p.role === "array out" && p.optional ? " | null" : "")];
+        return [p.name, one + many + (p.single && p.optional ? " | null" : "")];
     });
     const object = list => `{ ${list.map(([n, t]) => `${n}: ${t}`).join("; ")} }`;
     if (f.result === "count" && outs.length) return object([["count", "number"], ...outs]);
@@ -204,4 +204,4 @@ lines.push("}", "/** The library; source: the bytes, the address or a compiled m
 if (opaque.size !== 3) throw new Error("a class of its own for the new opaque type: bindings/js/peri.mjs");
 const about = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));
 writeFileSync(`${folder}/package.json`, JSON.stringify({ ...about, version: constants.VERSION }, null, 2) + "\n");
-writeFileSync(`${folder}/peri.d.ts`, lines.join("\n") + "\n");
+writeFileSync(`${folder}/peri.d.mts`, lines.join("\n") + "\n");

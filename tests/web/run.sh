@@ -7,16 +7,19 @@ done
 make --no-print-directory CC="${CC:-cc}" wasm build/wasm/scenes > build/wasm.log 2>&1 || { tail -n 20 build/wasm.log; exit 1; }
 tail -n 2 build/wasm.log
 node tests/web/layer.mjs build/js build/wasm/scenes || exit 1
+node tests/web/grows.mjs "${EMCC:-emcc}" || exit 1
 
+command -v npm > /dev/null || { echo "web-test: no npm on this machine, types and the page are skipped"; exit 0; }
+mkdir -p build/web-test
+cp tests/web/page.mjs tests/web/types.mts build/web-test/
+if [ ! -d build/web-test/node_modules/typescript ]; then
+    (cd build/web-test && { [ -f package.json ] || npm init -y > /dev/null; } && \
+        npm install --no-audit --no-fund playwright-core@1 axe-core@4 typescript@5 > npm.log 2>&1) || \
+        { tail -n 3 build/web-test/npm.log; echo "web-test: playwright-core, axe-core and typescript cannot be had, types and the page are skipped"; exit 0; }
+fi
+(cd build/web-test && node node_modules/typescript/bin/tsc --noEmit --strict --target es2022 --module nodenext types.mts) || exit 1
+echo "ok   types"
 CHROMIUM=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || command -v google-chrome)}
 [ -n "$CHROMIUM" ] || { echo "web-test: no Chromium on this machine, the page is skipped"; exit 0; }
-command -v npm > /dev/null || { echo "web-test: no npm on this machine, the page is skipped"; exit 0; }
-mkdir -p build/web-test
-cp tests/web/page.mjs build/web-test/
-if [ ! -d build/web-test/node_modules/axe-core ]; then
-    (cd build/web-test && { [ -f package.json ] || npm init -y > /dev/null; } && \
-        npm install --no-audit --no-fund playwright-core@1 axe-core@4 > npm.log 2>&1) || \
-        { tail -n 3 build/web-test/npm.log; echo "web-test: playwright-core and axe-core cannot be had, the page is skipped"; exit 0; }
-fi
 make --no-print-directory web || exit 1
 CHROMIUM=$CHROMIUM node build/web-test/page.mjs build/web/index.html build/web-test
