@@ -9,7 +9,7 @@ const calm = matchMedia("(prefers-reduced-motion: reduce)"), dark = matchMedia("
 const LINES = { // of the ledger: in grey they differ by dashes
     external: ["Put in", "#8a6d00", "#e6c54a", []], kinetic: ["Motion", "#0b5f8a", "#7cc3ea", []],
     elastic: ["Bonds, stored", "#00704f", "#5fcf9f", [6, 3]], fracture: ["Bonds, broken", "#a63a14", "#ff9a66", [2, 3]],
-    error: ["Left open", "#6b6b6b", "#b0b0b0", [1, 4]],
+    damping: ["Damped, rubbed away", "#7a3f8f", "#cf9be0", [8, 2, 2, 2]], error: ["Left open", "#6b6b6b", "#b0b0b0", [1, 4]],
 };
 const TERMS = {
     kinetic: ["inertia", "At work: inertia, the motion of mass."], elastic: ["bonds", "At work: the bonds, stretched and sheared."],
@@ -71,10 +71,11 @@ function ask() {
 }
 
 function rest(data) {
-    tried = data.error === undefined ? tried : [...tried, { horizon: about.horizon / BODIES[settings.body].size[1], error: data.error }];
-    measured = data.error ?? null;
+    tried = data.deflection === undefined ? tried : [...tried, { horizon: about.horizon / BODIES[settings.body].size[1], error: data.error }];
+    measured = data.error === undefined ? null : { error: data.error, of: data.ratio === undefined ? "of the deflection at rest"
+        : `of Poisson’s ratio at rest, ${data.ratio.toFixed(3)}` };
     showError();
-    say(data.error === undefined ? `At rest after ${data.iterations} iterations.`
+    say(data.ratio !== undefined ? `At rest, Poisson’s ratio is ${data.ratio.toFixed(3)}.` : data.error === undefined ? `At rest after ${data.iterations} iterations.`
         : `At rest: the tip is ${(data.deflection * 1e3).toPrecision(3)} millimetres lower; beams of this kind ${(data.known * 1e3).toPrecision(3)}.`);
     tell({ type: "frame", field: settings.field, steps: 0 });
 }
@@ -150,8 +151,8 @@ function showError() {
     const body = BODIES[settings.body], isWave = settings.lesson === "waves", problem = isWave ? "wave" : body.problem;
     const across = Math.round(isWave ? 4 * STRUCK(settings.m) : body.feature / body.size[0] * settings.n);
     if (measured !== null) {
-        $("error").textContent = `${(100 * measured).toPrecision(2)} %`;
-        $("error-text").textContent = "error of the deflection at rest";
+        $("error").textContent = `${(100 * measured.error).toPrecision(2)} %`;
+        $("error-text").textContent = `error ${measured.of}`;
         return;
     }
     const recipe = settings.law === "BOND_BASED" ? (settings.correction === "MOMENT" ? 1 : 0) : settings.law === "LPS" ? 2 : 3;

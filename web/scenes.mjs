@@ -43,9 +43,9 @@ export const LESSONS = {
             "halve the number of points and look at the ripples behind the front.",
     },
     poisson: {
-        name: "Poisson’s ratio", set: { body: "plate", law: "LPS", poisson: 0.33, pull: 1, breaks: 0, field: "stress", n: 60, notch: 0, steps: 4 },
-        text: "Pull the plate and see it narrow. Bonds that act alone have one ratio, 1/3 in thin plates; in the state-based laws each bond knows " +
-            "the volume change of its whole family, so that any ratio can be had. Press “Find rest” after a change.",
+        name: "Poisson’s ratio", set: { law: "LPS", poisson: 0.2, pull: 2, breaks: 0, field: "stress", n: 60, notch: 0, steps: 4 },
+        text: "Pulled up and down, the pane narrows. Bonds that act alone have one ratio, 1/3 in thin plates; in the state-based laws each bond " +
+            "knows the volume change of its whole family, so that any ratio can be had. “Find rest” measures it; the moment correction makes it right.",
     },
     criteria: {
         name: "Criteria", set: { law: "LPS", poisson: 0.22, criterion: "BOND_ENERGY", n: 110, m: 3 },

@@ -158,7 +158,20 @@ class Scene {
             const known = -(force * arm ** 3 / (3 * b.young * inertia) + force * arm / (shear * y * 5 / 6));
             Object.assign(out, { deflection: sum / this.tip.length, known, error: Math.abs(sum / this.tip.length / known - 1) });
         }
+        if (s.body === "pane" && this.pulled && !s.notch && !s.breaks) {
+            const ratio = this.ratio();
+            if (Number.isFinite(ratio)) Object.assign(out, { ratio, error: Math.abs(ratio / poissonOf(s) - 1) });
+        }
         return out;
+    }
+    /** -strain across over strain along the pull, within, where no surface is near. */
+    ratio() {
+        const { body, b, horizon, reference } = this, strain = body.get_field(peri.FIELD_STRAIN), sums = [0, 0];
+        for (let i = 0; i < reference.length / 2; ++i) {
+            const inside = b.size.every((l, k) => reference[2 * i + k] > 3 * horizon && reference[2 * i + k] < l - 3 * horizon);
+            if (inside) for (let k = 0; k < 2; ++k) sums[k] += strain[3 * i + k];
+        }
+        return -sums[0] / sums[1];
     }
     values(field) {
         const { body } = this;
