@@ -5,20 +5,29 @@
 import { readFileSync, writeFileSync } from "node:fs";
 
 const [apiFile, sizesFile, folder] = process.argv.slice(2);
-const api = JSON.parse(readFileSync(apiFile, "utf8")), sizes = JSON.parse(readFileSync(sizesFile, "utf8"));
+const api = JSON.parse(readFileSync(apiFile, "utf8")),
+    sizes = JSON.parse(readFileSync(sizesFile, "utf8"));
 if (sizes.pointer !== 4) throw new Error("sizes of another machine");
 
 const short = name => name.replace(/^peri_/i, "");
 const TYPES = { int32_t: "i32", uint32_t: "i32", int64_t: "i64", uint64_t: "u64", double: "f64", float: "f32", void: "void" };
-const callbacks = new Map(api.callbacks.map(c => [c.name, c])), structs = new Map(api.structs.map(s => [s.name, s]));
-const functions = new Map(api.functions.map(f => [f.name, f])), opaque = new Set(api.opaque.map(o => o.name));
+const callbacks = new Map(api.callbacks.map(c => [c.name, c])),
+    structs = new Map(api.structs.map(s => [s.name, s]));
+const functions = new Map(api.functions.map(f => [f.name, f])),
+    opaque = new Set(api.opaque.map(o => o.name));
 const HOOKS = /^peri_(allocate|release|parallel_for|task)_fn$/; // for C: nothing that JavaScript could do there
 
 // Lengths that depend on more than the text beside the argument says.
 const ENTRIES = {
-    "peri_motion_fn.turn": "dim==2?1:4", "peri_rigid_fn.motion": "dim+turns", "peri_distance_fn.distance": "1",
-    ...Object.fromEntries(["displacement", "velocity", "force", "impulse"].map(n =>
-        ["peri_evaluate_desc." + n, "(points-1)*(point_stride||dim)+(dim-1)*(component_stride||1)+1"])),
+    "peri_motion_fn.turn": "dim==2?1:4",
+    "peri_rigid_fn.motion": "dim+turns",
+    "peri_distance_fn.distance": "1",
+    ...Object.fromEntries(
+        ["displacement", "velocity", "force", "impulse"].map(n => [
+            "peri_evaluate_desc." + n,
+            "(points-1)*(point_stride||dim)+(dim-1)*(component_stride||1)+1",
+        ]),
+    ),
 };
 const entries = (owner, p) => {
     const said = ENTRIES[`${owner}.${p.name}`] ?? p.entries;
@@ -39,7 +48,8 @@ function makeCallback(c) {
 }
 
 function makeField(s, f) {
-    const [at] = sizes.structs[s.name].fields[f.name], out = { at, t: f.pointer || callbacks.has(f.type) ? "ptr" : TYPES[f.type] };
+    const [at] = sizes.structs[s.name].fields[f.name],
+        out = { at, t: f.pointer || callbacks.has(f.type) ? "ptr" : TYPES[f.type] };
     if (f.length) out.length = f.length;
     if (HOOKS.test(f.type)) out.role = "hook";
     else if (callbacks.has(f.type)) {
@@ -55,8 +65,12 @@ function makeField(s, f) {
 
 function makeStruct(s) {
     const init = functions.get(s.name + "_init");
-    return { size: sizes.structs[s.name].size, init: init?.name, initWith: init?.params.slice(1).map(p => p.name),
-        fields: Object.fromEntries(s.fields.map(f => [f.name, makeField(s, f)])) };
+    return {
+        size: sizes.structs[s.name].size,
+        init: init?.name,
+        initWith: init?.params.slice(1).map(p => p.name),
+        fields: Object.fromEntries(s.fields.map(f => [f.name, makeField(s, f)])),
+    };
 }
 
 function makeParam(f, p, k) {
@@ -84,12 +98,17 @@ function makeParam(f, p, k) {
 }
 
 function makeFunction(f) {
-    const params = f.params.map((p, k) => makeParam(f, p, k)), of = f.params[0]?.role === "handle" ? f.params[0].type : undefined;
+    const params = f.params.map((p, k) => makeParam(f, p, k)),
+        of = f.params[0]?.role === "handle" ? f.params[0].type : undefined;
     const asked = ["value", "text", "array in", "struct in", "struct inout", "callback"];
     const given = params.filter(p => !p.counts && asked.includes(p.role)).map(p => p.name);
     const js = of && f.name.startsWith(of + "_") ? f.name.slice(of.length + 1) : short(f.name);
     return {
-        name: f.name, js, of, given, params,
+        name: f.name,
+        js,
+        of,
+        given,
+        params,
         result: f.result === "count or status" ? (f.returns === "int64_t" ? "count" : "status") : f.result,
         bytes: f.params.some(p => /^peri_(write|read)_fn$/.test(p.type)) || undefined,
         // callbacks of loads, of obstacles and of the body outlive the call; the others end with it
@@ -101,7 +120,8 @@ function makeFunction(f) {
 const constants = Object.fromEntries([...api.constants, ...api.enums.flatMap(e => e.values)].map(v => [short(v.name), v.value]));
 const status = api.enums.find(e => e.name === "peri_status").values;
 const made = {
-    constants, codes: Object.fromEntries(Object.entries(constants).filter(([k]) => /^(ERROR|TYPE)_/.test(k))),
+    constants,
+    codes: Object.fromEntries(Object.entries(constants).filter(([k]) => /^(ERROR|TYPE)_/.test(k))),
     statusNames: Object.fromEntries(status.map(v => [v.value, v.name])),
     callbacks: Object.fromEntries(api.callbacks.filter(c => !HOOKS.test(c.name)).map(c => [c.name, makeCallback(c)])),
     structs: Object.fromEntries(api.structs.map(s => [s.name, makeStruct(s)])),
@@ -111,24 +131,41 @@ const made = {
 /** JSON, but for the arrows that compute lengths. */
 const code = value => JSON.stringify(value).replace(/"(s => [^"]*)"/g, "$1");
 
-writeFileSync(`${folder}/api.mjs`, "// made by tools/bind_js.mjs of bindings/api.json\nexport const api = {\n" +
-    Object.entries(made).map(([name, part]) => name === "constants" || name === "codes" || name === "statusNames" ? `${name}: ${code(part)}`
-        : `${name}: {\n${Object.entries(part).map(([k, v]) => `${k}: ${code(v)}`).join(",\n")}\n}`).join(",\n") + "\n};\n");
+writeFileSync(
+    `${folder}/api.mjs`,
+    "// made by tools/bind_js.mjs of bindings/api.json\nexport const api = {\n" +
+        Object.entries(made)
+            .map(([name, part]) =>
+                name === "constants" || name === "codes" || name === "statusNames"
+                    ? `${name}: ${code(part)}`
+                    : `${name}: {\n${Object.entries(part)
+                          .map(([k, v]) => `${k}: ${code(v)}`)
+                          .join(",\n")}\n}`,
+            )
+            .join(",\n") +
+        "\n};\n",
+);
 
 // ---- types ------------------------------------------------------------------------------------------------------------------
 
 const ARRAYS = { i32: "Int32Array", f64: "Float64Array", f32: "Float32Array", i64: "number[]", void: "Float64Array | Float32Array" };
-const Name = name => short(name).replace(/_fn$/, "_callback").replace(/(^|_)(\w)/g, (_, _u, c) => c.toUpperCase());
-const doc = (text, indent = "") => text ? `${indent}/** ${text.replaceAll("*/", "* /")} */\n` : "";
+const Name = name =>
+    short(name)
+        .replace(/_fn$/, "_callback")
+        .replace(/(^|_)(\w)/g, (_, _u, c) => c.toUpperCase());
+const doc = (text, indent = "") => (text ? `${indent}/** ${text.replaceAll("*/", "* /")} */\n` : "");
 const numbers = "ArrayLike<number>";
 const lines = ["// made by tools/bind_js.mjs of bindings/api.json"];
 
 function callbackType(c) {
     const m = made.callbacks[c.name];
-    const args = c.params.filter((p, k) => m.params[k].role !== "user" && !m.params[k].counts).map(p => {
-        const k = m.params.find(q => q.name === p.name);
-        return `${p.name}: ${k.role === "array" ? ARRAYS[k.of] : { bytes: "Uint8Array", text: "string", handle: "Body" }[k.role] ?? "number"}`;
-    });
+    const args = c.params
+        .filter((p, k) => m.params[k].role !== "user" && !m.params[k].counts)
+        .map(p => {
+            const k = m.params.find(q => q.name === p.name);
+            const plain = { bytes: "Uint8Array", text: "string", handle: "Body" };
+            return `${p.name}: ${k.role === "array" ? ARRAYS[k.of] : (plain[k.role] ?? "number")}`;
+        });
     return `(${args.join(", ")}) => number | boolean | void`;
 }
 
@@ -142,7 +179,8 @@ function fieldType(f, m, isInput) {
 
 for (const c of api.callbacks) if (made.callbacks[c.name]) lines.push(doc(c.doc) + `export type ${Name(c.name)} = ${callbackType(c)};`);
 for (const s of api.structs) {
-    const m = made.structs[s.name], isInput = Boolean(m.init) || s.name === "peri_obstacle_state";
+    const m = made.structs[s.name],
+        isInput = Boolean(m.init) || s.name === "peri_obstacle_state";
     lines.push(doc(s.doc) + `export interface ${Name(s.name)} {`);
     for (const f of s.fields) {
         const k = m.fields[f.name];
@@ -160,11 +198,13 @@ for (const s of api.structs) {
 function resultType(f) {
     if (f.result === "text") return "string";
     if (f.name === "peri_view_field") return "View";
-    const outs = f.params.filter(p => ["new", "struct inout", "array out", "struct out"].includes(p.role)).map(p => {
-        const one = p.role === "new" || p.role.startsWith("struct") ? Name(p.of) : p.single ? "number" : ARRAYS[p.of];
-        const many = p.role === "struct out" && !p.single ? "[]" : "";
-        return [p.name, one + many + (p.single && p.optional ? " | null" : "")];
-    });
+    const outs = f.params
+        .filter(p => ["new", "struct inout", "array out", "struct out"].includes(p.role))
+        .map(p => {
+            const one = p.role === "new" || p.role.startsWith("struct") ? Name(p.of) : p.single ? "number" : ARRAYS[p.of];
+            const many = p.role === "struct out" && !p.single ? "[]" : "";
+            return [p.name, one + many + (p.single && p.optional ? " | null" : "")];
+        });
     const object = list => `{ ${list.map(([n, t]) => `${n}: ${t}`).join("; ")} }`;
     if (f.result === "count" && outs.length) return object([["count", "number"], ...outs]);
     if (outs.length > 1) return object(outs);
@@ -174,8 +214,16 @@ function resultType(f) {
 function signature(f) {
     const args = f.given.map((name, k) => {
         const p = f.params.find(q => q.name === name);
-        const type = p.role === "value" ? "number" : p.role === "text" ? "string | null" : p.role === "array in" ? numbers
-            : p.role === "callback" ? Name(p.of) : Name(p.of);
+        const type =
+            p.role === "value"
+                ? "number"
+                : p.role === "text"
+                  ? "string | null"
+                  : p.role === "array in"
+                    ? numbers
+                    : p.role === "callback"
+                      ? Name(p.of)
+                      : Name(p.of);
         const rest = f.given.slice(k).map(n => f.params.find(q => q.name === n));
         const mayLack = q => q.optional || q.role === "struct in" || q.role === "struct inout" || (f.bytes && q.role === "callback");
         const bytes = f.bytes && p.of === "peri_read_fn" ? " | Uint8Array" : "";
@@ -191,16 +239,29 @@ for (const name of ["peri_body", "peri_matrix", "peri_cracks"]) {
     for (const f of visible) if (f.of === name) lines.push(doc(functions.get(f.name).doc, "    ") + "    " + signature(f));
     lines.push("    /** Frees it. */\n    destroy(): void;", "}");
 }
-lines.push("export declare class PeriError extends Error {", "    code: number;", "    /** PERI_ERROR_RANGE, ... */\n    status: string;",
-    "    /** The name in peri.h of what is at fault, or \"\". */\n    field: string;",
-    "    /** The first offending point, entry or id; else -1. */\n    index: number;", "    value: number;", "}", "export interface Peri {", "    Body: new (desc: BodyDesc) => Body;", "    PeriError: typeof PeriError;",
-    "    readonly memory: WebAssembly.Memory;");
+lines.push(
+    "export declare class PeriError extends Error {",
+    "    code: number;",
+    "    /** PERI_ERROR_RANGE, ... */\n    status: string;",
+    '    /** The name in peri.h of what is at fault, or "". */\n    field: string;',
+    "    /** The first offending point, entry or id; else -1. */\n    index: number;",
+    "    value: number;",
+    "}",
+    "export interface Peri {",
+    "    Body: new (desc: BodyDesc) => Body;",
+    "    PeriError: typeof PeriError;",
+    "    readonly memory: WebAssembly.Memory;",
+);
 for (const f of visible) if (!f.of) lines.push(doc(functions.get(f.name).doc, "    ") + "    " + signature(f));
 for (const v of [...api.constants, ...api.enums.flatMap(e => e.values)])
     lines.push(doc(v.doc, "    ") + `    readonly ${short(v.name)}: ${typeof v.value};`);
-lines.push("}", "/** The library; source: the bytes, the address or a compiled module of a build. Default: peri.wasm beside this file. */",
+lines.push(
+    "}",
+    "/** The library; source: the bytes, the address or a compiled module of a build. Default: peri.wasm beside this file. */",
     "export declare function load(source?: string | URL | BufferSource | WebAssembly.Module): Promise<Peri>;",
-    "/** The same of a compiled module, at once. */", "export declare function instantiate(module: WebAssembly.Module): Peri;");
+    "/** The same of a compiled module, at once. */",
+    "export declare function instantiate(module: WebAssembly.Module): Peri;",
+);
 if (opaque.size !== 3) throw new Error("a class of its own for the new opaque type: bindings/js/peri.mjs");
 const about = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));
 writeFileSync(`${folder}/package.json`, JSON.stringify({ ...about, version: constants.VERSION }, null, 2) + "\n");

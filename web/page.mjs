@@ -4,16 +4,24 @@ import { BODIES, FIELDS, LESSONS, STRUCK, fromHash, settingsOf, toHash } from ".
 import { Ledger, Stage, dots } from "./draw.mjs";
 
 const $ = id => document.getElementById(id);
-const form = $("settings"), stage = new Stage($("stage"));
-const calm = matchMedia("(prefers-reduced-motion: reduce)"), dark = matchMedia("(prefers-color-scheme: dark)");
-const LINES = { // of the ledger: in grey they differ by dashes
-    external: ["Put in", "#8a6d00", "#e6c54a", []], kinetic: ["Motion", "#0b5f8a", "#7cc3ea", []],
-    elastic: ["Bonds, stored", "#00704f", "#5fcf9f", [6, 3]], fracture: ["Bonds, broken", "#a63a14", "#ff9a66", [2, 3]],
-    damping: ["Damped, rubbed away", "#7a3f8f", "#cf9be0", [8, 2, 2, 2]], error: ["Left open", "#6b6b6b", "#b0b0b0", [1, 4]],
+const form = $("settings"),
+    stage = new Stage($("stage"));
+const calm = matchMedia("(prefers-reduced-motion: reduce)"),
+    dark = matchMedia("(prefers-color-scheme: dark)");
+const LINES = {
+    // of the ledger: in grey they differ by dashes
+    external: ["Put in", "#8a6d00", "#e6c54a", []],
+    kinetic: ["Motion", "#0b5f8a", "#7cc3ea", []],
+    elastic: ["Bonds, stored", "#00704f", "#5fcf9f", [6, 3]],
+    fracture: ["Bonds, broken", "#a63a14", "#ff9a66", [2, 3]],
+    damping: ["Damped, rubbed away", "#7a3f8f", "#cf9be0", [8, 2, 2, 2]],
+    error: ["Left open", "#6b6b6b", "#b0b0b0", [1, 4]],
 };
 const TERMS = {
-    kinetic: ["inertia", "At work: inertia, the motion of mass."], elastic: ["bonds", "At work: the bonds, stretched and sheared."],
-    fracture: ["breaks", "At work: μ, which turns from 1 to 0 as bonds break."], external: ["loads", "At work: the loads, and what strikes."],
+    kinetic: ["inertia", "At work: inertia, the motion of mass."],
+    elastic: ["bonds", "At work: the bonds, stretched and sheared."],
+    fracture: ["breaks", "At work: μ, which turns from 1 to 0 as bonds break."],
+    external: ["loads", "At work: the loads, and what strikes."],
 };
 const LAWS = {
     BOND_BASED: "Bond-based: t = ½ c w s along the bond, by its own stretch s alone.",
@@ -21,8 +29,21 @@ const LAWS = {
     CORRESPONDENCE: "Correspondence: t = w P K⁻¹ ξ, by the stress P of the strain that fits the whole family.",
 };
 
-let settings = fromHash(location.hash), about = null, last = null, scene = 0, running = false, isWaiting = false, isDirty = false;
-let isToTell = false, tool = "strike", press = null, energyBefore = null, said = 0, tried = [], measured = null, errors = {};
+let settings = fromHash(location.hash),
+    about = null,
+    last = null,
+    scene = 0,
+    running = false,
+    isWaiting = false,
+    isDirty = false;
+let isToTell = false,
+    tool = "strike",
+    press = null,
+    energyBefore = null,
+    said = 0,
+    tried = [],
+    measured = null,
+    errors = {};
 let ledger = new Ledger($("ledger"), {});
 
 // ---- the worker ---------------------------------------------------------------------------------------------------------------
@@ -71,12 +92,17 @@ function ask() {
 }
 
 function rest(data) {
-    tried = data.deflection === undefined ? tried : [...tried, { horizon: about.horizon / BODIES[settings.body].size[1], error: data.error }];
-    measured = data.error === undefined ? null : { error: data.error, of: data.ratio === undefined ? "of the deflection at rest"
-        : `of Poisson’s ratio at rest, ${data.ratio.toFixed(3)}` };
+    const millimetres = v => (v * 1e3).toPrecision(3);
+    measured = null;
+    if (data.ratio !== undefined) {
+        measured = { error: data.error, of: `of Poisson’s ratio at rest, ${data.ratio.toFixed(3)}` };
+        say(`At rest, Poisson’s ratio is ${data.ratio.toFixed(3)}.`);
+    } else if (data.deflection !== undefined) {
+        tried = [...tried, { horizon: about.horizon / BODIES[settings.body].size[1], error: data.error }];
+        measured = { error: data.error, of: "of the deflection at rest" };
+        say(`At rest: the tip is ${millimetres(-data.deflection)} millimetres lower; of beams like this ${millimetres(-data.known)}.`);
+    } else say(`At rest after ${data.iterations} iterations.`);
     showError();
-    say(data.ratio !== undefined ? `At rest, Poisson’s ratio is ${data.ratio.toFixed(3)}.` : data.error === undefined ? `At rest after ${data.iterations} iterations.`
-        : `At rest: the tip is ${(data.deflection * 1e3).toPrecision(3)} millimetres lower; beams of this kind ${(data.known * 1e3).toPrecision(3)}.`);
     tell({ type: "frame", field: settings.field, steps: 0 });
 }
 
@@ -90,8 +116,10 @@ function failed(data) {
 }
 
 function chosen(data) {
-    const range = BODIES[settings.body].points, isLarge = data.n > range[1];
-    $("choice").textContent = `${data.text}: ${data.points.toLocaleString("en")} points, error at most ${(100 * data.error).toPrecision(2)} %.` +
+    const range = BODIES[settings.body].points,
+        isLarge = data.n > range[1];
+    $("choice").textContent =
+        `${data.text}: ${data.points.toLocaleString("en")} points, error at most ${(100 * data.error).toPrecision(2)} %.` +
         (isLarge ? " That is too many for this page: the most it takes was set." : "");
     for (const key of ["law", "precision", "correction", "m"]) settings[key] = data[key];
     settings.n = Math.min(range[1], Math.max(range[0], data.n));
@@ -121,7 +149,8 @@ function changed(name) {
 
 /** The settings into the form. */
 function fill() {
-    const body = BODIES[settings.body], isBonded = settings.law === "BOND_BASED";
+    const body = BODIES[settings.body],
+        isBonded = settings.law === "BOND_BASED";
     [form.n.min, form.n.max] = body.points;
     for (const [key, value] of Object.entries(settings)) {
         const input = form.elements[key];
@@ -129,7 +158,8 @@ function fill() {
         if (input.type === "checkbox") input.checked = Boolean(value);
         else input.value = "log" in input.dataset ? Math.log10(value) : value;
         const output = input.parentElement.querySelector("output");
-        if (output) output.textContent = key === "toughness" ? Number(Number(value).toPrecision(2)) : key === "magnify" ? `${value} ×` : value;
+        if (output)
+            output.textContent = key === "toughness" ? Number(Number(value).toPrecision(2)) : key === "magnify" ? `${value} ×` : value;
     }
     const poisson = form.poisson.parentElement;
     form.poisson.disabled = isBonded;
@@ -148,8 +178,10 @@ function fill() {
 
 /** What docs/accuracy.md measured with settings like these; of a beam at rest, what it is. */
 function showError() {
-    const body = BODIES[settings.body], isWave = settings.lesson === "waves", problem = isWave ? "wave" : body.problem;
-    const across = Math.round(isWave ? 4 * STRUCK(settings.m) : body.feature / body.size[0] * settings.n);
+    const body = BODIES[settings.body],
+        isWave = settings.lesson === "waves",
+        problem = isWave ? "wave" : body.problem;
+    const across = Math.round(isWave ? 4 * STRUCK(settings.m) : (body.feature / body.size[0]) * settings.n);
     if (measured !== null) {
         $("error").textContent = `${(100 * measured.error).toPrecision(2)} %`;
         $("error-text").textContent = `error ${measured.of}`;
@@ -158,8 +190,12 @@ function showError() {
     const recipe = settings.law === "BOND_BASED" ? (settings.correction === "MOMENT" ? 1 : 0) : settings.law === "LPS" ? 2 : 3;
     const row = errors[problem]?.[recipe];
     if (!row) return;
-    const at = Math.log2(across / 8), k = Math.max(0, Math.min(2, Math.floor(at))), next = Math.min(2, k + 1), f = Math.min(1, Math.max(0, at - k));
-    const percent = row[k] * (row[next] / row[k]) ** f, sign = at < 0 ? "> " : at > 2 ? "< " : "";
+    const at = Math.log2(across / 8),
+        k = Math.max(0, Math.min(2, Math.floor(at))),
+        next = Math.min(2, k + 1),
+        f = Math.min(1, Math.max(0, at - k));
+    const percent = row[k] * (row[next] / row[k]) ** f,
+        sign = at < 0 ? "> " : at > 2 ? "< " : "";
     $("error").textContent = `${sign}${percent.toPrecision(2)} %`;
     $("error-text").textContent = `error: ${problem}, ${across} spacings, m = ${recipe === 0 ? 3 : 2}`;
 }
@@ -181,7 +217,8 @@ form.addEventListener("input", ({ target }) => {
 form.addEventListener("submit", event => event.preventDefault());
 
 let waitingFor = 0;
-function later(name) { // while a slider moves the body is not made anew
+function later(name) {
+    // while a slider moves the body is not made anew
     fill();
     clearTimeout(waitingFor);
     waitingFor = setTimeout(() => changed(name), 180);
@@ -198,14 +235,18 @@ $("share").addEventListener("click", async () => {
     } catch {
         $("share").textContent = "The link is in the address bar";
     }
-    setTimeout(() => { $("share").textContent = "Copy a link to these settings"; }, 2500);
+    setTimeout(() => {
+        $("share").textContent = "Copy a link to these settings";
+    }, 2500);
 });
 
 function lists() {
     for (const [key, body] of Object.entries(BODIES)) form.body.add(new Option(body.name, key));
     for (const [key, field] of Object.entries(FIELDS)) form.field.add(new Option(field.name, key));
     for (const [key, lesson] of Object.entries(LESSONS)) {
-        const label = document.createElement("label"), input = document.createElement("input"), span = document.createElement("span");
+        const label = document.createElement("label"),
+            input = document.createElement("input"),
+            span = document.createElement("span");
         Object.assign(input, { type: "radio", name: "lesson", value: key });
         span.textContent = lesson.name;
         label.append(input, span);
@@ -230,7 +271,8 @@ const placeOf = event => {
 
 function begin(place) {
     if (!about || !last) return;
-    const { point, far } = stage.pick(place), at = stage.place3(place);
+    const { point, far } = stage.pick(place),
+        at = stage.place3(place);
     press = { place, at, point, isOff: far > 4 * about.spacing, yaw: stage.yaw, pitch: stage.pitch };
     if (tool === "strike" && !press.isOff) {
         tell({ type: "strike", at, strength: settings.strength });
@@ -243,7 +285,8 @@ function move(place) {
     if (!press || !about) return;
     if (tool === "cut") stage.line = [press.place, place];
     if ((tool === "drag" || tool === "load") && !press.isOff) {
-        const way = stage.along(press.place, place), scale = tool === "drag" ? 1 / Math.max(1, settings.magnify) : 1 / about.size[0];
+        const way = stage.along(press.place, place),
+            scale = tool === "drag" ? 1 / Math.max(1, settings.magnify) : 1 / about.size[0];
         tell({ type: "hold", kind: tool, at: press.at, by: way.map(v => v * scale), strength: settings.strength });
         if (tool === "load") stage.line = [press.place, place];
     }
@@ -275,7 +318,8 @@ canvas.addEventListener("pointerup", event => end(placeOf(event)));
 canvas.addEventListener("pointercancel", event => end(placeOf(event)));
 
 canvas.addEventListener("keydown", event => {
-    const step = (event.shiftKey ? 40 : 12) * stage.scale, way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    const step = (event.shiftKey ? 40 : 12) * stage.scale,
+        way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
     const named = { s: "strike", d: "drag", c: "cut", l: "load" }[event.key.toLowerCase()];
     stage.cursor ??= [canvas.width / 2, canvas.height / 2];
     if (way) {
@@ -327,31 +371,44 @@ function notice(text) {
     $("notice").textContent = text;
 }
 
-function say(text) { $("live").textContent = text; }
+function say(text) {
+    $("live").textContent = text;
+}
 
-const brief = v => v === 0 ? "0" : Math.abs(v) >= 1e5 || Math.abs(v) < 1e-3 ? v.toExponential(1).replace("e+", "e") : String(Number(v.toPrecision(3)));
+const brief = v =>
+    v === 0 ? "0" : Math.abs(v) >= 1e5 || Math.abs(v) < 1e-3 ? v.toExponential(1).replace("e+", "e") : String(Number(v.toPrecision(3)));
 
 /** The state in words, for those who do not see it. */
 function report() {
     if (!last || !about) return;
-    const e = last.energy ?? energyBefore;
-    say(`${BODIES[settings.body].name}, ${about.points} points. After ${(last.time * 1e6).toPrecision(3)} microseconds ${last.broken} of ${about.bonds} ` +
-        `bonds are broken.${last.damage === undefined ? "" : ` Largest damage ${last.damage.toFixed(2)}.`}` +
-        `${e ? ` Energy of motion ${brief(e.kinetic)} joules, stored ${brief(e.elastic)}, lost in broken bonds ${brief(e.fracture)}.` : ""}`);
+    const e = last.energy ?? energyBefore,
+        microseconds = (last.time * 1e6).toPrecision(3);
+    const parts = [
+        `${BODIES[settings.body].name}, ${about.points} points.`,
+        `After ${microseconds} microseconds ${last.broken} of ${about.bonds} bonds are broken.`,
+    ];
+    if (last.damage !== undefined) parts.push(`Largest damage ${last.damage.toFixed(2)}.`);
+    if (e) parts.push(`Energy of motion ${brief(e.kinetic)} joules, stored ${brief(e.elastic)}, lost in broken bonds ${brief(e.fracture)}.`);
+    say(parts.join(" "));
 }
 
 function showEnergy(data) {
     const e = { ...data.energy, external: data.energy.external + data.energy.initial + data.energy.obstacle };
     ledger.add(data.time, e);
     for (const name of Object.keys(LINES)) $(`energy-${name}`).textContent = `${brief(e[name])} J`;
-    const way = Object.keys(TERMS).map(name => [name, Math.abs(e[name] - (energyBefore?.[name] ?? 0))]).sort((a, b) => b[1] - a[1])[0];
+    const way = Object.keys(TERMS)
+        .map(name => [name, Math.abs(e[name] - (energyBefore?.[name] ?? 0))])
+        .sort((a, b) => b[1] - a[1])[0];
     const works = way[1] > 0 && data.steps > 0 ? TERMS[way[0]] : null;
     for (const term of document.querySelectorAll(".term")) term.classList.toggle("works", term.dataset.term === works?.[0]);
     $("term-text").textContent = works?.[1] ?? "";
     energyBefore = e;
 }
 
-let barOf = "", counted = 0, countedFrom = performance.now(), drawn = 0;
+let barOf = "",
+    counted = 0,
+    countedFrom = performance.now(),
+    drawn = 0;
 function show() {
     isDirty = false;
     stage.show(last, settings.magnify);
@@ -399,9 +456,17 @@ let asked = 0;
 function colours() {
     const isDark = dark.matches;
     stage.setDark(isDark);
-    ledger.lines = Object.fromEntries(Object.entries(LINES).map(([name, [, light, night, dash]]) => [name, [isDark ? night : light, dash]]));
-    $("energies").innerHTML = Object.entries(LINES).map(([name, [text, , , dash]]) => `<dt><svg aria-hidden="true"><line x1="0" y1="2" x2="22" y2="2"` +
-        ` stroke="${ledger.lines[name][0]}" stroke-width="3" stroke-dasharray="${dash.join(" ")}"/></svg>${text}</dt><dd id="energy-${name}">0 J</dd>`).join("");
+    ledger.lines = Object.fromEntries(
+        Object.entries(LINES).map(([name, [, light, night, dash]]) => [name, [isDark ? night : light, dash]]),
+    );
+    const row = ([name, [text, , , dash]]) => {
+        const look = `stroke="${ledger.lines[name][0]}" stroke-width="3" stroke-dasharray="${dash.join(" ")}"`;
+        return (
+            `<dt><svg aria-hidden="true"><line x1="0" y1="2" x2="22" y2="2" ${look}/></svg>${text}</dt>` +
+            `<dd id="energy-${name}">0 J</dd>`
+        );
+    };
+    $("energies").innerHTML = Object.entries(LINES).map(row).join("");
     isDirty = Boolean(last);
 }
 
@@ -414,7 +479,9 @@ new ResizeObserver(() => {
     stage.resize();
     isDirty = Boolean(last);
 }).observe(canvas);
-document.addEventListener("visibilitychange", () => { if (document.hidden) run(false); });
+document.addEventListener("visibilitychange", () => {
+    if (document.hidden) run(false);
+});
 
 export function start(bytes, table) {
     errors = table;

@@ -3,12 +3,13 @@
 import { instantiate } from "../build/js/peri.mjs";
 import { BODIES, STRUCK, poissonOf, waveSpeed } from "./scenes.mjs";
 
-let peri = null, scene = null;
+let peri = null,
+    scene = null;
 
 class Scene {
     constructor(settings) {
         this.s = settings;
-        const b = this.b = BODIES[settings.body];
+        const b = (this.b = BODIES[settings.body]);
         this.dim = b.dim;
         this.h = b.size[0] / settings.n;
         this.horizon = this.h * settings.m * 1.0001; // what lies on the horizon is within
@@ -19,9 +20,15 @@ class Scene {
         this.make();
     }
     make() {
-        const { s, b, h } = this, space = b.dim === 2 ? peri.SPACE_PLANE_STRESS : peri.SPACE_SOLID;
-        this.body = new peri.Body({ space, horizon: this.horizon, precision: peri["PRECISION_" + s.precision],
-            correction: peri["CORRECTION_" + s.correction], influence: s.correction === "MOMENT" ? peri.INFLUENCE_LINEAR : peri.INFLUENCE_CONSTANT });
+        const { s, b, h } = this,
+            space = b.dim === 2 ? peri.SPACE_PLANE_STRESS : peri.SPACE_SOLID;
+        this.body = new peri.Body({
+            space,
+            horizon: this.horizon,
+            precision: peri["PRECISION_" + s.precision],
+            correction: peri["CORRECTION_" + s.correction],
+            influence: s.correction === "MOMENT" ? peri.INFLUENCE_LINEAR : peri.INFLUENCE_CONSTANT,
+        });
         const material = { law: peri["LAW_" + s.law], young: b.young, density: b.density };
         if (s.law !== "BOND_BASED") material.poisson = s.poisson;
         if (s.breaks) material.fracture_energy = s.toughness;
@@ -42,11 +49,14 @@ class Scene {
     }
     /** The strain that matters here: where bonds break, else a thousandth. */
     strainScale() {
-        const { s, b } = this, k = b.dim === 2 ? b.young / (2 * (1 - poissonOf(s))) : b.young / (3 * (1 - 2 * poissonOf(s)));
+        const { s, b } = this,
+            k = b.dim === 2 ? b.young / (2 * (1 - poissonOf(s))) : b.young / (3 * (1 - 2 * poissonOf(s)));
         return Math.sqrt(s.toughness / (2 * k * this.horizon)) || 1e-3;
     }
     supports() {
-        const { body, b, h, horizon, s } = this, e = b.size.length === 3 ? [b.size[2]] : [], z = e.map(() => 0);
+        const { body, b, h, horizon, s } = this,
+            e = b.size.length === 3 ? [b.size[2]] : [],
+            z = e.map(() => 0);
         const [x, y] = b.size;
         if (s.body === "beam") {
             body.prescribe_displacement(body.select_box("clamp", [0, 0], [horizon, y]), peri.AXIS_XY, null);
@@ -56,10 +66,21 @@ class Scene {
             this.noFail([x - 2 * horizon, 0], [x, y]);
             return;
         }
-        const axis = b.axis, top = b.size.slice(), bottom = b.size.map(() => 0), area = (axis ? x : y) * (e[0] ?? 1);
-        const near = depth => [b.size.map((_, k) => k === axis ? b.size[axis] - depth : 0), b.size.map((l, k) => k === axis ? depth : l)];
-        const [lo, hi] = near(h), [deepLo, deepHi] = near(horizon), unit = b.size.map((_, k) => k === axis ? 1 : 0);
-        this.ends = [[body.select_box("upper", lo, top), area, unit], [body.select_box("lower", bottom, hi), area, unit.map(v => -v)]];
+        const axis = b.axis,
+            top = b.size.slice(),
+            bottom = b.size.map(() => 0),
+            area = (axis ? x : y) * (e[0] ?? 1);
+        const near = depth => [
+            b.size.map((_, k) => (k === axis ? b.size[axis] - depth : 0)),
+            b.size.map((l, k) => (k === axis ? depth : l)),
+        ];
+        const [lo, hi] = near(h),
+            [deepLo, deepHi] = near(horizon),
+            unit = b.size.map((_, k) => (k === axis ? 1 : 0));
+        this.ends = [
+            [body.select_box("upper", lo, top), area, unit],
+            [body.select_box("lower", bottom, hi), area, unit.map(v => -v)],
+        ];
         this.noFail(deepLo, top);
         this.noFail(bottom, deepHi);
         if (s.notch && b.dim === 2 && !b.hole) body.cut_segment(peri.CUT_INITIAL, [-h, y / 2], [x / 2, y / 2]);
@@ -75,47 +96,71 @@ class Scene {
         this.pulled = value;
         if (!value) return;
         for (const [set, area, way] of this.ends)
-            this.pulls.push(this.body.apply_layer_traction(set, area, way.map(v => v * value * this.b.pullUnit)));
+            this.pulls.push(
+                this.body.apply_layer_traction(
+                    set,
+                    area,
+                    way.map(v => v * value * this.b.pullUnit),
+                ),
+            );
     }
     /** A hammer drives the material apart around it; on the block falls a ball. */
     strike(at, strength) {
-        const { body, h, horizon, e0, c, dim } = this, radius = STRUCK(horizon / h) * h;
+        const { body, h, horizon, e0, c, dim } = this,
+            radius = STRUCK(horizon / h) * h;
         if (dim === 3) {
-            const r = 0.006, away = body.view_field(peri.FIELD_CURRENT_POSITION);
+            const r = 0.006,
+                away = body.view_field(peri.FIELD_CURRENT_POSITION);
             let top = 0;
             for (let i = 0; i < away.count; ++i) {
                 if (Math.hypot(away.at(i, 0) - at[0], away.at(i, 1) - at[1]) < r) top = Math.max(top, away.at(i, 2));
             }
             this.balls ??= [];
             while (this.balls.length > 3) body.remove_obstacle(this.balls.shift());
-            this.balls.push(body.add_obstacle({ shape: peri.SHAPE_BALL, place: [at[0], at[1], top + r], radius: r, density: 7800,
-                velocity: [0, 0, -40 * strength], friction: 0.1 }));
+            this.balls.push(
+                body.add_obstacle({
+                    shape: peri.SHAPE_BALL,
+                    place: [at[0], at[1], top + r],
+                    radius: r,
+                    density: 7800,
+                    velocity: [0, 0, -40 * strength],
+                    friction: 0.1,
+                }),
+            );
             this.ballRadius = r;
             return;
         }
-        const velocity = body.get_field(peri.FIELD_VELOCITY), x = body.get_field(peri.FIELD_POSITION), v = 8 * strength * e0 * c;
+        const velocity = body.get_field(peri.FIELD_VELOCITY),
+            x = body.get_field(peri.FIELD_POSITION),
+            v = 8 * strength * e0 * c;
         for (let i = 0; i < x.length; i += dim) {
-            const away = [x[i] - at[0], x[i + 1] - at[1]], r = Math.hypot(...away);
+            const away = [x[i] - at[0], x[i + 1] - at[1]],
+                r = Math.hypot(...away);
             if (r > 2 * radius || r === 0) continue;
             const kick = v * (r / radius) * Math.exp(-(r * r) / (radius * radius));
-            velocity[i] += kick * away[0] / r;
-            velocity[i + 1] += kick * away[1] / r;
+            velocity[i] += (kick * away[0]) / r;
+            velocity[i + 1] += (kick * away[1]) / r;
         }
         body.set_field(peri.FIELD_VELOCITY, velocity);
     }
     /** As long as the pointer is down: points follow it, or a force acts towards it. */
     hold(kind, at, by, strength) {
-        const { body, h, horizon, e0, dim } = this, radius = Math.max(2 * h, 0.5 * horizon);
+        const { body, h, horizon, e0, dim } = this,
+            radius = Math.max(2 * h, 0.5 * horizon);
         if (!this.held) {
-            const set = body.select_ball(null, at, radius), [first] = body.get_set(set);
+            const set = body.select_ball(null, at, radius),
+                [first] = body.get_set(set);
             this.held = { set, kind, first, by, id: 0 };
             if (kind === "drag") {
-                const view = body.view_field(peri.FIELD_DISPLACEMENT), held = this.held;
+                const view = body.view_field(peri.FIELD_DISPLACEMENT),
+                    held = this.held;
                 held.start = by.map((_, k) => view.at(first, k));
                 this.held.id = body.prescribe_velocity(set, dim === 2 ? peri.AXIS_XY : peri.AXIS_XYZ, null, (time, points, value) => {
-                    const limit = 8 * this.c * e0, tau = 40 * this.dt;
+                    const limit = 8 * this.c * e0,
+                        tau = 40 * this.dt;
                     for (let k = 0; k < dim; ++k) {
-                        const v = (held.start[k] + held.by[k] - view.at(first, k)) / tau, bounded = Math.max(-limit, Math.min(limit, v));
+                        const v = (held.start[k] + held.by[k] - view.at(first, k)) / tau,
+                            bounded = Math.max(-limit, Math.min(limit, v));
                         for (let p = 0; p < points.length; ++p) value[p * dim + k] = bounded;
                     }
                 });
@@ -124,18 +169,28 @@ class Scene {
         this.held.by = by;
         if (kind !== "load") return;
         if (this.held.id) body.remove_load(this.held.id);
-        const density = 4 * strength * e0 * this.b.young / radius; // of a pull across the whole view
-        this.held.id = body.apply_body_force(this.held.set, by.map(v => v * density));
+        const density = (4 * strength * e0 * this.b.young) / radius; // of a pull across the whole view
+        this.held.id = body.apply_body_force(
+            this.held.set,
+            by.map(v => v * density),
+        );
     }
     release() {
         if (this.held?.id) this.body.remove_load(this.held.id);
         this.held = null;
     }
     cut(from, to, view) {
-        const { body, dim } = this, standing = peri.CUT_NOW;
+        const { body, dim } = this,
+            standing = peri.CUT_NOW;
         if (dim === 2) return body.cut_segment(standing, from, to);
-        const far = 0.2, corner = from.map((v, k) => v - far * view[k]);
-        return body.cut_rectangle(standing, corner, to.map((v, k) => v - from[k]), view.map(v => 2 * far * v));
+        const far = 0.2,
+            corner = from.map((v, k) => v - far * view[k]);
+        return body.cut_rectangle(
+            standing,
+            corner,
+            to.map((v, k) => v - from[k]),
+            view.map(v => 2 * far * v),
+        );
     }
     advance(steps) {
         if (!steps) return;
@@ -150,12 +205,16 @@ class Scene {
         const report = body.solve({ loose: peri.LOOSE_PINNED, fracture: s.breaks, tolerance: s.precision === "SINGLE" ? 1e-3 : 1e-6 });
         const out = { iterations: report.iterations, residual: report.residual };
         if (s.body === "beam" && this.pulled) {
-            const u = body.get_field(peri.FIELD_DISPLACEMENT), [x, y] = b.size, length = x - this.horizon + this.h / 2;
+            const u = body.get_field(peri.FIELD_DISPLACEMENT),
+                [x, y] = b.size,
+                length = x - this.horizon + this.h / 2;
             let sum = 0;
             for (const i of this.tip) sum += u[2 * i + 1];
-            const force = this.pulled * b.pullUnit * y, inertia = y ** 3 / 12, shear = b.young / (2 * (1 + poissonOf(s)));
+            const force = this.pulled * b.pullUnit * y,
+                inertia = y ** 3 / 12,
+                shear = b.young / (2 * (1 + poissonOf(s)));
             const arm = length - this.h / 2; // to the middle of the last row
-            const known = -(force * arm ** 3 / (3 * b.young * inertia) + force * arm / (shear * y * 5 / 6));
+            const known = -((force * arm ** 3) / (3 * b.young * inertia) + (force * arm) / ((shear * y * 5) / 6));
             Object.assign(out, { deflection: sum / this.tip.length, known, error: Math.abs(sum / this.tip.length / known - 1) });
         }
         if (s.body === "pane" && this.pulled && !s.notch && !s.breaks) {
@@ -166,7 +225,9 @@ class Scene {
     }
     /** -strain across over strain along the pull, within, where no surface is near. */
     ratio() {
-        const { body, b, horizon, reference } = this, strain = body.get_field(peri.FIELD_STRAIN), sums = [0, 0];
+        const { body, b, horizon, reference } = this,
+            strain = body.get_field(peri.FIELD_STRAIN),
+            sums = [0, 0];
         for (let i = 0; i < reference.length / 2; ++i) {
             const inside = b.size.every((l, k) => reference[2 * i + k] > 3 * horizon && reference[2 * i + k] < l - 3 * horizon);
             if (inside) for (let k = 0; k < 2; ++k) sums[k] += strain[3 * i + k];
@@ -178,24 +239,35 @@ class Scene {
         if (field === "damage") return this.damage().slice();
         if (field === "energy") return new Float32Array(body.get_field(peri.FIELD_ENERGY_DENSITY));
         if (field === "speed") {
-            const v = body.get_field(peri.FIELD_VELOCITY), out = new Float32Array(v.length / this.dim);
-            for (let i = 0; i < out.length; ++i) out[i] = Math.hypot(v[i * this.dim], v[i * this.dim + 1], this.dim === 3 ? v[i * 3 + 2] : 0);
+            const v = body.get_field(peri.FIELD_VELOCITY),
+                out = new Float32Array(v.length / this.dim);
+            for (let i = 0; i < out.length; ++i)
+                out[i] = Math.hypot(v[i * this.dim], v[i * this.dim + 1], this.dim === 3 ? v[i * 3 + 2] : 0);
             return out;
         }
         return principal(body.get_field(peri.FIELD_STRESS), this.dim);
     }
-    damage() { // changes only where bonds do
+    damage() {
+        // changes only where bonds do
         const gone = body => body.broken_count() + body.cut_count();
         if (this.gone !== gone(this.body)) this.known = new Float32Array(this.body.get_field(peri.FIELD_DAMAGE));
         this.gone = gone(this.body);
         return this.known;
     }
     frame(field, withEnergy) {
-        const { body } = this, frame = {
-            type: "frame", displacement: new Float32Array(body.get_field(peri.FIELD_DISPLACEMENT)), value: this.values(field), field,
-            time: body.time(), steps: body.step_count(), broken: body.broken_count(), ms: this.ms,
-            balls: (this.balls ?? []).map(id => body.get_obstacle_state(id).place), ballRadius: this.ballRadius,
-        };
+        const { body } = this,
+            frame = {
+                type: "frame",
+                displacement: new Float32Array(body.get_field(peri.FIELD_DISPLACEMENT)),
+                value: this.values(field),
+                field,
+                time: body.time(),
+                steps: body.step_count(),
+                broken: body.broken_count(),
+                ms: this.ms,
+                balls: (this.balls ?? []).map(id => body.get_obstacle_state(id).place),
+                ballRadius: this.ballRadius,
+            };
         if (withEnergy) {
             frame.energy = body.get_energy();
             frame.damage = most(this.damage());
@@ -205,9 +277,21 @@ class Scene {
     about() {
         const { body, s, b } = this;
         return {
-            type: "ready", reference: this.reference, dim: this.dim, size: b.size, spacing: this.h, horizon: this.horizon, points: body.point_count(),
-            bonds: body.bond_count(), cut: body.cut_count(), dt: this.dt, e0: this.e0, bytes: body.get_memory().total, kernel: body.kernel_text(),
-            poisson: poissonOf(s), speed: this.c,
+            type: "ready",
+            reference: this.reference,
+            dim: this.dim,
+            size: b.size,
+            spacing: this.h,
+            horizon: this.horizon,
+            points: body.point_count(),
+            bonds: body.bond_count(),
+            cut: body.cut_count(),
+            dt: this.dt,
+            e0: this.e0,
+            bytes: body.get_memory().total,
+            kernel: body.kernel_text(),
+            poisson: poissonOf(s),
+            speed: this.c,
         };
     }
 }
@@ -216,11 +300,13 @@ const most = array => array.reduce((a, v) => Math.max(a, v), 0);
 
 /** The largest principal stress; of solids the mean of it and the shear is costly: their largest normal component. */
 function principal(t, dim) {
-    const per = dim === 2 ? 3 : 6, out = new Float32Array(t.length / per);
+    const per = dim === 2 ? 3 : 6,
+        out = new Float32Array(t.length / per);
     for (let i = 0; i < out.length; ++i) {
         const k = i * per;
         if (dim === 2) {
-            const mean = (t[k] + t[k + 1]) / 2, radius = Math.hypot((t[k] - t[k + 1]) / 2, t[k + 2]);
+            const mean = (t[k] + t[k + 1]) / 2,
+                radius = Math.hypot((t[k] - t[k + 1]) / 2, t[k + 2]);
             out[i] = Math.abs(mean + radius) > Math.abs(mean - radius) ? mean + radius : mean - radius;
         } else out[i] = Math.max(t[k], t[k + 1], t[k + 2]);
     }
@@ -229,17 +315,42 @@ function principal(t, dim) {
 
 /** What peri_choose takes for an error, as settings of the page. */
 function choose(message) {
-    const { settings: s, preset } = message, b = BODIES[s.body];
+    const { settings: s, preset } = message,
+        b = BODIES[s.body];
     const quantity = { crack: "FRACTURE", hole: "STRESS", cantilever: "DEFORMATION" }[b.problem];
     const bonded = Math.abs(s.poisson - (b.dim === 2 ? 1 / 3 : 1 / 4)) < 0.01;
-    const { body, material, report } = peri.choose({ preset: peri["PRESET_" + preset], quantity: peri["QUANTITY_" + quantity],
-        feature: b.problem === "hole" ? b.feature / 2 : b.feature, lo: b.size.map(() => 0), hi: b.size },
-    { space: b.dim === 2 ? peri.SPACE_PLANE_STRESS : peri.SPACE_SOLID },
-    { law: peri.LAW_BOND_BASED, young: b.young, density: b.density, fracture_energy: s.toughness, ...(bonded ? {} : { poisson: s.poisson }) });
-    const name = (group, value) => Object.keys(peri).find(k => k.startsWith(group) && peri[k] === value).slice(group.length);
-    return { type: "chosen", law: name("LAW_", material.law), precision: name("PRECISION_", body.precision),
-        correction: name("CORRECTION_", body.correction), n: Math.round(b.size[0] / report.spacing), m: Math.round(body.horizon / report.spacing * 10) / 10,
-        error: report.error, text: report.text, points: report.cost.points };
+    const { body, material, report } = peri.choose(
+        {
+            preset: peri["PRESET_" + preset],
+            quantity: peri["QUANTITY_" + quantity],
+            feature: b.problem === "hole" ? b.feature / 2 : b.feature,
+            lo: b.size.map(() => 0),
+            hi: b.size,
+        },
+        { space: b.dim === 2 ? peri.SPACE_PLANE_STRESS : peri.SPACE_SOLID },
+        {
+            law: peri.LAW_BOND_BASED,
+            young: b.young,
+            density: b.density,
+            fracture_energy: s.toughness,
+            ...(bonded ? {} : { poisson: s.poisson }),
+        },
+    );
+    const name = (group, value) =>
+        Object.keys(peri)
+            .find(k => k.startsWith(group) && peri[k] === value)
+            .slice(group.length);
+    return {
+        type: "chosen",
+        law: name("LAW_", material.law),
+        precision: name("PRECISION_", body.precision),
+        correction: name("CORRECTION_", body.correction),
+        n: Math.round(b.size[0] / report.spacing),
+        m: Math.round((body.horizon / report.spacing) * 10) / 10,
+        error: report.error,
+        text: report.text,
+        points: report.cost.points,
+    };
 }
 
 const ACTIONS = {
@@ -258,12 +369,24 @@ const ACTIONS = {
         scene.advance(steps);
         return scene.frame(field, steps === 0 || scene.frames++ % 6 === 0);
     },
-    strike({ at, strength }) { scene.strike(at, strength); },
-    hold({ kind, at, by, strength }) { scene.hold(kind, at, by, strength); },
-    release() { scene.release(); },
-    cut({ from, to, view }) { return { type: "cut", bonds: scene.cut(from, to, view) }; },
-    pull({ value }) { scene.pull(value); },
-    rest() { return { type: "rest", ...scene.rest() }; },
+    strike({ at, strength }) {
+        scene.strike(at, strength);
+    },
+    hold({ kind, at, by, strength }) {
+        scene.hold(kind, at, by, strength);
+    },
+    release() {
+        scene.release();
+    },
+    cut({ from, to, view }) {
+        return { type: "cut", bonds: scene.cut(from, to, view) };
+    },
+    pull({ value }) {
+        scene.pull(value);
+    },
+    rest() {
+        return { type: "rest", ...scene.rest() };
+    },
     reset() {
         scene.release();
         scene.body.reset();

@@ -28,8 +28,19 @@ const CODES = { i32: 0x7f, ptr: 0x7f, i64: 0x7e, u64: 0x7e, f64: 0x7c };
 function toWasm(callback, fn) {
     const types = [0x60, callback.params.length, ...callback.params.map(p => CODES[p.t]), ...(callback.void ? [0] : [1, 0x7f])];
     const section = (id, ...bytes) => [id, bytes.length, ...bytes];
-    const bytes = [0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, ...section(1, 1, ...types), ...section(2, 1, 1, 0x65, 1, 0x66, 0, 0),
-        ...section(7, 1, 1, 0x66, 0, 0)];
+    const bytes = [
+        0,
+        0x61,
+        0x73,
+        0x6d,
+        1,
+        0,
+        0,
+        0,
+        ...section(1, 1, ...types),
+        ...section(2, 1, 1, 0x65, 1, 0x66, 0, 0),
+        ...section(7, 1, 1, 0x66, 0, 0),
+    ];
     return new WebAssembly.Instance(new WebAssembly.Module(new Uint8Array(bytes)), { e: { f: fn } }).exports.f;
 }
 
@@ -65,9 +76,17 @@ class Machine {
     }
     get(type, at) {
         const d = this.refresh();
-        return type === "f64" ? d.getFloat64(at, true) : type === "i64" ? Number(d.getBigInt64(at, true))
-            : type === "u64" ? Number(d.getBigUint64(at, true)) : type === "f32" ? d.getFloat32(at, true)
-            : type === "ptr" ? d.getUint32(at, true) : d.getInt32(at, true);
+        return type === "f64"
+            ? d.getFloat64(at, true)
+            : type === "i64"
+              ? Number(d.getBigInt64(at, true))
+              : type === "u64"
+                ? Number(d.getBigUint64(at, true))
+                : type === "f32"
+                  ? d.getFloat32(at, true)
+                  : type === "ptr"
+                    ? d.getUint32(at, true)
+                    : d.getInt32(at, true);
     }
     set(type, at, value) {
         const d = this.refresh();
@@ -77,7 +96,9 @@ class Machine {
         else if (type === "ptr") d.setUint32(at, value, true);
         else d.setInt32(at, value, true);
     }
-    array(type, at, entries) { return new ARRAYS[type](this.memory.buffer, at, entries); }
+    array(type, at, entries) {
+        return new ARRAYS[type](this.memory.buffer, at, entries);
+    }
 
     /** The number in the table of the one function that serves all callbacks of a type. */
     trampoline(type) {
@@ -93,7 +114,9 @@ class Machine {
         const closure = this.closures.get(given[0]);
         if (this.thrown) return -1; // an exception ends the call: nothing more is asked
         try {
-            const fn = closure.functions[type], scope = Object.create(closure.scope), values = [];
+            const fn = closure.functions[type],
+                scope = Object.create(closure.scope),
+                values = [];
             callback.params.forEach((p, k) => put(scope, p.name, p.t === "i64" ? Number(given[k]) : given[k]));
             for (const p of callback.params) {
                 const value = scope[p.name];
@@ -130,7 +153,8 @@ class Call {
         this.temporary.push(at);
         return at;
     }
-    user(functions) { // all callbacks of one `user`
+    user(functions) {
+        // all callbacks of one `user`
         if (!this.closure) {
             this.closure = this.m.next++;
             this.m.closures.set(this.closure, { functions: {}, scope: this.scope });
@@ -139,7 +163,8 @@ class Call {
         return this.closure;
     }
     string(value) {
-        const bytes = new TextEncoder().encode(String(value)), at = this.allocate(bytes.length + 1);
+        const bytes = new TextEncoder().encode(String(value)),
+            at = this.allocate(bytes.length + 1);
         new Uint8Array(this.m.memory.buffer).set([...bytes, 0], at);
         return at;
     }
@@ -155,7 +180,8 @@ class Call {
     }
     /** A descriptor: its defaults, then what `value` has. */
     structIn(name, value) {
-        const s = api.structs[name], at = this.allocate(s.size);
+        const s = api.structs[name],
+            at = this.allocate(s.size);
         new Uint8Array(this.m.memory.buffer, at, s.size).fill(0);
         if (s.init) this.m.exports[s.init](at, ...s.initWith.map(w => this.needed(value, w, name)));
         this.fill(s, at, value, name);
@@ -173,7 +199,8 @@ class Call {
         return value[key];
     }
     fieldArray(f, at, value, name, owner) {
-        const scope = Object.create(this.scope), single = owner.type === api.codes.TYPE_F32;
+        const scope = Object.create(this.scope),
+            single = owner.type === api.codes.TYPE_F32;
         for (const [key, one] of Object.entries(owner)) if (typeof one === "number") put(scope, key, one);
         for (const key of ["point_stride", "component_stride"]) if (!(key in scope)) put(scope, key, 0);
         const need = f.entries?.(scope);
@@ -233,42 +260,50 @@ function whole(value, name) {
 function argument(call, p, value, scope, capacities) {
     const m = call.m;
     switch (p.role) {
-    case "value": {
-        const number = checked(value, p.name);
-        return p.t === "i64" || p.t === "u64" ? whole(number, p.name) : Number(number);
-    }
-    case "text": return value === null || value === undefined ? 0 : call.string(value);
-    case "array in": {
-        if ((value === null || value === undefined) && p.optional) return 0;
-        if (value === null || value === undefined) throw new TypeError(`${p.name}: an array is wanted`);
-        const at = call.arrayIn(p.of, value, p.name), need = p.entries(scope);
-        if (value.length < need) throw new TypeError(`${p.name}: ${need} entries are wanted, ${value.length} given`);
-        return at;
-    }
-    case "struct in": return value === null && p.optional ? 0 : call.structIn(p.of, value);
-    case "struct inout": return call.structIn(p.of, value);
-    case "array out": {
-        const entries = Math.max(0, p.entries(scope));
-        return (capacities.at[p.name] = call.allocate((capacities.entries[p.name] = entries) * SIZES[p.of]));
-    }
-    case "struct out": {
-        const entries = Math.max(0, p.entries(scope));
-        return (capacities.at[p.name] = call.allocate((capacities.entries[p.name] = entries) * api.structs[p.of].size));
-    }
-    case "new": return (capacities.at[p.name] = call.allocate(4));
-    case "error": return (capacities.at.error = call.allocate(api.structs.peri_error.size));
-    case "callback":
-        if ((value === null || value === undefined) && p.optional) return 0;
-        if (typeof value !== "function") throw new TypeError(`${p.name}: a function is wanted`);
-        call.user({ [p.of]: value });
-        return m.trampoline(p.of);
-    case "user": return call.closure;
+        case "value": {
+            const number = checked(value, p.name);
+            return p.t === "i64" || p.t === "u64" ? whole(number, p.name) : Number(number);
+        }
+        case "text":
+            return value === null || value === undefined ? 0 : call.string(value);
+        case "array in": {
+            if ((value === null || value === undefined) && p.optional) return 0;
+            if (value === null || value === undefined) throw new TypeError(`${p.name}: an array is wanted`);
+            const at = call.arrayIn(p.of, value, p.name),
+                need = p.entries(scope);
+            if (value.length < need) throw new TypeError(`${p.name}: ${need} entries are wanted, ${value.length} given`);
+            return at;
+        }
+        case "struct in":
+            return value === null && p.optional ? 0 : call.structIn(p.of, value);
+        case "struct inout":
+            return call.structIn(p.of, value);
+        case "array out": {
+            const entries = Math.max(0, p.entries(scope));
+            return (capacities.at[p.name] = call.allocate((capacities.entries[p.name] = entries) * SIZES[p.of]));
+        }
+        case "struct out": {
+            const entries = Math.max(0, p.entries(scope));
+            return (capacities.at[p.name] = call.allocate((capacities.entries[p.name] = entries) * api.structs[p.of].size));
+        }
+        case "new":
+            return (capacities.at[p.name] = call.allocate(4));
+        case "error":
+            return (capacities.at.error = call.allocate(api.structs.peri_error.size));
+        case "callback":
+            if ((value === null || value === undefined) && p.optional) return 0;
+            if (typeof value !== "function") throw new TypeError(`${p.name}: a function is wanted`);
+            call.user({ [p.of]: value });
+            return m.trampoline(p.of);
+        case "user":
+            return call.closure;
     }
     throw new Error(p.role);
 }
 
 function failure(call, status, errorAt) {
-    const m = call.m, e = api.structs.peri_error;
+    const m = call.m,
+        e = api.structs.peri_error;
     let at = errorAt;
     if (!at && call.object?.isBody) {
         at = call.allocate(e.size);
@@ -296,7 +331,9 @@ function attempt(machine, object, f, given, call, capacities) {
         if (p.role === "struct inout") capacities.at[p.name] = at;
         return at;
     });
-    f.params.forEach((p, k) => { if (p.role === "capacity") args[k] = BigInt(p.entries ? p.entries(scope) : scope[p.name]); });
+    f.params.forEach((p, k) => {
+        if (p.role === "capacity") args[k] = BigInt(p.entries ? p.entries(scope) : scope[p.name]);
+    });
     const result = machine.exports[f.name](...args);
     return typeof result === "bigint" ? Number(result) : result;
 }
@@ -314,7 +351,8 @@ function results(machine, f, call, capacities, result) {
             out[p.name] = p.single ? machine.get(p.of, at) : p.of === "i64" ? Array.from(all, Number) : all.slice();
         } else if (p.role === "struct out") {
             const size = api.structs[p.of].size;
-            out[p.name] = p.single ? call.structOut(p.of, at)
+            out[p.name] = p.single
+                ? call.structOut(p.of, at)
                 : Array.from({ length: capacities.entries[p.name] }, (_, k) => call.structOut(p.of, at + k * size));
         }
     }
@@ -377,13 +415,15 @@ function withBytes(f, given) {
         let at = 0;
         given[p.name] = bytes => {
             if (at + bytes.length > value.length) return -1;
-            bytes.set(value.subarray(at, at += bytes.length));
+            bytes.set(value.subarray(at, (at += bytes.length)));
             return 0;
         };
     }
     if (p.of !== "peri_write_fn" || value !== undefined) return null;
     const parts = [];
-    given[p.name] = bytes => { parts.push(bytes.slice()); };
+    given[p.name] = bytes => {
+        parts.push(bytes.slice());
+    };
     return () => {
         const whole = new Uint8Array(parts.reduce((n, part) => n + part.length, 0));
         let at = 0;
@@ -438,7 +478,9 @@ function makeClass(machine, name) {
         create(desc) {
             Object.defineProperty(this, "scope_", { value: this.makeScope(), configurable: true });
             const f = { ...api.functions.peri_body_create, js: "Body", keeps: true };
-            const call = new Call(machine, this), error = call.allocate(api.structs.peri_error.size), out = call.allocate(4);
+            const call = new Call(machine, this),
+                error = call.allocate(api.structs.peri_error.size),
+                out = call.allocate(4);
             try {
                 const status = machine.exports[f.name](call.structIn("peri_body_desc", desc), out, error);
                 if (status < 0) throw failure(call, status, error);
@@ -451,11 +493,19 @@ function makeClass(machine, name) {
         }
         /** What lengths of arrays depend on. */
         makeScope() {
-            const e = machine.exports, self = this, number = v => Number(v);
+            const e = machine.exports,
+                self = this,
+                number = v => Number(v);
             const scope = {
-                get points() { return number(e.peri_point_count(self.pointer)); },
-                get width() { return number(e.peri_family_width(self.pointer)); },
-                get turns() { return this.dim === 2 ? 1 : 3; },
+                get points() {
+                    return number(e.peri_point_count(self.pointer));
+                },
+                get width() {
+                    return number(e.peri_family_width(self.pointer));
+                },
+                get turns() {
+                    return this.dim === 2 ? 1 : 3;
+                },
             };
             if (name !== "peri_body") {
                 for (const f of Object.values(api.functions)) {
@@ -484,7 +534,8 @@ function makeClass(machine, name) {
 
 function addMethod(machine, target, f, isMethod) {
     target[f.js] = function (...values) {
-        const given = byName(f, values), bytes = f.bytes ? withBytes(f, given) : null;
+        const given = byName(f, values),
+            bytes = f.bytes ? withBytes(f, given) : null;
         const result = invoke(machine, isMethod ? this : null, f, given);
         return bytes ? bytes() : result;
     };
@@ -492,7 +543,9 @@ function addMethod(machine, target, f, isMethod) {
 
 function addViews(machine, Body) {
     Body.prototype.view_field = function (field) {
-        const call = new Call(machine, this), s = api.structs.peri_view, at = call.allocate(s.size);
+        const call = new Call(machine, this),
+            s = api.structs.peri_view,
+            at = call.allocate(s.size);
         try {
             const status = machine.exports.peri_view_field(this.pointer, field, at);
             if (status < 0) throw failure(call, status, 0);
@@ -536,8 +589,11 @@ export function instantiate(module) {
     });
     exports._initialize?.();
     machine = new Machine(exports);
-    machine.classes = { peri_body: makeClass(machine, "peri_body"), peri_matrix: makeClass(machine, "peri_matrix"),
-        peri_cracks: makeClass(machine, "peri_cracks") };
+    machine.classes = {
+        peri_body: makeClass(machine, "peri_body"),
+        peri_matrix: makeClass(machine, "peri_matrix"),
+        peri_cracks: makeClass(machine, "peri_cracks"),
+    };
     const peri = { ...api.constants, Body: machine.classes.peri_body, PeriError };
     for (const f of Object.values(api.functions)) {
         if (!(f.name in exports) || f.hidden) continue;
