@@ -17,9 +17,10 @@ const tests = [];
 const test = (name, fn) => tests.push([name, fn]);
 
 /** A bar of 20 x 4 points, 1 x 0.2. */
-function bar(library, more = {}, material = {}) {
+function bar(library, more = {}, material = {}, corner = [0, 0]) {
     const body = new library.Body({ space: library.SPACE_PLANE_STRESS, horizon: 0.15, ...more });
-    body.add_box(body.add_material({ law: library.LAW_BOND_BASED, young: 1, density: 1, ...material }), [0, 0], [1, 0.2], 0.05);
+    const [x, y] = corner;
+    body.add_box(body.add_material({ law: library.LAW_BOND_BASED, young: 1, density: 1, ...material }), corner, [x + 1, y + 0.2], 0.05);
     body.build();
     return body;
 }
@@ -203,7 +204,7 @@ test("callbacks of the body itself: influence, log, shapes, obstacles", () => {
 
 test("fields in place: no copy, present state, units", () => {
     for (const precision of [peri.PRECISION_DOUBLE, peri.PRECISION_SINGLE]) {
-        const body = bar(peri, { precision }),
+        const body = bar(peri, { precision }, {}, [3, -7]),
             view = body.view_field(peri.FIELD_DISPLACEMENT);
         assert.equal(view.data.buffer, peri.memory.buffer);
         body.add_displacement(peri.ALL, [0.25, -0.5]);
