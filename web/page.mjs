@@ -14,7 +14,7 @@ const LINES = {
     kinetic: ["Motion", "#0b5f8a", "#7cc3ea", []],
     elastic: ["Bonds, stored", "#00704f", "#5fcf9f", [6, 3]],
     fracture: ["Bonds, broken", "#a63a14", "#ff9a66", [2, 3]],
-    damping: ["Damped, rubbed away", "#7a3f8f", "#cf9be0", [8, 2, 2, 2]],
+    damping: ["Damped", "#7a3f8f", "#cf9be0", [8, 2, 2, 2]],
     error: ["Left open", "#6b6b6b", "#b0b0b0", [1, 4]],
 };
 const TERMS = {
