@@ -72,6 +72,7 @@ PERI_API int32_t peri_version(void);
 /* ---- status ----------------------------------------------------------------- */
 
 typedef enum peri_status { /* peri_status_text says the same */
+    PERI_BRITTLE = 2,             /* success: as brittle bonds, the horizon being too large */
     PERI_STOPPED = 1,             /* a callback asked to stop; the body is at a whole step */
     PERI_OK = 0,                  /* success */
     PERI_ERROR_ARGUMENT = -1,     /* missing, NULL or given twice, or a count that is wrong */
@@ -177,6 +178,25 @@ typedef int32_t (*peri_rigid_fn)(void *user, double time, double *motion);
 /* A bond i < j broke by its criterion at `time` [T] and this stretch [-]. Called after the step, in
    ascending (i, j). > 0 ends the run with PERI_STOPPED. */
 typedef int32_t (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, double stretch);
+
+/* Bonds of one point to others[]: arrays of `count`. All that is written is 0 at first. */
+typedef struct peri_bond_row {
+    int32_t point;
+    int32_t count;
+    const int32_t *others;
+    const double *length;  /* |xi| [L] */
+    const double *stretch; /* s = e/|xi| [-]; 0 of broken bonds */
+    double *state;         /* [count*states] in: as last kept; out: as it is with this stretch */
+    double *force;         /* out [-] f/c: the stretch at which a linear bond pulls as hard */
+    double *tangent;       /* out, its derivative; this and what follows NULL where not asked for */
+    double *energy;        /* out: stored, of which `force` is the derivative at constant state */
+    double *lost;          /* out: lost since `state` was kept */
+    int32_t *broken;       /* out: 1 breaks the bond for good */
+} peri_bond_row;
+
+/* A law, or a criterion, of bonds. A function of what it gets alone: it comes for each bond from
+   both ends, as often as wanted, on any thread, and may not call the library. */
+typedef int32_t (*peri_bond_law_fn)(void *user, const peri_bond_row *row);
 
 /* Takes the next `count` bytes of a file; all but 0 is a failure: PERI_ERROR_WRITE. */
 typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
@@ -371,6 +391,48 @@ PERI_API int32_t peri_add_material(peri_body *body, const peri_material_desc *de
    of the micromoduli, smaller critical stretch. */
 PERI_API int32_t peri_set_interface(peri_body *body, int32_t i, int32_t j,
     const peri_material_desc *desc);
+
+typedef enum peri_softening { /* of bonds past their strength, to no force */
+    PERI_SOFTENING_BILINEAR = 2901,    /* straight */
+    PERI_SOFTENING_TRILINEAR = 2902,   /* kinked at 1/4 of the strength: concrete */
+    PERI_SOFTENING_EXPONENTIAL = 2903, /* cut off at 1/100 of the strength */
+    PERI_SOFTENING_TABLE = 2904        /* a table of yours */
+} peri_softening;
+
+typedef enum peri_unloading {
+    PERI_UNLOADING_SECANT = 3001, /* to the origin: damage */
+    PERI_UNLOADING_ELASTIC = 3002 /* as stiff as new: a stretch stays */
+} peri_unloading;
+
+typedef struct peri_softening_desc {
+    uint64_t cookie;        /* set by init */
+    int32_t shape;          /* peri_softening, set by init */
+    int32_t unloading;      /* Default PERI_UNLOADING_SECANT */
+    double strength;        /* [M L^-1 T^-2] > 0, of uniaxial tension. Required */
+    double fracture_energy; /* [M T^-2] > 0, the area under the curve. Required */
+    double compression;     /* (0, 1] stiffness when shorter, over that when longer. Default 1 */
+    int64_t count;          /* 2..30 rows of */
+    const double *table;    /* [count*2] stretch past the strength, of any scale, from 0 ascending;
+                               force over the strength, from 1 to 0, descending */
+} peri_softening_desc;
+
+PERI_API void peri_softening_desc_init(peri_softening_desc *desc, int32_t shape);
+
+/* Bonds between bond-based materials i and j (i, i: within one) soften, before peri_build; their
+   fracture_energy and critical_stretch do not count. PERI_BRITTLE: the horizon is too large, bonds
+   break at once at less than the strength and take the energy. docs/laws.md */
+PERI_API int32_t peri_set_softening(peri_body *body, int32_t i, int32_t j,
+    const peri_softening_desc *desc);
+
+/* The stretch at which bonds begin to soften, and that at which they break; after peri_build.
+   PERI_BRITTLE: they are one. Either may be NULL. */
+PERI_API int32_t peri_get_softening(peri_body *body, int32_t i, int32_t j, double *first,
+    double *last);
+
+/* Bonds between bond-based materials i and j follow fn, each with `states` (0..8) numbers of its
+   own, 0 at first; before peri_build. Their critical stretch holds, too. docs/laws.md */
+PERI_API int32_t peri_set_bond_law(peri_body *body, int32_t i, int32_t j, int32_t states,
+    peri_bond_law_fn fn, void *user);
 
 /* Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL:
    never) of bonds between materials i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40) */

@@ -58,6 +58,8 @@
 /* ---- laws: what materials make of live families ---------------------------------------- */
 #include "src/laws/material.c"     /* engineering constants           -> those of the laws, critical values        */
 #include "src/laws/calibration.c"  /* live families                   -> constants of state-based laws             */
+#include "src/laws/bond_laws.c"    /* stretches and histories of bonds -> forces, where bonds are not linear          */
+#include "src/laws/softening.c"    /* strength, fracture energy, families -> tables of bonds that soften              */
 #include "src/laws/stiffness.c"    /* live families                   -> row sums that bound the frequency            */
 
 /* ---- kernels: one text, six instantiations -> peri__ops_d2 ... -------------------------- */

@@ -16,13 +16,13 @@ typedef struct group {
 } group;
 
 #define GROUP(name) {#name, peri__first_##name, peri__end_##name, peri__count_##name}
-#define GROUPS      27
+#define GROUPS      29
 static const group groups[GROUPS] = {
     GROUP(status),      GROUP(space),      GROUP(precision), GROUP(geometry),     GROUP(influence), GROUP(quadrature), GROUP(break_timing),
     GROUP(correction),  GROUP(kernel),     GROUP(law),       GROUP(instructions), GROUP(criterion), GROUP(integrator), GROUP(method),
     GROUP(preconditioner), GROUP(loose),   GROUP(type),      GROUP(source),       GROUP(quantity),  GROUP(preset),     GROUP(field),
     GROUP(standing),    GROUP(kind),       GROUP(moments),   GROUP(shape),
-    GROUP(control),     GROUP(ended)};
+    GROUP(control),     GROUP(ended),     GROUP(softening), GROUP(unloading)};
 
 static int group_of(const char *name) {
     for (int k = 0; k < GROUPS; ++k)
@@ -78,7 +78,7 @@ static void statuses_have_texts(void) {
     const int32_t last = peri__first_status;
     const char *unknown = peri_status_text(-1000);
     CHECK(strcmp(unknown, "unknown status") == 0);
-    CHECK(peri_status_text(PERI_STOPPED + 1) == unknown && peri_status_text(last - 1) == unknown);
+    CHECK(peri_status_text(PERI_BRITTLE + 1) == unknown && peri_status_text(last - 1) == unknown);
     for (int32_t a = PERI_STOPPED; a >= last; --a) {
         CHECK(peri_status_text(a)[0] != '\0' && strcmp(peri_status_text(a), unknown) != 0);
         for (int32_t c = PERI_STOPPED; c > a; --c) CHECK(strcmp(peri_status_text(a), peri_status_text(c)) != 0);

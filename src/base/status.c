@@ -6,6 +6,7 @@
 
 /* X(name, number, text) */
 #define PERI_STATUS_LIST(X)                                                                                            \
+    X(BRITTLE, 2, "success: as brittle bonds, the horizon being too large")                                            \
     X(STOPPED, 1, "a callback asked to stop; the body is at a whole step")                                             \
     X(OK, 0, "success")                                                                                                \
     X(ERROR_ARGUMENT, -1, "missing, NULL or given twice, or a count that is wrong")                                    \

@@ -48,9 +48,9 @@ typedef struct peri__array {
     peri__purpose purpose;
     peri__role    role;
 } peri__array;
-#define PERI_ARRAYS 32       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 33       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
-#define PERI_MODEL_ARRAYS 20 /* with all others                                                                           */
+#define PERI_MODEL_ARRAYS 21 /* with all others                                                                           */
 
 static void *peri__pointer_at(const void *owner, size_t place) {
     void *pointer;
@@ -92,6 +92,7 @@ static void peri__list_model(const peri_body *b, const peri__model *m, peri__arr
         PERI_ARRAY_(count, n, sizeof(int32_t), PERI__POINTS),
         PERI_ARRAY_(pieces, m->piece_count, sizeof(peri__piece), PERI__POINTS),
         PERI_ARRAY_(pairs, pairs, sizeof(peri__pair), PERI__LAWS),
+        PERI_ARRAY_(law_of, pairs, 1, PERI__LAWS),
     };
 #undef PERI_ARRAY_
     memcpy(list, arrays, sizeof arrays);
@@ -144,6 +145,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(work, bonds, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(pull, bonds * m->dim, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
+        PERI_ARRAY_(history, bonds * m->bond_states, sizeof(double), m->bond_states > 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(node, n, sizeof(double), (m->seen_by & PERI__BY_NODE_ENERGY) != 0, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE, PERI__SCENE),
@@ -212,6 +214,7 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
     const peri__model *m = b->model;
     held[PERI__LAWS] += peri__held_bytes(b, 1, sizeof *b);
     held[PERI__LAWS] += peri__held_bytes(b->interfaces, b->interface_capacity, sizeof *b->interfaces);
+    held[PERI__LAWS] += peri__held_bytes(b->bond_laws, b->bond_law_capacity, sizeof *b->bond_laws);
     peri__count_setup(b, held);
     if (!m) return;
     peri__array arrays[PERI_ARRAYS];

@@ -120,6 +120,7 @@ static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->b32 = desc->precision != PERI_PRECISION_DOUBLE;
     b->number = desc->number > 0 ? desc->number : peri__number_of(b);
     b->now = peri__at_start(0);
+    b->law_bad = -1;
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
 }
 
@@ -478,6 +479,7 @@ static int32_t peri__make_model(peri_body *b) {
     if (status == PERI_OK) {
         b->model = m;
         status = peri__check_span(b, sums);
+        if (status == PERI_OK) status = peri__fit_bond_laws(b);
         if (status == PERI_OK) status = peri__new_state(b);
     }
     peri__delete(&b->scratch, sums, blocks, sizeof *sums);
@@ -514,5 +516,6 @@ PERI_API void peri_body_destroy(peri_body *b) {
     }
     peri__free_setup(b);
     peri__delete(&memory, b->interfaces, b->interface_capacity, sizeof *b->interfaces);
+    peri__delete(&memory, b->bond_laws, b->bond_law_capacity, sizeof *b->bond_laws);
     peri__delete(&memory, b, 1, sizeof *b);
 }

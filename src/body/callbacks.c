@@ -17,6 +17,7 @@ static int32_t peri__check_whole(peri_body *b) {
 static int32_t peri__begin_run(peri_body *b) {
     b->stop = 0;
     b->break_said = 0;
+    b->law_bad = -1;
     b->now.torn = 1;
     return peri__enter(b, PERI__IN_CALLBACK);
 }
@@ -26,8 +27,10 @@ static void peri__end_run(peri_body *b, int32_t former) {
     peri__leave(b, former);
 }
 
-/* To be asked at a whole step: PERI_STOPPED where a load, an obstacle or on_break wished to stop; or that on_break failed. */
+/* To be asked at a whole step: PERI_STOPPED where a load, an obstacle or on_break wished to stop; or that on_break or a law failed. */
 static int32_t peri__heed_callbacks(peri_body *b) {
+    const int32_t status = peri__heed_laws(b);
+    if (status < 0) return status;
     if (b->break_said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_break_fn", -1, b->break_said);
     return b->stop || b->break_said > 0 ? PERI_STOPPED : PERI_OK;
 }

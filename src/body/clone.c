@@ -117,6 +117,12 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
             b->interface_capacity = from->interface_capacity;
         }
     }
+    if (ok && from->bond_law_count > 0) {
+        b->bond_laws = (peri__bond_law *)peri__copy(&b->memory, from->bond_laws, from->bond_law_capacity, sizeof *b->bond_laws);
+        ok = b->bond_laws != NULL;
+        if (ok) b->bond_law_capacity = from->bond_law_capacity;
+        if (ok) b->bond_law_count = from->bond_law_count;
+    }
     if (!ok) {
         peri_body_destroy(b);
         return peri__set_error(error, PERI_ERROR_MEMORY, "state", -1, 0.0);

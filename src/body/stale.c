@@ -60,7 +60,8 @@ static int32_t peri__make_force(peri_body *b) {
     if (status == PERI_OK) {
         operands.working = m->seen_by & PERI__BY_WORK;
         peri__bond_forces(b, &operands);
-        status = peri__touch_now(b);
+        status = peri__heed_laws(b);
+        if (status == PERI_OK) status = peri__touch_now(b);
         if (status == PERI_OK) status = peri__meet_supports(b);
     }
     peri__leave(b, former);

@@ -30,8 +30,36 @@ static peri__operands peri__operands_of(const peri_body *b) {
     s.pull = b->pull;
     if (b->worked) s.worked = (const char *)b->worked + (size_t)m->margin * peri__real(b);
     s.node = b->node;
+    s.bond_laws = b->model->law_of ? b->bond_laws : NULL;
+    s.history = b->history;
     s.linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     return s;
+}
+
+/* What the law of bond k of row i makes of its stretch now: the stretch at which a linear bond pulls as hard, and its slope. `bunch` keeps
+   the answers for bonds beside it; its point is -1 at first. */
+static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, int64_t k, peri__bunch *bunch, double *force,
+                           double *tangent) {
+    const int64_t first = k - k % PERI_BUNCH;
+    if (!b->model->law_of) {
+        *force = peri__stretch(b, i, row, k);
+        *tangent = 1.0;
+        return;
+    }
+    if (bunch->point != i || bunch->first != first) {
+        const peri__operands operands = peri__operands_of(b);
+        bunch->point = i;
+        bunch->first = first;
+        bunch->count = (int32_t)peri__min(row->count - first, PERI_BUNCH);
+        bunch->asked = PERI__ASK_TANGENT;
+        for (int32_t n = 0; n < bunch->count; ++n) {
+            bunch->length[n] = peri__get_real(row->bond, b->b32, first + n);
+            bunch->stretch[n] = peri__is_alive(b, i, first + n) ? peri__stretch(b, i, row, first + n) : 0.0;
+        }
+        if (!peri__respond(&operands, i, row, first, bunch)) peri__follow_none(bunch);
+    }
+    *force = bunch->force[k - first];
+    *tangent = bunch->tangent[k - first];
 }
 
 static double peri__kinetic_energy(peri_body *b) {
@@ -48,9 +76,27 @@ static double peri__most_node_energy(const peri__operands *s) {
     return most;
 }
 
+/* Notes in the body whether a law of bonds failed in the last pass, for peri__heed_laws. */
+static void peri__note_laws(const peri_body *b) {
+    const int64_t bad = peri__total(b->sums, b->model->points).bad;
+    if (bad >= 0 && b->law_bad < 0) ((peri_body *)b)->law_bad = bad;
+}
+
+/* Has a law of bonds failed since this was last asked? */
+static int32_t peri__heed_laws(peri_body *b) {
+    const int64_t bad = b->law_bad;
+    b->law_bad = -1;
+    return bad < 0 ? PERI_OK : peri__fail(b, PERI_ERROR_CALLBACK, "peri_bond_law_fn", bad, 0.0);
+}
+
 /* Adds the force of all bonds to step->f, by step->u; b: whose threads do it. */
 static void peri__sum_bonds(const peri_body *b, peri__operands *operands, peri__sums *sums) {
     const peri__model *m = b->model;
+    if (operands->bond_laws) {
+        peri__for_points(b, m->points, 2 * m->width, b->ops->law_force, operands, b->sums);
+        peri__note_laws(b);
+        return;
+    }
     if (m->record_reals) peri__for_points(b, m->points, 2, b->ops->fill_records, operands, NULL);
     if (m->gathers || operands->node) {
         peri__for_points(b, m->points, m->width, b->ops->gather, operands, NULL);
@@ -76,7 +122,8 @@ static double peri__energy_under(peri_body *b, const void *u, double *density) {
     peri__refresh(b);
     operands.u = u;
     operands.out = density;
-    peri__for_points(b, b->model->points, 4 * b->model->width, b->ops->energy, &operands, b->sums);
+    peri__for_points(b, b->model->points, 4 * b->model->width, operands.bond_laws ? b->ops->law_energy : b->ops->energy, &operands, b->sums);
+    if (operands.bond_laws) peri__note_laws(b);
     return peri__total(b->sums, b->model->points).a;
 }
 

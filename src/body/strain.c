@@ -118,7 +118,10 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
     const peri__law *law = &m->laws[m->material[i]];
     int linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     double inverse[6] = { 0.0 }, pressure_factor = 0.0, stabilization = 0.0, stress[3][3];
+    double slope;
+    peri__bunch bunch;
     int tensor = 0;
+    bunch.point = -1;
     if (!law->pairwise) pressure_factor = peri__get_constant(b, i, PERI__PRESSURE_FACTOR);
     if (pressure_factor != 0.0) pressure_factor *= peri__dilatation(b, i, row);
     if (law->gather & PERI__GRADIENT) {
@@ -137,7 +140,8 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
         peri__pull_of(b, i, row->ids[k], xi, eta);
         if (m->centroid)
             for (int d = 0; d < m->dim; ++d) xi[d] = peri__get_real(m->centroid, b->b32, at * m->dim + d);
-        e = bond * peri__stretch(b, i, row, k);
+        peri__ask_bond(b, i, row, k, &bunch, &e, &slope);
+        e *= bond;
         for (int d = 0; d < m->dim; ++d) length += peri__square(xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
         central = pressure_factor * peri__law_gauge(law, bond) + peri__spring(b, i, row->ids[k], bond) * e;

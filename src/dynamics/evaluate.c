@@ -192,6 +192,8 @@ static int32_t peri__evaluate_there(peri_body *b, const peri_evaluate_desc *e, c
         if (!m->pairwise) operands.response = (char *)b->change_response + (size_t)m->margin * peri__bond_real(b);
         operands.node = NULL;
         peri__sum_bonds(b, &operands, NULL);
+        status = peri__heed_laws(b);
+        if (status < 0) return status;
     }
     peri__give_array(b, e, f, 1.0, e->force);
     if (report && e->energy) report->energy = peri__energy_under(b, u, NULL) * m->energy;

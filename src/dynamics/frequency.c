@@ -243,6 +243,7 @@ static double peri__estimate_frequency(const peri_body *b) {
     memset(&s, 0, sizeof s);
     s.body = b;
     s.operands = peri__operands_of(b);
+    s.operands.bond_laws = NULL; /* they are no stiffer than at rest                                                      */
     void *vectors[3] = { peri__new_vector(b, &b->scratch), peri__new_vector(b, &b->scratch), peri__new_vector(b, &b->scratch) };
     if (!m->pairwise) s.response = peri__new(&b->scratch, response, peri__bond_real(b));
     if (vectors[0] && vectors[1] && vectors[2] && (s.response || m->pairwise) && (!b->softens || peri__heal_for_lanczos(&s))) {

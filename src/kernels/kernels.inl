@@ -66,6 +66,7 @@ PERI_SHARED const peri__ops PERI_FN(ops) = { 0 }; /* left out: peri_body_create 
 #ifndef PERI_NO_STATICS
 #include "tangent.inl"
 #endif
+#include "bond_laws.inl"
 
 /* Sums of vectors have the type of the compiler, which differs from that of intrinsics where it must choose. */
 #define PERI_IF(condition, a, b) ((condition) ? (PERI_VECTOR)(a) : (PERI_VECTOR)(b))
@@ -147,9 +148,9 @@ PERI_SHARED const peri__ops PERI_FN(ops) = {
     PERI_FN(part_of),
     PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic),
 #ifdef PERI_NO_STATICS
-    NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL
+    NULL, NULL, PERI_FN(law_force), PERI_FN(law_energy), NULL, NULL, NULL, NULL, NULL, NULL, NULL
 #else
-    PERI_FN(tangent_gather), PERI_FN(tangent_force), PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force),
+    PERI_FN(tangent_gather), PERI_FN(tangent_force), PERI_FN(law_force), PERI_FN(law_energy), PERI_FN(law_tangent), PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force),
     PERI_FN(krylov_blocks), PERI_FN(krylov_norm), PERI_FN(krylov_dot)
 #endif
 };

@@ -118,7 +118,7 @@ static double peri__damage(const peri_body *b, int64_t i, int uncut_only) {
         double part = row.partial_volume ? (double)row.partial_volume[k] : m->volume[row.ids[k]];
         if (uncut_only && b->uncut && !(b->uncut[i * m->words + k / 32] >> (k % 32) & 1)) continue;
         all += part;
-        if (peri__is_alive(b, i, k)) intact += part;
+        if (peri__is_alive(b, i, k)) intact += b->history ? part * peri__bond_left(b, i, &row, k) : part;
     }
     return all > 0.0 ? 1.0 - intact / all : 0.0;
 }

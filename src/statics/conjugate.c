@@ -12,7 +12,7 @@
 static int peri__is_linear(const peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) return 0;
-    return b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->contact;
+    return b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->contact && !b->model->law_of;
 }
 
 static double peri__rounding(const peri_body *b) { return b->b32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
@@ -56,6 +56,7 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
     s->t.body = s->body;
     s->t.p = s->k.p;
     s->t.q = s->k.q;
+    s->t.secant = s->secants;
     peri__apply_tangent(&s->t, at_rest);
     peri__add_springs(s, -1.0, s->k.p, 0, s->k.q);
     peri__add_touch_tangent(s->body, s->t.p, s->t.q);
@@ -107,6 +108,17 @@ static int32_t peri__count_iteration(peri__solver *s, double residual) {
     return status == PERI_OK && s->body->stop ? PERI_STOPPED : status;
 }
 
+/* How far to go along p where bonds that soften bend K downwards: as far as springs would that are as soft as the bonds are by now. Their
+   energy is nowhere below that of the bonds by more than here, so that the bonds have less there, too. K p is theirs then. */
+static double peri__softened_step(peri__solver *s, double rz, double none) {
+    const int32_t former = s->secants;
+    double square;
+    s->secants = 1;
+    const double bent = peri__stiffness_times(s, 0, &square);
+    s->secants = former;
+    return bent > none * square * s->softest ? rz / bent : 0.0;
+}
+
 /* Adds to d the solution of K d = r, r becoming what is left, until |r| <= reach*scale. `loads`: that part of the scale which stays.
    PERI_OK, PERI_STOPPED, PERI_ERROR_CONVERGENCE, or PERI_ERROR_INDEFINITE, PERI_ERROR_LOOSE where a direction has negative or no stiffness;
    d then is what was found before it, or that way down. */
@@ -136,10 +148,11 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
         (void)peri__krylov_pass(s, &s->k, b->ops->krylov_turn);
         bent = peri__stiffness_times(s, at_rest, &square);
         if (!(bent > none * square * s->softest)) {
-            s->k.alpha = k == 0 ? 1.0 : 0.0;
+            const double soft = b->model->law_of && bent == bent ? peri__softened_step(s, rz, none) : 0.0;
+            s->k.alpha = soft > 0.0 ? soft : k == 0 ? 1.0 : 0.0;
             s->slope += s->k.alpha * rz;
             (void)peri__krylov_pass(s, &s->k, b->ops->krylov_step);
-            return bent < less * square * s->stiff ? PERI_ERROR_INDEFINITE : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
+            return bent < less * square * s->stiff || soft > 0.0 ? PERI_ERROR_INDEFINITE : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
         }
         s->k.alpha = rz / bent;
         s->slope += s->k.alpha * rz;

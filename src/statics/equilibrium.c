@@ -59,7 +59,8 @@ static double peri__static_forces(peri__solver *s) {
         for (int64_t i = 0; i < m->points; ++i)
             if (!(s->constrained[i] >> d & 1)) square += peri__square(m->volume[i] * peri__get_real(b->f, b->f32, d * m->stride + i));
     peri__bond_forces(b, &operands);
-    status = peri__touch_now(b);
+    status = peri__heed_laws(b);
+    if (status == PERI_OK) status = peri__touch_now(b);
     if (status < 0) return status;
     s->report.passes++;
     for (int32_t d = 0; d < m->dim; ++d)
@@ -325,11 +326,11 @@ static int32_t peri__newton(peri__solver *s) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;
         double residual = peri__static_residual(s, loads), told = s->report.residual;
-        int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_GEOMETRY_LINEAR && peri__at_rest(b);
+        int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_GEOMETRY_LINEAR && !b->model->law_of && peri__at_rest(b);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))
-            return s->negative ? peri__fail_step(s, PERI_ERROR_INDEFINITE, "peri_solve", -1, 0.0) : PERI_OK;
+            return s->negative && !b->model->law_of ? peri__fail_step(s, PERI_ERROR_INDEFINITE, "peri_solve", -1, 0.0) : PERI_OK;
         if (!(residual < HUGE_VAL) && k > 0) { /* the last way led out of all numbers: back */
             memcpy(b->u, s->k.p, peri__vector_bytes(b));
             s->report.residual = told;
@@ -338,6 +339,7 @@ static int32_t peri__newton(peri__solver *s) {
             return peri__fail_step(s, PERI_ERROR_CONVERGENCE, linear && k > 3 ? "tolerance" : "iterations", -1, s->report.residual);
         status = peri__choose_contacts(s);
         if (status < 0) return status;
+        s->secants = gap && b->model->law_of; /* supports take along all of the way at once */
         if (gap) peri__lift(s, at_rest);
         if (s->bridged) peri__add_springs(s, 1.0, NULL, 1, s->k.r); /* to where what does not touch yet would be held */
         double reach = peri__newton_reach(s, residual, gap || s->bridged);

@@ -111,3 +111,29 @@ static int64_t peri__break_static(peri__solver *s, double most, double limit) {
     if (b->before) peri__report_breaks(b);
     return count;
 }
+
+/* Laws of bonds take an equilibrium as the latest of their history: what they lost goes to the ledger, and bonds break that they break.
+   Returns the number of these; *lost: what they lost. */
+static int64_t peri__keep_static(peri__solver *s, double *lost) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    peri__operands operands = peri__operands_of(b);
+    *lost = 0.0;
+    if (!m->law_of) return 0;
+    if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
+    operands.keeping = s->settings->fracture ? 2 : 1;
+    operands.f = s->k.q; /* b->f stays that of the equilibrium */
+    operands.closing = NULL;
+    peri__bond_forces(b, &operands);
+    s->report.passes++;
+    const peri__sums total = peri__total(b->sums, m->points);
+    *lost = total.a;
+    b->now.ledger.fracture += total.a;
+    if (total.n == 0) return 0;
+    b->now.broken += total.n;
+    s->report.broken += total.n / 2;
+    peri__changed(b, PERI__BONDS);
+    peri__note_breaks(b, peri__load_time(b));
+    if (b->before) peri__report_breaks(b);
+    return total.n / 2;
+}

@@ -79,8 +79,10 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     const double volume = m->volume[o];
     double stabilization = 0.0, pressure_factor = 0.0, theta_factor = 0.0, p = 0.0, self[3] = { 0.0 }, springs[9] = { 0.0 };
     peri__deformation f;
+    peri__bunch bunch;
     peri__row row;
     peri__read_row(b, o, &row);
+    bunch.point = -1;
     e->count = 0;
     e->self = -1;
     *tensors = 0;
@@ -99,12 +101,14 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
         if (row.ids[k] > o && e->self < 0) e->self = e->count++;
         double xi[3], eta[3], n[3], length = 0.0, w = peri__weight_of(m, o, row.weight, k), bond = peri__get_real(row.bond, b->b32, k);
         double gauge = peri__law_gauge(law, bond), *pull = &e->pull[e->count * dim], *spring = &e->spring[e->count * dim * dim];
-        double extension = bond * peri__stretch(b, o, &row, k);
+        double extension, slope;
+        peri__ask_bond(b, o, &row, k, &bunch, &extension, &slope);
+        extension *= bond;
         peri__pull_of(b, o, row.ids[k], xi, eta);
         for (int d = 0; d < dim; ++d) length += peri__square(n[d] = xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
         for (int d = 0; d < dim; ++d) n[d] /= length;
-        const double q = peri__spring(b, o, row.ids[k], bond), along = volume * w * q;
+        const double q = peri__spring(b, o, row.ids[k], bond), along = volume * w * q * slope;
         const double across = linear ? 0.0 : volume * w * (p * gauge + q * extension) / length;
         for (int a = 0; a < dim; ++a) {
             pull[a] = w * gauge * n[a];

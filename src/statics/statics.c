@@ -52,6 +52,7 @@ static int32_t peri__check_statics(peri_body *b, const peri_solve_desc *st) {
         if (curve < 0) return (int32_t)curve;
     }
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
+    if (b->model->law_of && st->control == PERI_CONTROL_FRACTURE) return peri__fail(b, PERI_ERROR_LAW, "control", -1, st->control);
     if (b->contact && st->method == PERI_METHOD_BICGSTAB) return peri__fail(b, PERI_ERROR_LAW, "method", -1, st->method);
     return PERI_OK;
 }
@@ -69,15 +70,18 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
         if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
         status = peri__equilibrium(s, round == 0 ? PERI__ANEW : s->rough > 0.0 ? PERI__AFTER_BREAK : PERI__AS_PREPARED);
         if (status != PERI_OK) break;
-        double external = b->now.ledger.external, energy = 0.0, most = 0.0;
+        double external = b->now.ledger.external, energy = 0.0, most = 0.0, lost;
         peri__count_work(s, s->from);
+        const int64_t broke = peri__keep_static(s, &lost);
+        status = peri__heed_laws(b);
+        if (status < 0) break;
         if (peri__may_break(s) || s->disturbed) energy = peri__static_energy(b);
-        if (round > 0 || s->disturbed) b->now.ledger.damping += b->now.ledger.external - external - (energy - broken);
+        if (round > 0 || s->disturbed) b->now.ledger.damping += b->now.ledger.external - external - (energy - broken) - lost;
         s->disturbed = 0;
         broken = energy;
         if (peri__may_break(s)) most = peri__most_excess(b);
-        if (most <= 1.0 && s->rough == 0.0) break;
-        s->rough = most > 1.0 ? PERI_ROUGH : 0.0;
+        if (most <= 1.0 && s->rough == 0.0 && broke == 0) break;
+        s->rough = most > 1.0 || broke > 0 ? PERI_ROUGH : 0.0;
         if (!(most > 1.0)) continue;
         (void)peri__break_static(s, most, 1.0);
         broken = peri__static_energy(b);

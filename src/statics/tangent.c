@@ -13,6 +13,15 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     peri__operands operands = peri__operands_of(b);
     void *change = t->change ? (char *)t->change + (size_t)m->margin * peri__bond_real(b) : NULL;
     if (t->u) operands.u = t->u;
+    if (operands.bond_laws && !at_rest) {
+        operands.p = t->p;
+        operands.q = t->q;
+        operands.secant = t->secant;
+        peri__for_points(b, m->points, 2 * m->width, b->ops->law_tangent, &operands, b->sums);
+        peri__note_laws(b);
+        return;
+    }
+    operands.bond_laws = NULL;
     if (t->response) operands.response = (char *)t->response + (size_t)m->margin * peri__bond_real(b);
     if (at_rest || b->desc.geometry == PERI_GEOMETRY_LINEAR) {
         operands.u = t->p; /* the same bonds with other displacements */
@@ -55,8 +64,10 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const peri__law *own_law = &m->laws[m->material[i]];
     const int linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     double gather_diagonal[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
+    peri__bunch bunch;
     peri__row row;
     peri__read_row(b, i, &row);
+    bunch.point = -1;
     for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
     for (int64_t k = 0; k < row.count; ++k) {
         const int64_t j = row.ids[k];
@@ -74,6 +85,11 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
         for (int32_t d = 0; d < dim; ++d) n[d] /= length;
         spring += own * peri__spring(b, i, j, bond);
         spring += back * peri__spring(b, j, i, bond);
+        if (m->law_of) {
+            double force, slope;
+            peri__ask_bond(b, i, &row, k, &bunch, &force, &slope);
+            spring *= peri__secant(peri__stretch(b, i, &row, k), force, slope);
+        }
         for (int d = 0; own_law->gather == PERI__DILATATION && d < dim; ++d)
                 gather_diagonal[d] += own * peri__law_gauge(own_law, bond) * n[d];
         if (law->gather == PERI__DILATATION) { /* theta of j */
@@ -219,6 +235,8 @@ static int32_t peri__multiply(peri_body *b, peri__product *product) {
     product->t.change = b->change_response;
     peri__for_points(b, m->points, 1, peri__to_planes, product, NULL);
     peri__apply_tangent(&product->t, 0);
+    const int32_t status = peri__heed_laws(b);
+    if (status < 0) return status;
     peri__for_points(b, m->points, 1, peri__from_planes, product, NULL);
     return PERI_OK;
 }
@@ -252,7 +270,7 @@ PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displace
     if (status == PERI_OK) status = peri__check_state(b, b->u, displacement, count, b->model->length, "displacement");
     if (status < 0) return status;
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
-    if (b->desc.geometry == PERI_GEOMETRY_LINEAR) return peri__multiply(b, &product);
+    if (b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->model->law_of) return peri__multiply(b, &product);
     const int64_t reals = peri__response_reals(b->model);
     void *u = peri__new_vector(b, &b->scratch), *response = NULL;
     if (!b->model->pairwise) response = peri__new(&b->scratch, reals, peri__bond_real(b));
