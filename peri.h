@@ -387,8 +387,9 @@ PERI_API void peri_material_desc_init(peri_material_desc *desc, int32_t law);
 /* Adds a material, before peri_build; at most 120. Returns its id, or an error. */
 PERI_API int32_t peri_add_material(peri_body *body, const peri_material_desc *desc);
 
-/* Bonds between bond-based i and j act as if of `desc`, before peri_build. Default: harmonic mean
-   of the micromoduli, smaller critical stretch. */
+/* Bonds between i and j break, and of bond-based i and j act, as if of `desc`, before peri_build;
+   its law is that of one of them, not bond-based unless both are. Default: harmonic mean of the
+   micromoduli, the criteria of both. */
 PERI_API int32_t peri_set_interface(peri_body *body, int32_t i, int32_t j,
     const peri_material_desc *desc);
 

@@ -9,7 +9,7 @@
 #define YOUNG    2.0
 #define STRENGTH 2e-3
 
-static const double plateau[8] = {0, 1, 0.2, 1, 0.5, 0.4, 1, 0};
+static const double kinks[8] = {0, 1, 0.15, 0.6, 0.5, 0.25, 1, 0}; /* a plateau would soften all of a strip, not its crack alone */
 
 static peri_softening_desc soft(int32_t shape, double energy) {
     peri_softening_desc d;
@@ -17,7 +17,7 @@ static peri_softening_desc soft(int32_t shape, double energy) {
     d.strength = STRENGTH;
     d.fracture_energy = energy;
     d.count = shape == PERI_SOFTENING_TABLE ? 4 : 0;
-    d.table = shape == PERI_SOFTENING_TABLE ? plateau : NULL;
+    d.table = shape == PERI_SOFTENING_TABLE ? kinks : NULL;
     return d;
 }
 
@@ -48,22 +48,26 @@ static strip strip_of(double reach, int length, int width, int grip, int32_t cor
 
 /* ---- what was given is found ------------------------------------------------------------------------------------------ */
 
-/* What tearing a strip takes; bonds of the free edges cost as much in each. */
+/* What tearing a notched strip takes; its free edge and its notch cost the same at any width. */
 static double torn(int32_t shape, double reach, int width, double energy) {
     const peri_softening_desc d = soft(shape, energy);
-    const int grip = (int)(2 * reach);
-    strip s = strip_of(reach, 4 * (int)reach, width, grip, PERI_CORRECTION_NONE, &d);
+    const int grip = (int)(2 * reach), length = 4 * (int)reach;
+    const double middle = grip + 0.5 * length, mouth[2] = {middle, -1}, tip[2] = {middle, (int)reach};
+    strip s = strip_of(reach, length, width, grip, PERI_CORRECTION_NONE, &d);
     double last;
     peri_solve_desc st;
     peri_energy e;
     (void)MUST(s.body, peri_get_softening(s.body, s.material, s.material, NULL, &last));
     const double pull[2] = {1.2 * last * reach * reach, 0}; /* the longest bonds across lie aslant */
-    (void)MUST(s.body, peri_prescribe_displacement(s.body, s.left, PERI_AXIS_X, NULL, NULL, NULL));
-    (void)MUST(s.body, peri_prescribe_displacement(s.body, s.right, PERI_AXIS_X, pull, NULL, NULL));
-    s.load = (int32_t)MUST(s.body, peri_prescribe_displacement(s.body, s.left, PERI_AXIS_XY, NULL, NULL, NULL));
+    (void)MUST(s.body, peri_cut_segment(s.body, PERI_CUT_INITIAL, mouth, tip));
+    (void)MUST(s.body, peri_prescribe_displacement(s.body, s.left, PERI_AXIS_XY, NULL, NULL, NULL));
+    (void)MUST(s.body, peri_prescribe_displacement(s.body, s.right, PERI_AXIS_XY, pull, NULL, NULL));
     peri_solve_desc_init(&st);
-    st.steps = 2;
-    (void)MUST(s.body, peri_solve(s.body, &st, NULL));
+    for (int part = 0; part < 2; ++part) { /* the peak comes early */
+        st.load_to = part ? 1 : 0.03;
+        st.steps = part ? 3 : 4;
+        (void)MUST(s.body, peri_solve(s.body, &st, NULL));
+    }
     (void)MUST(s.body, peri_get_energy(s.body, &e));
     CHECK(e.elastic < 1e-9 * e.fracture && e.fracture <= e.external * (1 + 1e-9) + fabs(e.error));
     peri_body_destroy(s.body);
@@ -74,15 +78,15 @@ static double torn(int32_t shape, double reach, int width, double energy) {
 static void takes_energy(int32_t shape, double reach, int narrow, int wide) {
     const double energy = 3000 * STRENGTH * STRENGTH / YOUNG;
     const double more = torn(shape, reach, wide, energy) - torn(shape, reach, narrow, energy);
-    CHECK_NEAR(more, energy * (wide - narrow), 0.02, 0);
+    CHECK_NEAR(more, energy * (wide - narrow), 0.05, 0);
 }
 
-static void bilinear_takes_its_energy(void) { takes_energy(PERI_SOFTENING_BILINEAR, 3.015, 7, 10); }
-static void tables_take_their_energy(void) { takes_energy(PERI_SOFTENING_TABLE, 2.015, 5, 8); }
+static void bilinear_takes_its_energy(void) { takes_energy(PERI_SOFTENING_BILINEAR, 3.015, 9, 11); }
+static void tables_take_their_energy(void) { takes_energy(PERI_SOFTENING_TABLE, 2.015, 6, 8); }
 static void all_shapes_take_their_energy(void) {
     for (int32_t shape = PERI_SOFTENING_BILINEAR; shape <= PERI_SOFTENING_TABLE; ++shape) {
-        takes_energy(shape, 3.015, 8, 16);
-        takes_energy(shape, 5.015, 14, 24);
+        takes_energy(shape, 3.015, 10, 16);
+        takes_energy(shape, 5.015, 16, 24);
     }
 }
 

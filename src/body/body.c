@@ -197,6 +197,8 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
         status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
         if (status < 0) return status;
     }
+    for (int64_t k = 0; k < b->interface_count; ++k)
+        if (used[b->interfaces[k].i] && used[b->interfaces[k].j]) m->seen_by |= peri__seen_by(b->interfaces[k].material.criterion);
     for (int32_t i = 0; i < n; ++i)
         for (int32_t j = 0; j < n; ++j) {
             peri__pair *pair = &m->pairs[i * n + j];

@@ -223,6 +223,15 @@ static int32_t peri__find_materials(peri_body *b, int32_t i, int32_t j, int32_t 
     return PERI_OK;
 }
 
+/* Of bond-based materials the interface is bond-based, and has a stiffness of its own; else it is of the law of an end that is not, and
+   has a strength. */
+static int32_t peri__check_interface(peri_body *b, int32_t i, int32_t j, int32_t law) {
+    const int32_t ends[2] = { b->materials[i].law, b->materials[j].law };
+    const int springs = peri__is_pairwise(ends[0]) && peri__is_pairwise(ends[1]);
+    const int fits = (law == ends[0] || law == ends[1]) && peri__is_pairwise(law) == springs;
+    return fits ? PERI_OK : peri__fail(b, PERI_ERROR_LAW, "law", -1, law);
+}
+
 PERI_API int32_t peri_set_interface(peri_body *b, int32_t first, int32_t second, const peri_material_desc *material) {
     int32_t at[2] = { 0, 0 };
     PERI_NEED_UNBUILT(b);
@@ -231,8 +240,8 @@ PERI_API int32_t peri_set_interface(peri_body *b, int32_t first, int32_t second,
     if (status == PERI_OK) status = peri__check_material(b, material, 0);
     if (status < 0) return status;
     const int32_t i = at[0], j = at[1];
-    if (material->law != PERI_LAW_BOND_BASED || b->materials[i].law != PERI_LAW_BOND_BASED || b->materials[j].law != PERI_LAW_BOND_BASED)
-        return peri__fail(b, PERI_ERROR_LAW, material->law != PERI_LAW_BOND_BASED ? "law" : "i, j", -1, 0.0);
+    status = peri__check_interface(b, i, j, material->law);
+    if (status < 0) return status;
     for (int64_t k = 0; k < b->interface_count; ++k) {
         peri__interface *face = &b->interfaces[k];
         if ((face->i == i && face->j == j) || (face->i == j && face->j == i)) {
@@ -291,8 +300,11 @@ static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double s
     const peri__pair *p = &own[i], *q = &own[j];
     for (int64_t k = 0; k < b->interface_count; ++k) {
         const peri__interface *face = &b->interfaces[k];
-        if ((face->i == i && face->j == j) || (face->i == j && face->j == i))
-            return peri__constants(b, &face->material, stress, length, edge, pair);
+        if ((face->i == i && face->j == j) || (face->i == j && face->j == i)) {
+            const int32_t status = peri__constants(b, &face->material, stress, length, edge, pair);
+            if (!peri__is_pairwise(face->material.law)) pair->c = p->c; /* the ends are as stiff as they are */
+            return status;
+        }
     }
     *pair = *p;
     for (int32_t k = 0; k < peri__count_criterion; ++k) pair->limit[k] = peri__lower(p->limit[k], q->limit[k]);
