@@ -36,7 +36,7 @@
      Callback returns 0: go on, or no; > 0: stop, or yes; < 0: it failed, which ends the call with
               PERI_ERROR_CALLBACK. It may read the body that called it.
      Threads  one at a time per body; different bodies, clones included, at once. Results have the
-              same bits for any number. Callbacks come on the thread that made the call.
+              same bits for any number. Callbacks but laws of bonds come on the thread of the call.
    The library never prints, exits, asserts, or keeps global state. Equations are cited from
    [T] the thesis, [L] the lecture, [P] PDMATLAB2D, [C] the convergence study: docs/theory.md. */
 

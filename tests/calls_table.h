@@ -36,7 +36,7 @@ static void read_names(void) { /* of the enum of peri.h */
     static char text[STATUSES][64];
     CHECK(file != NULL);
     while (file && name_count < STATUSES && fgets(line, sizeof line, file)) {
-        if (sscanf(line, " PERI_%63[A-Z_] = %d", name, &status) != 2 || status > 1 || status < peri__first_status) continue;
+        if (sscanf(line, " PERI_%63[A-Z_] = %d", name, &status) != 2 || status >= peri__end_status || status < peri__first_status) continue;
         (void)snprintf(text[name_count], 64, "%s", strncmp(name, "ERROR_", 6) == 0 ? name + 6 : name);
         status_names[name_count].name = text[name_count];
         status_names[name_count++].status = status;
@@ -102,9 +102,9 @@ static void reach(const char *call, int64_t status) { /* `call` as text: the fir
     const char *at = call;
     while ((at = strstr(at, "peri_")) != NULL && (at[strspn(at, "abcdefghijklmnopqrstuvwxyz0123456789_")] != '('
                                                   || (at > call && (at[-1] == '_' || at[-1] == '`')))) at += 5;
-    if (!at || status < peri__first_status || status > PERI_STOPPED || status == PERI_OK) return;
+    if (!at || status < peri__first_status || status >= peri__end_status || status == PERI_OK) return;
     const int k = call_named(at, strspn(at, "abcdefghijklmnopqrstuvwxyz0123456789_"));
-    if (k >= 0 && status == PERI_STOPPED && !table_rows[k].listed[of_status(PERI_STOPPED)]) return; /* a count of 1 */
+    if (k >= 0 && status > 0 && !table_rows[k].listed[of_status((int32_t)status)]) return; /* a count */
     if (k >= 0) table_rows[k].reached[of_status((int32_t)status)]++;
     else {
         test_bad++;

@@ -41,7 +41,7 @@ static void units_of_a_body(void) {
 }
 
 /* peri_set_interface: "density of the descriptor is not used. A second call for the same pair replaces the first. i = j is refused
-   (PERI_ERROR_MATERIAL), and so are state-based materials (PERI_ERROR_LAW)". */
+   (PERI_ERROR_MATERIAL)", and of bond-based materials any other law. */
 static void interfaces(void) {
     const specimen s = box_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 2.1, 4, 3, 1);
     double c[4], s0;

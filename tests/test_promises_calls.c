@@ -92,6 +92,7 @@ static void without_a_body(void) {
     peri_memory memory;
     peri_error e;
     ASK(peri_unlock(n)), ASK(peri_get_error(c, &e)), ASK(peri_id(c, PERI_KIND_SET, 1)), ASK(peri_add_material(n, &stuff));
+    ASK(peri_set_softening(n, 1, 2, NULL)), ASK(peri_get_softening(n, 1, 2, NULL, NULL)), ASK(peri_set_bond_law(n, 1, 2, 0, NULL, NULL));
     ASK(peri_set_interface(n, 1, 2, &stuff)), ASK(peri_get_bond_constants(n, 1, 2, NULL, NULL));
     ASK(peri_get_critical_energy(n, 1, numbers));
     ASK(peri_add_box(n, 1, zero3, far3, 1)), ASK(peri_add_ball(n, 1, zero3, 9, 1));
@@ -336,6 +337,7 @@ static void with_failing_callbacks(void) {
 
 /* The next allocation fails. */
 #define SHORT(call) (fail_in = 0, ASK(call), fail_in = -1)
+#include "calls_laws.h"
 static void without_memory(void) {
     specimen s = plate_of(PERI_LAW_LPS), solid = specimen_of(PERI_SPACE_SOLID, PERI_LAW_BOND_BASED, 0, 1, 2.1, 5, 4, 4);
     solid.desc.allocate = take;
@@ -514,6 +516,7 @@ static void gather(void) {
     with_wrong_ids();
     at_the_wrong_time();
     with_evaluations();
+    with_wrong_laws();
     with_wrong_arguments();
     with_failing_callbacks();
     without_memory();

@@ -113,7 +113,9 @@ static double bar_strength(int32_t shape, double reach, int width, double length
     return most;
 }
 
-static void strength_is_that_of_a_bar(void) { CHECK_NEAR(bar_strength(PERI_SOFTENING_BILINEAR, 3.015, 36, 60), STRENGTH, 0.01, 0); }
+static void strength_is_that_of_a_bar(void) {
+    CHECK_NEAR(bar_strength(PERI_SOFTENING_BILINEAR, 3.015, 36, 60), STRENGTH, 0.01, 0);
+}
 
 /* ---- one bond ---------------------------------------------------------------------------------------------------------- */
 
@@ -173,7 +175,8 @@ static double held(const pair *p) {
 static void one_bond_follows_its_curve(void) {
     for (int elastic = 0; elastic < 2; ++elastic) {
         pair p = pair_of(PERI_SOFTENING_BILINEAR, elastic ? PERI_UNLOADING_ELASTIC : PERI_UNLOADING_SECANT, 0.5);
-        const double a = p.first, b = p.last, s = 0.4 * a + 0.6 * b, f = a * (b - s) / (b - a), area = 0.5 * a * a + 0.5 * (a + f) * (s - a);
+        const double a = p.first, b = p.last, s = 0.4 * a + 0.6 * b, f = a * (b - s) / (b - a);
+        const double area = 0.5 * a * a + 0.5 * (a + f) * (s - a);
         CHECK(a > 0 && b > 2 * a);
         CHECK_NEAR(pull_to(&p, 0.9 * a), 0.9 * a, 1e-12, 0);
         CHECK_NEAR(pull_to(&p, -0.9 * a), -0.45 * a, 1e-12, 0);

@@ -54,6 +54,7 @@ static int32_t peri__make_force(peri_body *b) {
     peri__operands operands = peri__operands_of(b);
     const peri__model *m = b->model;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    b->law_bad = -1;
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
     int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);

@@ -53,10 +53,11 @@ static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, 
         bunch->count = (int32_t)peri__min(row->count - first, PERI_BUNCH);
         bunch->asked = PERI__ASK_TANGENT;
         for (int32_t n = 0; n < bunch->count; ++n) {
+            bunch->others[n] = row->ids[first + n];
             bunch->length[n] = peri__get_real(row->bond, b->b32, first + n);
             bunch->stretch[n] = peri__is_alive(b, i, first + n) ? peri__stretch(b, i, row, first + n) : 0.0;
         }
-        if (!peri__respond(&operands, i, row, first, bunch)) peri__follow_none(bunch);
+        if (!peri__respond(&operands, i, first, bunch)) peri__follow_none(bunch);
     }
     *force = bunch->force[k - first];
     *tangent = bunch->tangent[k - first];
@@ -93,6 +94,7 @@ static int32_t peri__heed_laws(peri_body *b) {
 static void peri__sum_bonds(const peri_body *b, peri__operands *operands, peri__sums *sums) {
     const peri__model *m = b->model;
     if (operands->bond_laws) {
+        if (m->record_reals) peri__for_points(b, m->points, 2, b->ops->fill_records, operands, NULL);
         peri__for_points(b, m->points, 2 * m->width, b->ops->law_force, operands, b->sums);
         peri__note_laws(b);
         return;
@@ -122,7 +124,8 @@ static double peri__energy_under(peri_body *b, const void *u, double *density) {
     peri__refresh(b);
     operands.u = u;
     operands.out = density;
-    peri__for_points(b, b->model->points, 4 * b->model->width, operands.bond_laws ? b->ops->law_energy : b->ops->energy, &operands, b->sums);
+    peri__block_fn energy = operands.bond_laws ? b->ops->law_energy : b->ops->energy;
+    peri__for_points(b, b->model->points, 4 * b->model->width, energy, &operands, b->sums);
     if (operands.bond_laws) peri__note_laws(b);
     return peri__total(b->sums, b->model->points).a;
 }

@@ -66,7 +66,6 @@ PERI_SHARED const peri__ops PERI_FN(ops) = { 0 }; /* left out: peri_body_create 
 #ifndef PERI_NO_STATICS
 #include "tangent.inl"
 #endif
-#include "bond_laws.inl"
 
 /* Sums of vectors have the type of the compiler, which differs from that of intrinsics where it must choose. */
 #define PERI_IF(condition, a, b) ((condition) ? (PERI_VECTOR)(a) : (PERI_VECTOR)(b))
@@ -74,6 +73,10 @@ PERI_SHARED const peri__ops PERI_FN(ops) = { 0 }; /* left out: peri_body_create 
 #define PERI_PLAIN_set1(a) (a)
 #define PERI_PLAIN_loadu(a) (*(a))
 #define PERI_PLAIN_storeu(a, value) (*(a) = (value))
+
+typedef struct PERI_FN(pulled) { /* of the bonds of a bunch: c w phi/|y|, at first w/|y|, and the y along which they pull  */
+    peri_b factor[PERI_BUNCH], y[PERI_D][PERI_BUNCH];
+} PERI_FN(pulled);
 
 /* what works on vectors, of one instruction set */
 typedef struct PERI_FN(vector_ops) {
@@ -89,6 +92,8 @@ typedef struct PERI_FN(vector_ops) {
     int (*list_tensor)(const peri__operands *, int64_t, peri_r *);
     peri_r (*list_dilatation_sum)(const peri__operands *, int64_t);
     void (*list_shape)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D]);
+    void (*list_stretch)(const peri__operands *, int64_t, int64_t, uint64_t, peri__bunch *, PERI_FN(pulled) *);
+    void (*law_sum)(const peri__bunch *, const PERI_FN(pulled) *, uint64_t, peri_r *);
     int (*kick_some)(int64_t, peri_r, const peri_r *, const peri_r *, peri_r *);
     void (*drift_some)(int64_t, peri_r, const peri_r *, peri_r *);
     void (*share_some)(const peri_r *, const peri_r *, peri_r *);
@@ -124,7 +129,8 @@ typedef struct PERI_FN(vector_ops) {
 #define PERI_TABLE(set)                                                                                                \
     { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(dilatation_sum_##set), \
       PERI_FN(squares_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set), PERI_FN(list_ordinary_##set),          \
-      PERI_FN(list_tensor_##set), PERI_FN(list_dilatation_sum_##set), PERI_FN(list_shape_##set), PERI_FN(kick_some_##set),    \
+      PERI_FN(list_tensor_##set), PERI_FN(list_dilatation_sum_##set), PERI_FN(list_shape_##set),                           \
+      PERI_FN(list_stretch_##set), PERI_FN(law_sum_##set), PERI_FN(kick_some_##set),                                     \
       PERI_FN(drift_some_##set), PERI_FN(share_some_##set), PERI_FN(square_some_##set), PERI_FN(step_some_##set),           \
       PERI_FN(weigh_some_##set), PERI_FN(dot_some_##set), PERI_FN(turn_some_##set) }
 static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
@@ -137,6 +143,7 @@ static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
 #undef PERI_TABLE
 
 #include "passes.inl"
+#include "bond_laws.inl"
 #include "march.inl"
 #ifndef PERI_NO_STATICS
 #include "solve.inl"
@@ -150,8 +157,9 @@ PERI_SHARED const peri__ops PERI_FN(ops) = {
 #ifdef PERI_NO_STATICS
     NULL, NULL, PERI_FN(law_force), PERI_FN(law_energy), NULL, NULL, NULL, NULL, NULL, NULL, NULL
 #else
-    PERI_FN(tangent_gather), PERI_FN(tangent_force), PERI_FN(law_force), PERI_FN(law_energy), PERI_FN(law_tangent), PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force),
-    PERI_FN(krylov_blocks), PERI_FN(krylov_norm), PERI_FN(krylov_dot)
+    PERI_FN(tangent_gather), PERI_FN(tangent_force), PERI_FN(law_force), PERI_FN(law_energy), PERI_FN(law_tangent),
+    PERI_FN(krylov_step), PERI_FN(krylov_turn), PERI_FN(krylov_force), PERI_FN(krylov_blocks), PERI_FN(krylov_norm),
+    PERI_FN(krylov_dot)
 #endif
 };
 #endif

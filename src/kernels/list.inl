@@ -254,6 +254,65 @@ PERI_ISA_TARGET static int PERI_ISA_FN(list_tensor)(const peri__operands *o, int
 }
 #undef PERI_TENSOR_RECORD
 
+/* The bonds `first`, ... of the point at a place for its laws of bonds: of the live ones the stretch, of the others 0; what a force of 1
+   pulls with. */
+PERI_ISA_TARGET PERI_INLINE void PERI_ISA_FN(stretch_of)(const peri__operands *o, int64_t place, int64_t first, uint64_t live,
+                                                         peri__bunch *bunch, PERI_FN(pulled) *pulled, const int linear) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const int64_t i = peri__nth(m, place), begin = m->start[i] + first;
+    const int32_t reals = PERI_D == 3 ? 8 : m->record_reals, *ids = &m->ids[begin];
+    const peri_r *records = (const peri_r *)o->records, *mine = records + place * reals;
+    const peri_b *weights = (const peri_b *)m->weight + begin;
+    const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY);
+    peri_b stretch[PERI_BUNCH], length[PERI_BUNCH];
+    peri_r own[8] = { 0 };
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
+    for (int32_t k = 0; k < bunch->count; k += PERI_WIDTH) {
+        PERI_ISA_FN(piece) s;
+        PERI_VECTOR bond, product, reach;
+        PERI_ISA_FN(span)(&s, records, reals, ids + k, own, linear);
+        reach = PERI_ISA_FN(roots)(&s, &bond, &product, 0, linear);
+        PERI_V(storeu)(stretch + k, s.along / reach);
+        PERI_V(storeu)(length + k, bond);
+        PERI_V(storeu)(pulled->factor + k, PERI_V(loadu)(weights + k) * bond / (product + tiny));
+        for (int d = 0; d < PERI_D; ++d) PERI_V(storeu)(pulled->y[d] + k, s.y[d]);
+    }
+    for (int32_t k = 0; k < bunch->count; ++k) {
+        bunch->others[k] = m->order ? m->order[ids[k]] : ids[k];
+        bunch->stretch[k] = (double)stretch[k];
+        bunch->length[k] = (double)length[k];
+    }
+    for (int32_t k = 0; ~live && k < bunch->count; ++k)
+        if (!(live >> k & 1)) bunch->stretch[k] = 0.0;
+}
+
+PERI_ISA_TARGET static void PERI_ISA_FN(list_stretch)(const peri__operands *o, int64_t place, int64_t first, uint64_t live,
+                                                      peri__bunch *bunch, PERI_FN(pulled) *pulled) {
+    if (o->linear) PERI_ISA_FN(stretch_of)(o, place, first, live, bunch, pulled, 1);
+    else PERI_ISA_FN(stretch_of)(o, place, first, live, bunch, pulled, 0);
+}
+
+/* Adds the pull of the live bonds of a bunch to f, bond k in lane k % PERI_CHUNK. */
+PERI_ISA_TARGET static void PERI_ISA_FN(law_sum)(const peri__bunch *bunch, const PERI_FN(pulled) *pulled, uint64_t live, peri_r *f) {
+    PERI_NO_CONTRACTION
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    const peri_r none[PERI_WIDTH] = { 0 };
+    PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n)
+        for (int d = 0; d < PERI_D; ++d) sum[d][n] = PERI_ISA_FN(take)(none);
+    for (int32_t k = 0; k < bunch->count; k += PERI_CHUNK)
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
+            const int32_t at = k + n * PERI_WIDTH;
+            const PERI_LIVE lanes = PERI_TO_LIVE((uint32_t)(live >> at));
+            const PERI_VECTOR factor = PERI_V(loadu)(pulled->factor + at);
+            for (int d = 0; d < PERI_D; ++d) {
+                const PERI_VECTOR y = PERI_V(loadu)(pulled->y[d] + at);
+                PERI_ISA_FN(gather)(&sum[d][n], PERI_KEEP_PRODUCT(lanes, factor, y));
+            }
+        }
+    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_ISA_FN(added)(sum[d]);
+}
+
 #undef PERI_PIECES
 #undef PERI_VECTOR
 #undef PERI_WIDTH

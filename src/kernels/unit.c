@@ -24,7 +24,7 @@ PERI_SHARED int64_t peri__bond_slot(const peri__model *m, int64_t i, const peri_
 PERI_SHARED int64_t peri__pull_slot(const peri__model *m, int64_t slot, int32_t d);
 PERI_SHARED double  peri__least_stretch(const peri__operands *s, int64_t i);
 PERI_SHARED double  peri__least_limit(const peri__operands *s, int64_t i, int32_t criterion);
-PERI_SHARED int     peri__respond(const peri__operands *o, int64_t i, const peri__row *row, int64_t first, peri__bunch *bunch);
+PERI_SHARED int     peri__respond(const peri__operands *o, int64_t i, int64_t first, peri__bunch *bunch);
 PERI_SHARED double  peri__secant(double stretch, double force, double tangent);
 PERI_SHARED int64_t peri__find_bond(const peri__model *m, int64_t i, int64_t j);
 

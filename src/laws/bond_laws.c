@@ -87,11 +87,20 @@ static const peri__bond_law *peri__law_of_bond(const peri__operands *o, int64_t 
     return law && !law->fn && (lasting || law->brittle) ? NULL : law;
 }
 
+static double peri__zero_if_finite(int32_t n, const double *a) {
+    double sum[4] = { 0.0 };
+    int32_t k = 0;
+    for (; k + 4 <= n; k += 4)
+        for (int l = 0; l < 4; ++l) sum[l] += a[k + l] - a[k + l];
+    for (; k < n; ++k) sum[0] += a[k] - a[k];
+    return sum[0] + sum[1] + sum[2] + sum[3];
+}
+
 /* What a law makes of all bonds of a bunch; 0 where it fails or writes what is not finite. */
 static int peri__follow_law(const peri__operands *o, const peri__bond_law *law, int64_t i, peri__bunch *bunch) {
     const int32_t n = bunch->count, history = bunch->asked & PERI__ASK_HISTORY;
     const size_t bytes = (size_t)n * sizeof(double);
-    double length[PERI_BUNCH], sum = 0.0;
+    double length[PERI_BUNCH], sum;
     peri_bond_row row = { (int32_t)i, n, bunch->others, length, bunch->stretch, bunch->state, bunch->force,
                           bunch->asked & PERI__ASK_TANGENT ? bunch->tangent : NULL, bunch->asked & PERI__ASK_ENERGY ? bunch->energy : NULL,
                           history ? bunch->lost : NULL, history ? bunch->broken : NULL };
@@ -103,17 +112,14 @@ static int peri__follow_law(const peri__operands *o, const peri__bond_law *law, 
     if (history) memset(row.broken, 0, (size_t)n * sizeof *row.broken);
     if (!law->fn) return peri__follow_table(law, &row) == 0;
     if (law->fn(law->user, &row) < 0) return 0;
-    for (int32_t k = 0; k < n; ++k) {
-        sum += row.force[k] - row.force[k];
-        if (row.tangent) sum += row.tangent[k] - row.tangent[k];
-        if (row.energy) sum += row.energy[k] - row.energy[k];
-        if (history) sum += row.lost[k] - row.lost[k];
-    }
-    for (int32_t k = 0; history && k < n * law->states; ++k) sum += row.state[k] - row.state[k];
+    sum = peri__zero_if_finite(n, row.force);
+    if (row.tangent) sum += peri__zero_if_finite(n, row.tangent);
+    if (row.energy) sum += peri__zero_if_finite(n, row.energy);
+    if (history) sum += peri__zero_if_finite(n, row.lost) + peri__zero_if_finite(n * law->states, row.state);
     return sum == 0.0;
 }
 
-/* Copies the kept state of a bunch from the row's, `states` numbers per bond, or back, of the live bonds that follow `law`. */
+/* Copies the kept state of a bunch from the row's, `states` numbers per bond, or back, of the bonds that follow `law`; laws NULL: all. */
 static void peri__copy_states(const peri__operands *o, const peri__bond_law *law, const peri__bond_law *const *laws, double *history,
                               peri__bunch *bunch, int back) {
     const int32_t stride = o->model->bond_states, states = law->states;
@@ -121,7 +127,7 @@ static void peri__copy_states(const peri__operands *o, const peri__bond_law *law
     for (int32_t k = 0; (states != stride || back) && k < bunch->count; ++k)
         for (int32_t n = 0; n < states; ++n) {
             if (!back) bunch->state[k * states + n] = history[k * stride + n];
-            else if (laws[k] == law) history[k * stride + n] = bunch->state[k * states + n];
+            else if (!laws || laws[k] == law) history[k * stride + n] = bunch->state[k * states + n];
         }
 }
 
@@ -130,8 +136,9 @@ static const peri__bond_law *peri__laws_of_bunch(const peri__operands *o, int64_
                                                  const peri__bond_law **laws, int *mixed) {
     const peri__bond_law *first = peri__law_of_bond(o, i, bunch->others[0]);
     *mixed = 0;
+    if (o->model->materials == 1 && !o->point_class) return first;
     for (int32_t k = 0; k < bunch->count; ++k) {
-        laws[k] = o->model->materials > 1 || o->point_class ? peri__law_of_bond(o, i, bunch->others[k]) : first;
+        laws[k] = peri__law_of_bond(o, i, bunch->others[k]);
         *mixed |= laws[k] != first;
     }
     return first;
@@ -148,22 +155,22 @@ static void peri__follow_none(peri__bunch *bunch) {
     }
 }
 
-/* What their laws make of the bonds `first`, ... of row i, whose number, stretches and lengths the bunch has; and their history, where that
-   is asked for and o->keeping. Returns 0 where a law failed. Both ends of a bond get the same to the last bit, as they give the same. */
-PERI_SHARED int peri__respond(const peri__operands *o, int64_t i, const peri__row *row, int64_t first, peri__bunch *bunch) {
+/* What their laws make of the bonds `first`, ... of row i, whose number, other ends, stretches and lengths the bunch has; and their
+   history, where that is asked for and o->keeping. Returns 0 where a law failed. Both ends of a bond get the same to the last bit, as they
+   give the same. */
+PERI_SHARED int peri__respond(const peri__operands *o, int64_t i, int64_t first, peri__bunch *bunch) {
     const peri__bond_law *laws[PERI_BUNCH], *law;
-    double *history = o->history ? o->history + (row->first + first) * o->model->bond_states : NULL;
+    double *history = o->history ? o->history + (o->model->start[i] + first) * o->model->bond_states : NULL;
     int mixed, ok = 1;
-    for (int32_t k = 0; k < bunch->count; ++k) bunch->others[k] = row->ids[first + k];
     law = peri__laws_of_bunch(o, i, bunch, laws, &mixed);
     if (!mixed) {
         if (!law) {
             peri__follow_none(bunch);
             return 1;
         }
-        if (law->states > 0) peri__copy_states(o, law, laws, history, bunch, 0);
+        if (law->states > 0) peri__copy_states(o, law, NULL, history, bunch, 0);
         if (!peri__follow_law(o, law, i, bunch)) return 0;
-        if (law->states > 0 && o->keeping && bunch->asked & PERI__ASK_HISTORY) peri__copy_states(o, law, laws, history, bunch, 1);
+        if (law->states > 0 && o->keeping && bunch->asked & PERI__ASK_HISTORY) peri__copy_states(o, law, NULL, history, bunch, 1);
         return 1;
     }
     peri__bunch sum = *bunch;
@@ -204,4 +211,15 @@ static double peri__bond_left(const peri_body *b, int64_t i, const peri__row *ro
     const double farthest = b->history[(row->first + k) * m->bond_states];
     double slope, area;
     return farthest > law->first ? peri__curve_at(law, farthest, &slope, &area) / farthest : 1.0;
+}
+
+#define PERI_BOND_LAW_NUMBERS (8 + 2 * PERI_SOFTENING_POINTS)
+
+/* What a checkpoint must find the same; returns how many numbers. */
+static int peri__bond_law_numbers(const peri__bond_law *law, double *out) {
+    const double head[8] = { law->i, law->j, law->states, law->unloading, law->compression, law->fn != NULL, law->brittle, law->last };
+    memcpy(out, head, sizeof head);
+    memcpy(out + 8, law->stretch, (size_t)law->count * sizeof *out);
+    memcpy(out + 8 + law->count, law->force, (size_t)law->count * sizeof *out);
+    return 8 + 2 * law->count;
 }

@@ -88,10 +88,9 @@ static uint64_t peri__hash_materials(const peri_body *b) {
         h = peri__hash_material(h, &between->material);
     }
     for (int64_t k = 0; k < b->bond_law_count; ++k) {
-        const peri__bond_law *law = &b->bond_laws[k];
-        const double numbers[7] = { law->i, law->j, law->states, law->unloading, law->given, law->first, law->last };
-        h = peri__hash_numbers(peri__hash_numbers(h, numbers, 7), law->stretch, law->count);
-        h = peri__hash_numbers(peri__hash_numbers(h, law->force, law->count), &law->compression, 1);
+        double numbers[PERI_BOND_LAW_NUMBERS];
+        const int count = peri__bond_law_numbers(&b->bond_laws[k], numbers);
+        h = peri__hash_numbers(h, numbers, count);
     }
     return h;
 }

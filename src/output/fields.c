@@ -297,6 +297,8 @@ PERI_API int32_t peri_get_energy(peri_body *b, peri_energy *e) {
     memset(e, 0, sizeof *e);
     e->kinetic = peri__kinetic_energy(b) * unit;
     e->elastic = peri__elastic_energy(b, NULL) * unit;
+    const int32_t status = peri__heed_laws(b);
+    if (status < 0) return status;
     if (b->contact && !peri__ready_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
     e->contact = peri__contact_energy(b) * unit;
     e->fracture = l->fracture * unit;

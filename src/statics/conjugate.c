@@ -152,7 +152,8 @@ static int32_t peri__conjugate(peri__solver *s, double reach, double loads, int 
             s->k.alpha = soft > 0.0 ? soft : k == 0 ? 1.0 : 0.0;
             s->slope += s->k.alpha * rz;
             (void)peri__krylov_pass(s, &s->k, b->ops->krylov_step);
-            return bent < less * square * s->stiff || soft > 0.0 ? PERI_ERROR_INDEFINITE : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
+            return bent < less * square * s->stiff || soft > 0.0 ? PERI_ERROR_INDEFINITE
+                 : bent == bent ? PERI_ERROR_LOOSE : PERI_ERROR_CONVERGENCE;
         }
         s->k.alpha = rz / bent;
         s->slope += s->k.alpha * rz;
