@@ -6,7 +6,7 @@
 
 #include "scene.h"
 
-enum { CALLS_OF_TABLE = 128, STATUSES = peri__count_status };
+enum { CALLS_OF_TABLE = 160, STATUSES = peri__count_status };
 
 static struct {
     char name[64];

@@ -517,6 +517,20 @@ static void errors_format(void) {
     peri_body_destroy(b);
 }
 
+/* Brittle where the strength is out of reach of any bond: success, but not silent. */
+static void out_of_reach_of_softening(void) {
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, 2.1, 6, 6, 1);
+    peri_softening_desc d;
+    peri_body *b = specimen_start(&s);
+    const int32_t m = peri_id(b, PERI_KIND_MATERIAL, 1);
+    peri_softening_desc_init(&d, PERI_SOFTENING_BILINEAR);
+    d.strength = 1;
+    d.fracture_energy = 1e-3;
+    CHECK(peri_set_softening(b, m, m, &d) == PERI_BRITTLE);
+    reached[PERI_BRITTLE - peri__first_status] = 1;
+    peri_body_destroy(b);
+}
+
 static void every_status_was_reached(void) {
     for (int32_t code = peri__first_status; code < peri__end_status; ++code)
         if (!reached[code - peri__first_status] && code != PERI_ERROR_LEFT_OUT) { /* that one by builds with parts left out: switches.c */
@@ -535,6 +549,7 @@ int main(int argc, char **argv) {
     RUN(found_by_the_solver);
     RUN(ids_of_another_kind_or_body);
     RUN(errors_format);
+    RUN(out_of_reach_of_softening);
     if (!test_filter) RUN(every_status_was_reached); /* by the cases above */
     return test_end("test_errors");
 }
