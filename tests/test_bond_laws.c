@@ -3,6 +3,7 @@
 
    SOURCE OF TRUTH: what the library itself does by another way: its linear law and its critical stretch, its tables; the critical stretch
    that was given to a joint; central differences. */
+#include "pool.h"
 #include "specimen.h"
 
 #define LIMIT 2e-3
@@ -302,6 +303,37 @@ static void what_has_no_such_law_is_refused(void) {
     peri_body_destroy(b);
 }
 
+/* Whatever allocation fails nothing leaks, and what the body says it holds is what it took. */
+static void short_of_memory(void) {
+    for (int64_t fail = 0;; ++fail) {
+        pool p = {0, 0, 0, 0, -1, 0};
+        specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0, 1, 3.015, 6, 5, 1);
+        peri_softening_desc table;
+        peri_body *b, *copy = NULL;
+        peri_memory held;
+        hook(&s.desc, &p);
+        peri_softening_desc_init(&table, PERI_SOFTENING_EXPONENTIAL);
+        table.strength = 1e-3;
+        table.fracture_energy = 1e-4;
+        b = specimen_start(&s);
+        const int32_t m = peri_id(b, PERI_KIND_MATERIAL, 1);
+        p.calls = 0;
+        p.fail_at = fail;
+        int32_t status = peri_set_softening(b, m, m, &table);
+        if (status == PERI_OK) status = (int32_t)peri_add_box(b, m, s.lo, s.hi, 1);
+        if (status >= 0) status = peri_build(b);
+        if (status == PERI_OK) status = peri_body_clone(b, &copy, NULL);
+        CHECK(status == PERI_OK || status == PERI_ERROR_MEMORY);
+        const int done = p.calls <= fail;
+        if (done) (void)MUST(b, peri_get_memory(b, &held));
+        peri_body_destroy(copy);
+        CHECK(!done || (p.bytes == held.total && held.damage > 8 * peri_entry_count(b)));
+        peri_body_destroy(b);
+        CHECK(p.blocks == 0 && p.bytes == 0 && p.wrong == 0);
+        if (done || fail > 200) break;
+    }
+}
+
 /* ---- interfaces ------------------------------------------------------------------------------------------------------------ */
 
 typedef struct joint {
@@ -371,6 +403,7 @@ int main(int argc, char **argv) {
     RUN(tangent_of_a_law);
     RUN(failures_end_the_call);
     RUN(what_has_no_such_law_is_refused);
+    RUN(short_of_memory);
     RUN(joints_of_state_based_blocks);
     return test_end("test_bond_laws");
 }
