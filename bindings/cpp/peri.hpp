@@ -176,6 +176,9 @@ typedef std::function<int32_t(double, span<double>)> rigid_fn;
 /* A bond i < j broke by its criterion at `time` [T] and this stretch [-]. Called after the step, in ascending
    (i, j). > 0 ends the run with PERI_STOPPED. (i, j, time, stretch) */
 typedef std::function<int32_t(int32_t, int32_t, double, double)> break_fn;
+/* A law, or a criterion, of bonds. A function of what it gets alone: it comes for each bond from both ends, as
+   often as wanted, on any thread, and may not call the library. (row) */
+typedef std::function<int32_t(const peri_bond_row &)> bond_law_fn;
 /* Takes the next `count` bytes of a file; all but 0 is a failure: PERI_ERROR_WRITE. (bytes, count) */
 typedef std::function<int32_t(span<const unsigned char>)> write_fn;
 /* Writes the next `count` bytes to `bytes`; all but 0 is a failure, as where fewer are left. (bytes, count) */
@@ -228,6 +231,14 @@ struct break_fn_holder {
         return guarded([&]() -> int32_t { return self.call(i_, j_, time_, stretch_); });
     }
 };
+struct bond_law_fn_holder {
+    int dim;
+    bond_law_fn call;
+    static int32_t call_c(void *user_, const peri_bond_row *row_) {
+        bond_law_fn_holder &self = *static_cast<bond_law_fn_holder *>(user_);
+        return guarded([&]() -> int32_t { return self.call(*row_); });
+    }
+};
 struct write_fn_holder {
     int dim;
     write_fn call;
@@ -245,6 +256,7 @@ struct read_fn_holder {
     }
 };
 } /* namespace detail */
+typedef peri_bond_row bond_row;
 
 /* peri_body_desc, filled with the defaults. */
 struct body_desc : peri_body_desc {
@@ -290,6 +302,11 @@ struct body_desc_log_user {
 /* peri_material_desc, filled with the defaults. */
 struct material_desc : peri_material_desc {
     explicit material_desc(int32_t law_) : peri_material_desc() { peri_material_desc_init(this, law_); }
+};
+
+/* peri_softening_desc, filled with the defaults. */
+struct softening_desc : peri_softening_desc {
+    explicit softening_desc(int32_t shape_) : peri_softening_desc() { peri_softening_desc_init(this, shape_); }
 };
 typedef peri_fragment fragment;
 
@@ -570,10 +587,37 @@ public:
         check(result_);
         return result_;
     }
-    /* Bonds between bond-based i and j act as if of `desc`, before peri_build. Default: harmonic mean of the
-       micromoduli, smaller critical stretch. */
+    /* Bonds between i and j break, and of bond-based i and j act, as if of `desc`, before peri_build; its law is
+       that of one of them, not bond-based unless both are. Default: harmonic mean of the micromoduli, the
+       criteria of both. */
     int32_t set_interface(int32_t i_, int32_t j_, const material_desc &desc_) {
         const int32_t result_ = peri_set_interface(handle_, i_, j_, &desc_);
+        check(result_);
+        return result_;
+    }
+    /* Bonds between bond-based materials i and j (i, i: within one) soften, before peri_build; their
+       fracture_energy and critical_stretch do not count. PERI_BRITTLE: the horizon is too large, bonds break at
+       once at less than the strength and take the energy. docs/laws.md */
+    int32_t set_softening(int32_t i_, int32_t j_, const softening_desc &desc_) {
+        const int32_t result_ = peri_set_softening(handle_, i_, j_, &desc_);
+        check(result_);
+        return result_;
+    }
+    /* The stretch at which bonds begin to soften, and that at which they break; after peri_build. PERI_BRITTLE:
+       they are one. Either may be NULL. */
+    int32_t get_softening(int32_t i_, int32_t j_, span<double> first_ = nullptr, span<double> last_ = nullptr) {
+        if (!first_.empty()) detail::sized(first_.size(), 1, "first");
+        if (!last_.empty()) detail::sized(last_.size(), 1, "last");
+        const int32_t result_ = peri_get_softening(handle_, i_, j_, first_.data(), last_.data());
+        check(result_);
+        return result_;
+    }
+    /* Bonds between bond-based materials i and j follow fn, each with `states` (0..8) numbers of its own, 0 at
+       first; before peri_build. Their critical stretch holds, too. docs/laws.md */
+    int32_t set_bond_law(int32_t i_, int32_t j_, int32_t states_, const bond_law_fn &fn_ = nullptr) {
+        std::shared_ptr<detail::bond_law_fn_holder> context_(new detail::bond_law_fn_holder{dimension(), fn_});
+        if (fn_) keep_->keep(context_);
+        const int32_t result_ = peri_set_bond_law(handle_, i_, j_, states_, fn_ ? detail::bond_law_fn_holder::call_c : nullptr, context_.get());
         check(result_);
         return result_;
     }

@@ -13,6 +13,8 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_VERSION_NUMBER = 2000
     integer(c_int32_t), parameter :: PERI_ALL = 268435456
 
+    ! success: as brittle bonds, the horizon being too large
+    integer(c_int32_t), parameter :: PERI_BRITTLE = 2
     ! a callback asked to stop; the body is at a whole step
     integer(c_int32_t), parameter :: PERI_STOPPED = 1
     ! success
@@ -212,6 +214,20 @@ module peri_c
     ! state-based: mean energy of both ends > w0 [T] 1.102
     integer(c_int32_t), parameter :: PERI_CRITERION_NODE_ENERGY = 1103
 
+    ! straight
+    integer(c_int32_t), parameter :: PERI_SOFTENING_BILINEAR = 2901
+    ! kinked at 1/4 of the strength: concrete
+    integer(c_int32_t), parameter :: PERI_SOFTENING_TRILINEAR = 2902
+    ! cut off at 1/100 of the strength
+    integer(c_int32_t), parameter :: PERI_SOFTENING_EXPONENTIAL = 2903
+    ! a table of yours
+    integer(c_int32_t), parameter :: PERI_SOFTENING_TABLE = 2904
+
+    ! to the origin: damage
+    integer(c_int32_t), parameter :: PERI_UNLOADING_SECANT = 3001
+    ! as stiff as new: a stretch stays
+    integer(c_int32_t), parameter :: PERI_UNLOADING_ELASTIC = 3002
+
     ! an initial crack: stays at peri_reset. Only before the first step
     integer(c_int32_t), parameter :: PERI_CUT_INITIAL = 2101
     ! counts as broken, whole again at peri_reset
@@ -380,6 +396,29 @@ module peri_c
         type(c_ptr) :: text = c_null_ptr
     end type
 
+    ! Bonds of one point to others[]: arrays of `count`. All that is written is 0 at first.
+    type, bind(c) :: peri_bond_row
+        integer(c_int32_t) :: point = 0
+        integer(c_int32_t) :: count = 0
+        type(c_ptr) :: others = c_null_ptr
+        ! |xi| [L]
+        type(c_ptr) :: length = c_null_ptr
+        ! s = e/|xi| [-]; 0 of broken bonds
+        type(c_ptr) :: stretch = c_null_ptr
+        ! [count*states] in: as last kept; out: as it is with this stretch
+        type(c_ptr) :: state = c_null_ptr
+        ! out [-] f/c: the stretch at which a linear bond pulls as hard
+        type(c_ptr) :: force = c_null_ptr
+        ! out, its derivative; this and what follows NULL where not asked for
+        type(c_ptr) :: tangent = c_null_ptr
+        ! out: stored, of which `force` is the derivative at constant state
+        type(c_ptr) :: energy = c_null_ptr
+        ! out: lost since `state` was kept
+        type(c_ptr) :: lost = c_null_ptr
+        ! out: 1 breaks the bond for good
+        type(c_ptr) :: broken = c_null_ptr
+    end type
+
     type, bind(c) :: peri_body_desc
         ! set by init
         integer(c_int64_t) :: cookie = 0
@@ -452,6 +491,25 @@ module peri_c
         real(c_double) :: critical_stretch = 0
         ! [-] >= 0, correspondence: against zero-energy modes. Default 0.2
         real(c_double) :: stabilization = 0
+    end type
+
+    type, bind(c) :: peri_softening_desc
+        ! set by init
+        integer(c_int64_t) :: cookie = 0
+        ! peri_softening, set by init
+        integer(c_int32_t) :: shape = 0
+        ! Default PERI_UNLOADING_SECANT
+        integer(c_int32_t) :: unloading = 0
+        ! [M L^-1 T^-2] > 0, of uniaxial tension. Required
+        real(c_double) :: strength = 0
+        ! [M T^-2] > 0, the area under the curve. Required
+        real(c_double) :: fracture_energy = 0
+        ! (0, 1] stiffness when shorter, over that when longer. Default 1
+        real(c_double) :: compression = 0
+        ! 2..30 rows of
+        integer(c_int64_t) :: count = 0
+        ! [count*2] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
+        type(c_ptr) :: table = c_null_ptr
     end type
 
     ! A rigid body of point masses; in 2D vectors end with 0.
@@ -971,6 +1029,15 @@ module peri_c
             integer(c_int32_t) :: result_
         end function
 
+        ! A law, or a criterion, of bonds. A function of what it gets alone: it comes for each bond from both ends, as often as
+        ! wanted, on any thread, and may not call the library.
+        function peri_bond_law_fn(user, row) bind(c) result(result_)
+            import
+            type(c_ptr), value :: user
+            type(peri_bond_row), intent(in) :: row
+            integer(c_int32_t) :: result_
+        end function
+
         ! Takes the next `count` bytes of a file; all but 0 is a failure: PERI_ERROR_WRITE.
         function peri_write_fn(user, bytes, count) bind(c) result(result_)
             import
@@ -1084,6 +1151,38 @@ module peri_c
             integer(c_int32_t), value :: j
             type(peri_material_desc), intent(in) :: desc
             integer(c_int32_t) :: c_set_interface
+        end function
+        subroutine c_softening_desc_init(desc, shape) bind(c, name='peri_softening_desc_init')
+            import
+            type(peri_softening_desc), intent(inout) :: desc
+            integer(c_int32_t), value :: shape
+        end subroutine
+        function c_set_softening(body, i, j, desc) bind(c, name='peri_set_softening')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: i
+            integer(c_int32_t), value :: j
+            type(peri_softening_desc), intent(in) :: desc
+            integer(c_int32_t) :: c_set_softening
+        end function
+        function c_get_softening(body, i, j, first, last) bind(c, name='peri_get_softening')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: i
+            integer(c_int32_t), value :: j
+            type(c_ptr), value :: first
+            type(c_ptr), value :: last
+            integer(c_int32_t) :: c_get_softening
+        end function
+        function c_set_bond_law(body, i, j, states, fn, user) bind(c, name='peri_set_bond_law')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: i
+            integer(c_int32_t), value :: j
+            integer(c_int32_t), value :: states
+            type(c_funptr), value :: fn
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: c_set_bond_law
         end function
         function c_get_bond_constants(body, i, j, c, s0) bind(c, name='peri_get_bond_constants')
             import
@@ -1884,6 +1983,10 @@ module peri
     private :: c_material_desc_init
     private :: c_add_material
     private :: c_set_interface
+    private :: c_softening_desc_init
+    private :: c_set_softening
+    private :: c_get_softening
+    private :: c_set_bond_law
     private :: c_get_bond_constants
     private :: c_get_critical_energy
     private :: c_add_box
@@ -2245,8 +2348,8 @@ contains
         if (present(stat)) stat = 0
     end function
 
-    ! Bonds between bond-based i and j act as if of `desc`, before peri_build. Default: harmonic mean of the micromoduli,
-    ! smaller critical stretch.
+    ! Bonds between i and j break, and of bond-based i and j act, as if of `desc`, before peri_build; its law is that of one of
+    ! them, not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
     subroutine peri_set_interface(body, i, j, desc, stat, errmsg)
         type(peri_body), intent(in) :: body
         integer(c_int32_t), intent(in) :: i
@@ -2257,6 +2360,106 @@ contains
         integer(c_int32_t) :: result_
         type(peri_error) :: record
         result_ = c_set_interface(body%handle, i, j, desc)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    subroutine peri_softening_desc_init(desc, shape)
+        type(peri_softening_desc), intent(out) :: desc
+        integer(c_int32_t), intent(in) :: shape
+        call c_softening_desc_init(desc, shape)
+    end subroutine
+
+    ! Bonds between bond-based materials i and j (i, i: within one) soften, before peri_build; their fracture_energy and
+    ! critical_stretch do not count. PERI_BRITTLE: the horizon is too large, bonds break at once at less than the strength and
+    ! take the energy. docs/laws.md
+    subroutine peri_set_softening(body, i, j, desc, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: i
+        integer(c_int32_t), intent(in) :: j
+        type(peri_softening_desc), intent(in) :: desc
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(peri_error) :: record
+        result_ = c_set_softening(body%handle, i, j, desc)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! The stretch at which bonds begin to soften, and that at which they break; after peri_build. PERI_BRITTLE: they are one.
+    ! Either may be NULL.
+    subroutine peri_get_softening(body, i, j, first, last, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: i
+        integer(c_int32_t), intent(in) :: j
+        real(c_double), intent(inout), optional, target :: first
+        real(c_double), intent(inout), optional, target :: last
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_ptr) :: first_at
+        type(c_ptr) :: last_at
+        type(peri_error) :: record
+        first_at = c_null_ptr
+        if (present(first)) first_at = c_loc(first)
+        last_at = c_null_ptr
+        if (present(last)) last_at = c_loc(last)
+        result_ = c_get_softening(body%handle, i, j, first_at, last_at)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! Bonds between bond-based materials i and j follow fn, each with `states` (0..8) numbers of its own, 0 at first; before
+    ! peri_build. Their critical stretch holds, too. docs/laws.md
+    subroutine peri_set_bond_law(body, i, j, states, fn, user, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: i
+        integer(c_int32_t), intent(in) :: j
+        integer(c_int32_t), intent(in) :: states
+        procedure(peri_bond_law_fn), optional :: fn
+        type(c_ptr), intent(in), optional :: user
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_funptr) :: fn_at
+        type(peri_error) :: record
+        fn_at = c_null_funptr
+        if (present(fn)) fn_at = c_funloc(fn)
+        result_ = c_set_bond_law(body%handle, i, j, states, fn_at, c_ptr_of(user))
         if (result_ < 0) then
             if (c_get_error(body%handle, record) < 0) record%code = 0
             if (record%code /= result_) then

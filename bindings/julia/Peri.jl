@@ -14,6 +14,7 @@ const LIB = get(ENV, "PERI", "libperi")
 const VERSION = "0.2.0"
 const VERSION_NUMBER = Int32(2000)
 const ALL = Int32(268435456)
+const BRITTLE = Int32(2) # success: as brittle bonds, the horizon being too large
 const STOPPED = Int32(1) # a callback asked to stop; the body is at a whole step
 const OK = Int32(0) # success
 const ERROR_ARGUMENT = Int32(-1) # missing, NULL or given twice, or a count that is wrong
@@ -109,6 +110,12 @@ const LAW_CORRESPONDENCE = Int32(1004) # T = w P K^-1 xi, stabilised [C] 18-21
 const CRITERION_STRETCH = Int32(1101) # s > s0 [T] 1.40, 1.41
 const CRITERION_BOND_ENERGY = Int32(1102) # state-based: work on the bond > w0 [T] 1.100
 const CRITERION_NODE_ENERGY = Int32(1103) # state-based: mean energy of both ends > w0 [T] 1.102
+const SOFTENING_BILINEAR = Int32(2901) # straight
+const SOFTENING_TRILINEAR = Int32(2902) # kinked at 1/4 of the strength: concrete
+const SOFTENING_EXPONENTIAL = Int32(2903) # cut off at 1/100 of the strength
+const SOFTENING_TABLE = Int32(2904) # a table of yours
+const UNLOADING_SECANT = Int32(3001) # to the origin: damage
+const UNLOADING_ELASTIC = Int32(3002) # as stiff as new: a stretch stays
 const CUT_INITIAL = Int32(2101) # an initial crack: stays at peri_reset. Only before the first step
 const CUT_NOW = Int32(2102) # counts as broken, whole again at peri_reset
 const CUT_IN_PLACE = Int32(2103) # as PERI_CUT_NOW, where the body is now: by current positions
@@ -188,6 +195,23 @@ struct peri_error
     text::Ptr{UInt8} # constant text: peri_status_text(code)
 end
 
+"""
+Bonds of one point to others[]: arrays of `count`. All that is written is 0 at first.
+"""
+struct peri_bond_row
+    point::Int32
+    count::Int32
+    others::Ptr{Int32}
+    length::Ptr{Float64} # |xi| [L]
+    stretch::Ptr{Float64} # s = e/|xi| [-]; 0 of broken bonds
+    state::Ptr{Float64} # [count*states] in: as last kept; out: as it is with this stretch
+    force::Ptr{Float64} # out [-] f/c: the stretch at which a linear bond pulls as hard
+    tangent::Ptr{Float64} # out, its derivative; this and what follows NULL where not asked for
+    energy::Ptr{Float64} # out: stored, of which `force` is the derivative at constant state
+    lost::Ptr{Float64} # out: lost since `state` was kept
+    broken::Ptr{Int32} # out: 1 breaks the bond for good
+end
+
 mutable struct peri_body_desc
     cookie::UInt64 # set by init
     space::Int32 # peri_space. Required
@@ -230,6 +254,18 @@ mutable struct peri_material_desc
     critical_stretch::Float64 # s0 [-] > 0. 0 (default) = from G0; with neither, no bond breaks
     stabilization::Float64 # [-] >= 0, correspondence: against zero-energy modes. Default 0.2
     peri_material_desc() = new()
+end
+
+mutable struct peri_softening_desc
+    cookie::UInt64 # set by init
+    shape::Int32 # peri_softening, set by init
+    unloading::Int32 # Default PERI_UNLOADING_SECANT
+    strength::Float64 # [M L^-1 T^-2] > 0, of uniaxial tension. Required
+    fracture_energy::Float64 # [M T^-2] > 0, the area under the curve. Required
+    compression::Float64 # (0, 1] stiffness when shorter, over that when longer. Default 1
+    count::Int64 # 2..30 rows of
+    table::Ptr{Float64} # [count*2] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
+    peri_softening_desc() = new()
 end
 
 """
@@ -635,6 +671,13 @@ function material_desc(law)
     return Desc(raw)
 end
 
+"""peri_softening_desc with its defaults."""
+function softening_desc(shape)
+    raw = peri_softening_desc()
+    ccall((:peri_softening_desc_init, LIB), Cvoid, (Ref{peri_softening_desc}, Int32), raw, shape)
+    return Desc(raw)
+end
+
 callbacks(::Type{peri_obstacle_desc}) = (:distance, :motion, )
 """peri_obstacle_desc with its defaults."""
 function obstacle_desc(shape)
@@ -797,6 +840,13 @@ function frame_fn_on_step(user::Ptr{Cvoid}, body::Ptr{Cvoid})
 end
 pointer_of_frame_fn_on_step() = @cfunction(frame_fn_on_step, Int32, (Ptr{Cvoid}, Ptr{Cvoid},))
 
+function bond_law_fn_call(user::Ptr{Cvoid}, row::Ptr{peri_bond_row})
+    context = unsafe_pointer_to_objref(user)::Context
+    result = guarded(() -> context.calls[:call](row))
+    return result
+end
+pointer_of_bond_law_fn_call() = @cfunction(bond_law_fn_call, Int32, (Ptr{Cvoid}, Ptr{peri_bond_row},))
+
 function point_fn_call(user::Ptr{Cvoid}, index::Int64, x::Ptr{Float64})
     context = unsafe_pointer_to_objref(user)::Context
     result = guarded(() -> context.calls[:call](index, unsafe_wrap(Array, x, context.dim)))
@@ -908,11 +958,46 @@ function add_material(body::Body, desc::Desc{peri_material_desc})
 end
 
 """
-Bonds between bond-based i and j act as if of `desc`, before peri_build. Default: harmonic mean of the micromoduli, smaller
-critical stretch.
+Bonds between i and j break, and of bond-based i and j act, as if of `desc`, before peri_build; its law is that of one of them,
+not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
 """
 function set_interface(body::Body, i, j, desc::Desc{peri_material_desc})
     result = GC.@preserve body desc ccall((:peri_set_interface, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{peri_material_desc}), body.handle, i, j, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Bonds between bond-based materials i and j (i, i: within one) soften, before peri_build; their fracture_energy and
+critical_stretch do not count. PERI_BRITTLE: the horizon is too large, bonds break at once at less than the strength and take the
+energy. docs/laws.md
+"""
+function set_softening(body::Body, i, j, desc::Desc{peri_softening_desc})
+    result = GC.@preserve body desc ccall((:peri_set_softening, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{peri_softening_desc}), body.handle, i, j, Ptr{peri_softening_desc}(pointer_from_objref(getfield(desc, :raw))))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+The stretch at which bonds begin to soften, and that at which they break; after peri_build. PERI_BRITTLE: they are one. Either may
+be NULL.
+"""
+function get_softening!(body::Body, i, j, first = nothing, last = nothing)
+    sized(first, 1, "first")
+    sized(last, 1, "last")
+    result = GC.@preserve body ccall((:peri_get_softening, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Float64}, Ptr{Float64}), body.handle, i, j, first === nothing ? C_NULL : first, last === nothing ? C_NULL : last)
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Bonds between bond-based materials i and j follow fn, each with `states` (0..8) numbers of its own, 0 at first; before peri_build.
+Their critical stretch holds, too. docs/laws.md
+"""
+function set_bond_law(body::Body, i, j, states, fn = nothing)
+    context = fn === nothing ? nothing : Context(Dict{Symbol,Any}(:call => fn), nothing, dimension(body))
+    context === nothing || push!(body.keep, context)
+    result = GC.@preserve body context ccall((:peri_set_bond_law, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Int32, Ptr{Cvoid}, Ptr{Cvoid}), body.handle, i, j, states, context === nothing ? C_NULL : pointer_of_bond_law_fn_call(), context === nothing ? C_NULL : pointer_from_objref(context))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end

@@ -25,6 +25,7 @@ typedef int32_t (*peri_motion_fn)(void *user, double time, double *place, double
 typedef int32_t (*peri_distance_fn)(void *user, const double *x, double *distance, double *normal);
 typedef int32_t (*peri_rigid_fn)(void *user, double time, double *motion);
 typedef int32_t (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, double stretch);
+typedef int32_t (*peri_bond_law_fn)(void *user, const peri_bond_row *row);
 typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 typedef int32_t (*peri_read_fn)(void *user, void *bytes, int64_t count);
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
@@ -37,6 +38,19 @@ typedef struct peri_error {
     const char *field;
     const char *text;
 } peri_error;
+typedef struct peri_bond_row {
+    int32_t point;
+    int32_t count;
+    const int32_t *others;
+    const double *length;
+    const double *stretch;
+    double *state;
+    double *force;
+    double *tangent;
+    double *energy;
+    double *lost;
+    int32_t *broken;
+} peri_bond_row;
 typedef struct peri_body_desc {
     uint64_t cookie;
     int32_t space;
@@ -77,6 +91,16 @@ typedef struct peri_material_desc {
     double critical_stretch;
     double stabilization;
 } peri_material_desc;
+typedef struct peri_softening_desc {
+    uint64_t cookie;
+    int32_t shape;
+    int32_t unloading;
+    double strength;
+    double fracture_energy;
+    double compression;
+    int64_t count;
+    const double *table;
+} peri_softening_desc;
 typedef struct peri_fragment {
     int32_t first;
     int32_t points;
@@ -309,6 +333,10 @@ int32_t peri_id(const peri_body *body, int32_t kind, int64_t index);
 void peri_material_desc_init(peri_material_desc *desc, int32_t law);
 int32_t peri_add_material(peri_body *body, const peri_material_desc *desc);
 int32_t peri_set_interface(peri_body *body, int32_t i, int32_t j, const peri_material_desc *desc);
+void peri_softening_desc_init(peri_softening_desc *desc, int32_t shape);
+int32_t peri_set_softening(peri_body *body, int32_t i, int32_t j, const peri_softening_desc *desc);
+int32_t peri_get_softening(peri_body *body, int32_t i, int32_t j, double *first, double *last);
+int32_t peri_set_bond_law(peri_body *body, int32_t i, int32_t j, int32_t states, peri_bond_law_fn fn, void *user);
 int32_t peri_get_bond_constants(peri_body *body, int32_t i, int32_t j, double *c, double *s0);
 int32_t peri_get_critical_energy(peri_body *body, int32_t material, double *w0);
 int64_t peri_add_box(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing);
@@ -428,6 +456,7 @@ local peri = {
     VERSION = "0.2.0",
     VERSION_NUMBER = 2000,
     ALL = 268435456,
+    BRITTLE = 2, -- success: as brittle bonds, the horizon being too large
     STOPPED = 1, -- a callback asked to stop; the body is at a whole step
     OK = 0, -- success
     ERROR_ARGUMENT = -1, -- missing, NULL or given twice, or a count that is wrong
@@ -523,6 +552,12 @@ local peri = {
     CRITERION_STRETCH = 1101, -- s > s0 [T] 1.40, 1.41
     CRITERION_BOND_ENERGY = 1102, -- state-based: work on the bond > w0 [T] 1.100
     CRITERION_NODE_ENERGY = 1103, -- state-based: mean energy of both ends > w0 [T] 1.102
+    SOFTENING_BILINEAR = 2901, -- straight
+    SOFTENING_TRILINEAR = 2902, -- kinked at 1/4 of the strength: concrete
+    SOFTENING_EXPONENTIAL = 2903, -- cut off at 1/100 of the strength
+    SOFTENING_TABLE = 2904, -- a table of yours
+    UNLOADING_SECANT = 3001, -- to the origin: damage
+    UNLOADING_ELASTIC = 3002, -- as stiff as new: a stretch stays
     CUT_INITIAL = 2101, -- an initial crack: stays at peri_reset. Only before the first step
     CUT_NOW = 2102, -- counts as broken, whole again at peri_reset
     CUT_IN_PLACE = 2103, -- as PERI_CUT_NOW, where the body is now: by current positions
@@ -734,6 +769,13 @@ function peri.material_desc(law)
     return wrap("peri_material_desc", raw, {})
 end
 
+-- peri_softening_desc, filled with the defaults: shape, unloading, strength, fracture_energy, compression, count, table.
+function peri.softening_desc(shape)
+    local raw = ffi.new("peri_softening_desc[1]")
+    C.peri_softening_desc_init(raw, shape)
+    return wrap("peri_softening_desc", raw, {})
+end
+
 -- peri_obstacle_desc, filled with the defaults: shape, place, turn, normal, axis, radius, length, size, vertex_count, face_count,
 -- vertices, faces, distance, stiffness, friction, friction_speed, restitution, mass, density, inertia, velocity, spin, gravity,
 -- motion. Pushes points within it out along the normal by stiffness*depth [M L^-2 T^-2]. A free one (of a mass) is moved by that and
@@ -909,12 +951,48 @@ function Body:add_material(desc)
     return check(result, nil, self.handle)
 end
 
--- Bonds between bond-based i and j act as if of `desc`, before peri_build. Default: harmonic mean of the micromoduli, smaller
--- critical stretch.
+-- Bonds between i and j break, and of bond-based i and j act, as if of `desc`, before peri_build; its law is that of one of them,
+-- not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
 function Body:set_interface(i, j, desc)
     local desc_c
     desc_c = plain(desc, "peri_material_desc")
     local result = C.peri_set_interface(self.handle, i, j, desc_c)
+    return check(result, nil, self.handle)
+end
+
+-- Bonds between bond-based materials i and j (i, i: within one) soften, before peri_build; their fracture_energy and
+-- critical_stretch do not count. PERI_BRITTLE: the horizon is too large, bonds break at once at less than the strength and take the
+-- energy. docs/laws.md
+function Body:set_softening(i, j, desc)
+    local desc_c
+    desc_c = plain(desc, "peri_softening_desc")
+    local result = C.peri_set_softening(self.handle, i, j, desc_c)
+    return check(result, nil, self.handle)
+end
+
+-- The stretch at which bonds begin to soften, and that at which they break; after peri_build. PERI_BRITTLE: they are one. Either may
+-- be NULL.
+function Body:get_softening(i, j, first, last)
+    local first_c, first_n = nil, 0
+    if first ~= nil then first_c, first_n = array("double", first, "first") end
+    if first ~= nil then sized(first_n, 1, "first") end
+    local last_c, last_n = nil, 0
+    if last ~= nil then last_c, last_n = array("double", last, "last") end
+    if last ~= nil then sized(last_n, 1, "last") end
+    local result = C.peri_get_softening(self.handle, i, j, first_c, last_c)
+    return check(result, nil, self.handle)
+end
+
+-- Bonds between bond-based materials i and j follow fn, each with `states` (0..8) numbers of its own, 0 at first; before peri_build.
+-- Their critical stretch holds, too. docs/laws.md
+function Body:set_bond_law(i, j, states, fn)
+    local keep = self.keep
+    local fn_c = nil
+    if fn then
+        keep[#keep + 1] = ffi.cast("peri_bond_law_fn", guard(function(_, row) return fn(row) end))
+        fn_c = keep[#keep]
+    end
+    local result = C.peri_set_bond_law(self.handle, i, j, states, fn_c, nil)
     return check(result, nil, self.handle)
 end
 

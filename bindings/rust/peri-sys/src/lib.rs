@@ -8,6 +8,8 @@ pub const PERI_VERSION_NUMBER: i32 = 2000;
 pub const PERI_ALL: i32 = 268435456;
 
 // peri_status
+/// success: as brittle bonds, the horizon being too large
+pub const PERI_BRITTLE: i32 = 2;
 /// a callback asked to stop; the body is at a whole step
 pub const PERI_STOPPED: i32 = 1;
 /// success
@@ -220,6 +222,22 @@ pub const PERI_CRITERION_BOND_ENERGY: i32 = 1102;
 /// state-based: mean energy of both ends \> w0 \[T\] 1.102
 pub const PERI_CRITERION_NODE_ENERGY: i32 = 1103;
 
+// peri_softening
+/// straight
+pub const PERI_SOFTENING_BILINEAR: i32 = 2901;
+/// kinked at 1/4 of the strength: concrete
+pub const PERI_SOFTENING_TRILINEAR: i32 = 2902;
+/// cut off at 1/100 of the strength
+pub const PERI_SOFTENING_EXPONENTIAL: i32 = 2903;
+/// a table of yours
+pub const PERI_SOFTENING_TABLE: i32 = 2904;
+
+// peri_unloading
+/// to the origin: damage
+pub const PERI_UNLOADING_SECANT: i32 = 3001;
+/// as stiff as new: a stretch stays
+pub const PERI_UNLOADING_ELASTIC: i32 = 3002;
+
 // peri_standing
 /// an initial crack: stays at peri\_reset. Only before the first step
 pub const PERI_CUT_INITIAL: i32 = 2101;
@@ -422,6 +440,9 @@ pub type peri_rigid_fn = Option<unsafe extern "C" fn(user: *mut c_void, time: f6
 /// A bond i \< j broke by its criterion at \`time\` \[T\] and this stretch \[-\]. Called after the step, in ascending (i, j). \> 0
 /// ends the run with PERI\_STOPPED.
 pub type peri_break_fn = Option<unsafe extern "C" fn(user: *mut c_void, i: i32, j: i32, time: f64, stretch: f64) -> i32>;
+/// A law, or a criterion, of bonds. A function of what it gets alone: it comes for each bond from both ends, as often as wanted, on
+/// any thread, and may not call the library.
+pub type peri_bond_law_fn = Option<unsafe extern "C" fn(user: *mut c_void, row: *const peri_bond_row) -> i32>;
 /// Takes the next \`count\` bytes of a file; all but 0 is a failure: PERI\_ERROR\_WRITE.
 pub type peri_write_fn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i64) -> i32>;
 /// Writes the next \`count\` bytes to \`bytes\`; all but 0 is a failure, as where fewer are left.
@@ -447,6 +468,31 @@ pub struct peri_error {
     pub field: *const c_char,
     /// constant text: peri\_status\_text(code)
     pub text: *const c_char,
+}
+
+/// Bonds of one point to others\[\]: arrays of \`count\`. All that is written is 0 at first.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct peri_bond_row {
+    pub point: i32,
+    pub count: i32,
+    pub others: *const i32,
+    /// \|xi\| \[L\]
+    pub length: *const f64,
+    /// s = e/\|xi\| \[-\]; 0 of broken bonds
+    pub stretch: *const f64,
+    /// \[count\*states\] in: as last kept; out: as it is with this stretch
+    pub state: *mut f64,
+    /// out \[-\] f/c: the stretch at which a linear bond pulls as hard
+    pub force: *mut f64,
+    /// out, its derivative; this and what follows NULL where not asked for
+    pub tangent: *mut f64,
+    /// out: stored, of which \`force\` is the derivative at constant state
+    pub energy: *mut f64,
+    /// out: lost since \`state\` was kept
+    pub lost: *mut f64,
+    /// out: 1 breaks the bond for good
+    pub broken: *mut i32,
 }
 
 #[repr(C)]
@@ -525,6 +571,27 @@ pub struct peri_material_desc {
     pub critical_stretch: f64,
     /// \[-\] \>= 0, correspondence: against zero-energy modes. Default 0.2
     pub stabilization: f64,
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct peri_softening_desc {
+    /// set by init
+    pub cookie: u64,
+    /// peri\_softening, set by init
+    pub shape: i32,
+    /// Default PERI\_UNLOADING\_SECANT
+    pub unloading: i32,
+    /// \[M L^-1 T^-2\] \> 0, of uniaxial tension. Required
+    pub strength: f64,
+    /// \[M T^-2\] \> 0, the area under the curve. Required
+    pub fracture_energy: f64,
+    /// (0, 1\] stiffness when shorter, over that when longer. Default 1
+    pub compression: f64,
+    /// 2..30 rows of
+    pub count: i64,
+    /// \[count\*2\] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
+    pub table: *const f64,
 }
 
 /// A rigid body of point masses; in 2D vectors end with 0.
@@ -1011,9 +1078,20 @@ unsafe extern "C" {
     pub fn peri_material_desc_init(desc: *mut peri_material_desc, law: i32);
     /// Adds a material, before peri\_build; at most 120. Returns its id, or an error.
     pub fn peri_add_material(body: *mut peri_body, desc: *const peri_material_desc) -> i32;
-    /// Bonds between bond-based i and j act as if of \`desc\`, before peri\_build. Default: harmonic mean of the micromoduli, smaller
-    /// critical stretch.
+    /// Bonds between i and j break, and of bond-based i and j act, as if of \`desc\`, before peri\_build; its law is that of one of
+    /// them, not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
     pub fn peri_set_interface(body: *mut peri_body, i: i32, j: i32, desc: *const peri_material_desc) -> i32;
+    pub fn peri_softening_desc_init(desc: *mut peri_softening_desc, shape: i32);
+    /// Bonds between bond-based materials i and j (i, i: within one) soften, before peri\_build; their fracture\_energy and
+    /// critical\_stretch do not count. PERI\_BRITTLE: the horizon is too large, bonds break at once at less than the strength and
+    /// take the energy. docs/laws.md
+    pub fn peri_set_softening(body: *mut peri_body, i: i32, j: i32, desc: *const peri_softening_desc) -> i32;
+    /// The stretch at which bonds begin to soften, and that at which they break; after peri\_build. PERI\_BRITTLE: they are one.
+    /// Either may be NULL.
+    pub fn peri_get_softening(body: *mut peri_body, i: i32, j: i32, first: *mut f64, last: *mut f64) -> i32;
+    /// Bonds between bond-based materials i and j follow fn, each with \`states\` (0..8) numbers of its own, 0 at first; before
+    /// peri\_build. Their critical stretch holds, too. docs/laws.md
+    pub fn peri_set_bond_law(body: *mut peri_body, i: i32, j: i32, states: i32, r#fn: peri_bond_law_fn, user: *mut c_void) -> i32;
     /// Micromodulus c \[M L^-5 T^-2\] (bond-based only, else NULL) and critical stretch s0 \[-\] (HUGE\_VAL: never) of bonds between
     /// materials i and j. Either may be NULL. (\[P\] C.15-C.20, \[T\] 1.24, 1.40)
     pub fn peri_get_bond_constants(body: *mut peri_body, i: i32, j: i32, c: *mut f64, s0: *mut f64) -> i32;

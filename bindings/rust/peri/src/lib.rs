@@ -188,6 +188,8 @@ impl View<'_> {
 
 pub const VERSION_NUMBER: i32 = sys::PERI_VERSION_NUMBER;
 pub const ALL: i32 = sys::PERI_ALL;
+/// success: as brittle bonds, the horizon being too large
+pub const BRITTLE: i32 = sys::PERI_BRITTLE;
 /// a callback asked to stop; the body is at a whole step
 pub const STOPPED: i32 = sys::PERI_STOPPED;
 /// success
@@ -373,6 +375,18 @@ pub const CRITERION_STRETCH: i32 = sys::PERI_CRITERION_STRETCH;
 pub const CRITERION_BOND_ENERGY: i32 = sys::PERI_CRITERION_BOND_ENERGY;
 /// state-based: mean energy of both ends \> w0 \[T\] 1.102
 pub const CRITERION_NODE_ENERGY: i32 = sys::PERI_CRITERION_NODE_ENERGY;
+/// straight
+pub const SOFTENING_BILINEAR: i32 = sys::PERI_SOFTENING_BILINEAR;
+/// kinked at 1/4 of the strength: concrete
+pub const SOFTENING_TRILINEAR: i32 = sys::PERI_SOFTENING_TRILINEAR;
+/// cut off at 1/100 of the strength
+pub const SOFTENING_EXPONENTIAL: i32 = sys::PERI_SOFTENING_EXPONENTIAL;
+/// a table of yours
+pub const SOFTENING_TABLE: i32 = sys::PERI_SOFTENING_TABLE;
+/// to the origin: damage
+pub const UNLOADING_SECANT: i32 = sys::PERI_UNLOADING_SECANT;
+/// as stiff as new: a stretch stays
+pub const UNLOADING_ELASTIC: i32 = sys::PERI_UNLOADING_ELASTIC;
 /// an initial crack: stays at peri\_reset. Only before the first step
 pub const CUT_INITIAL: i32 = sys::PERI_CUT_INITIAL;
 /// counts as broken, whole again at peri\_reset
@@ -496,6 +510,8 @@ pub const PRESET_ENGINEERING: i32 = sys::PERI_PRESET_ENGINEERING;
 /// deformation 1 %, stress 2 %, waves and fracture 3 %
 pub const PRESET_REFERENCE: i32 = sys::PERI_PRESET_REFERENCE;
 
+/// Bonds of one point to others\[\]: arrays of \`count\`. All that is written is 0 at first.
+pub type BondRow = sys::peri_bond_row;
 
 pub struct BodyDesc {
     /// peri\_space. Required
@@ -712,6 +728,55 @@ impl MaterialDesc {
         self.fracture_energy = raw.fracture_energy;
         self.critical_stretch = raw.critical_stretch;
         self.stabilization = raw.stabilization;
+    }
+}
+
+pub struct SofteningDesc<'a> {
+    /// peri\_softening, set by init
+    pub shape: i32,
+    /// Default PERI\_UNLOADING\_SECANT
+    pub unloading: i32,
+    /// \[M L^-1 T^-2\] \> 0, of uniaxial tension. Required
+    pub strength: f64,
+    /// \[M T^-2\] \> 0, the area under the curve. Required
+    pub fracture_energy: f64,
+    /// (0, 1\] stiffness when shorter, over that when longer. Default 1
+    pub compression: f64,
+    /// \[count\*2\] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
+    pub table: &'a [f64],
+}
+
+impl<'a> SofteningDesc<'a> {
+    /// The defaults.
+    pub fn new(shape: i32) -> Self {
+        let raw = Self::start(shape);
+        Self {
+            shape: raw.shape,
+            unloading: raw.unloading,
+            strength: raw.strength,
+            fracture_energy: raw.fracture_energy,
+            compression: raw.compression,
+            table: &[],
+        }
+    }
+    fn start(shape: i32) -> sys::peri_softening_desc {
+        let mut raw = std::mem::MaybeUninit::<sys::peri_softening_desc>::zeroed();
+        unsafe {
+            sys::peri_softening_desc_init(raw.as_mut_ptr(), shape);
+            raw.assume_init()
+        }
+    }
+    #[allow(unused_mut)]
+    fn raw(&self, dim: i64) -> sys::peri_softening_desc {
+        let mut raw = Self::start(self.shape);
+        raw.shape = self.shape;
+        raw.unloading = self.unloading;
+        raw.strength = self.strength;
+        raw.fracture_energy = self.fracture_energy;
+        raw.compression = self.compression;
+        raw.table = self.table.as_ptr();
+        raw.count = self.table.len() as i64 / 2;
+        raw
     }
 }
 /// A rigid body of point masses; in 2D vectors end with 0.
@@ -1395,6 +1460,17 @@ impl BreakFnHolder {
     }
 }
 
+struct BondLawFnHolder {
+    call: Option<Box<dyn Fn(&sys::peri_bond_row) -> i32 + Send + Sync>>,
+}
+
+impl BondLawFnHolder {
+    unsafe extern "C" fn call_c(user: *mut c_void, row: *const sys::peri_bond_row) -> i32 {
+        let this = unsafe { &*(user as *const BondLawFnHolder) };
+        guarded(|| unsafe { if let Some(f) = this.call.as_ref() { f(&*row) } else { -1 } })
+    }
+}
+
 struct WriteFnHolder<'a> {
     call: Option<&'a mut dyn FnMut(&[u8]) -> i32>,
 }
@@ -1475,11 +1551,44 @@ impl Body {
         self.check(i64::from(result))?;
         Ok(result)
     }
-    /// Bonds between bond-based i and j act as if of \`desc\`, before peri\_build. Default: harmonic mean of the micromoduli, smaller
-    /// critical stretch.
+    /// Bonds between i and j break, and of bond-based i and j act, as if of \`desc\`, before peri\_build; its law is that of one of
+    /// them, not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
     pub fn set_interface(&self, i: i32, j: i32, desc: &MaterialDesc) -> Result<i32> {
         let desc_raw = desc.raw();
         let result = unsafe { sys::peri_set_interface(self.handle, i, j, &desc_raw) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// Bonds between bond-based materials i and j (i, i: within one) soften, before peri\_build; their fracture\_energy and
+    /// critical\_stretch do not count. PERI\_BRITTLE: the horizon is too large, bonds break at once at less than the strength and
+    /// take the energy. docs/laws.md
+    pub fn set_softening(&self, i: i32, j: i32, desc: &SofteningDesc) -> Result<i32> {
+        let dim = i64::from(self.dimension());
+        if desc.table.len() as i64 % (2) != 0 {
+                    return Err(refused("table"));
+                }
+        let desc_raw = desc.raw(dim);
+        let result = unsafe { sys::peri_set_softening(self.handle, i, j, &desc_raw) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// The stretch at which bonds begin to soften, and that at which they break; after peri\_build. PERI\_BRITTLE: they are one.
+    /// Either may be NULL.
+    pub fn get_softening(&self, i: i32, j: i32, first: Option<&mut f64>, last: Option<&mut f64>) -> Result<i32> {
+        let result = unsafe { sys::peri_get_softening(self.handle, i, j, first.map_or(std::ptr::null_mut(), |a| a as *mut _), last.map_or(std::ptr::null_mut(), |a| a as *mut _)) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// Bonds between bond-based materials i and j follow fn, each with \`states\` (0..8) numbers of its own, 0 at first; before
+    /// peri\_build. Their critical stretch holds, too. docs/laws.md
+    pub fn set_bond_law(&self, i: i32, j: i32, states: i32, r#fn: Option<Box<dyn Fn(&sys::peri_bond_row) -> i32 + Send + Sync>>) -> Result<i32> {
+        let call_c: sys::peri_bond_law_fn = if r#fn.is_some() { Some(BondLawFnHolder::call_c) } else { None };
+        let holder = Arc::new(BondLawFnHolder { call: r#fn });
+        let user = Arc::as_ptr(&holder) as *mut c_void;
+        if call_c.is_some() {
+                    keep(&self.keep, holder.clone());
+                }
+        let result = unsafe { sys::peri_set_bond_law(self.handle, i, j, states, call_c, user) };
         self.check(i64::from(result))?;
         Ok(result)
     }
