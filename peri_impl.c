@@ -24,6 +24,7 @@
 #include "src/base/compiler.h"     /* what compilers and machines differ in                                        */
 #include "src/base/enums.h"        /* where the values of each enum begin and end                                     */
 #include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
+#include "src/base/bond_laws.h"    /* laws of bonds: what they are, and what passes ask of them                        */
 #include "src/base/obstacles.h"    /* shapes, places and motion of obstacles                                           */
 #include "src/base/inline.h"       /* what is small and used everywhere                                            */
 #include "src/laws/law.h"          /* what laws differ in, and the list of them                                    */

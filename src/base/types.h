@@ -34,7 +34,6 @@
      piece     points that were added by one call; cloud: the points while families are sought
      builder   what the building of the stencil needs and drops; quantum: the unit in which it compares reals
    Laws, for a point and its live family:
-     law of bonds   peri__bond_law: what pulls at a bond of a given stretch and history, a table or the caller's; bunch: some bonds of a row
      gauge     g of a law, |xi| or 1: theta weighs bonds with it
      gather    the pass that makes theta, or H, of the displacements; the response is what the law makes of them: p, or Q
      calibration   the constants of the law on the bonds left, or all: theta_factor, pressure_factor, spring, stabilization, shape_inverse
@@ -156,46 +155,8 @@ typedef enum peri__constant {
     PERI__CONSTANTS = PERI__SHAPE_INVERSE + 6
 } peri__constant;
 
-typedef struct peri__interface {
-    int32_t       i, j;
-    peri_material_desc material;
-} peri__interface;
-
-#define PERI_BUNCH 64            /* bonds of a row that laws of bonds are asked for at once                               */
-#define PERI_BOND_STATES 8       /* most numbers that such a law keeps per bond                                           */
-#define PERI_SOFTENING_POINTS 32 /* of a table, with its straight beginning                                              */
-#define PERI_BOND_LAWS 255
-
-/* The law of the bonds between two materials where it is not c w s: a table, or a function of the caller. Forces are over c w: that of a
-   linear bond is its stretch. */
-typedef struct peri__bond_law {
-    int32_t i, j;             /* indices of the materials                                                                */
-    int32_t states;           /* numbers kept per bond; of a table 1: the farthest stretch past `first`                  */
-    int32_t brittle;          /* 1: the table is none: bonds break at `last`                                             */
-    peri_bond_law_fn fn;      /* NULL: the table                                                                         */
-    void   *user;
-    int32_t unloading, given; /* given: rows of `shape`                                                                  */
-    double  strength, fracture_energy, compression; /* units of the caller                                               */
-    double  shape[PERI_SOFTENING_POINTS][2]; /* stretch past the strength, of any scale; force over the strength         */
-    double  first, last;      /* stretches at which bonds begin to soften, and break; NaN before peri_build              */
-    int32_t count;            /* points of the curve: force at a stretch, and the area up to there; straight between     */
-    double  stretch[PERI_SOFTENING_POINTS], force[PERI_SOFTENING_POINTS], area[PERI_SOFTENING_POINTS];
-} peri__bond_law;
-
-typedef enum peri__asked { /* of laws of bonds, beside the force                                                         */
-    PERI__ASK_TANGENT = 1,
-    PERI__ASK_ENERGY = 2,
-    PERI__ASK_HISTORY = 4 /* what is lost, what breaks, and the state                                                    */
-} peri__asked;
-
-typedef struct peri__bunch { /* some bonds of a row, and what their laws make of their stretch                           */
-    int32_t count, asked;
-    int64_t point, first; /* of peri__ask_bond: whose, and which, the last were; point < 0: none                         */
-    int32_t others[PERI_BUNCH], broken[PERI_BUNCH];
-    double  length[PERI_BUNCH], stretch[PERI_BUNCH], force[PERI_BUNCH], tangent[PERI_BUNCH], energy[PERI_BUNCH], lost[PERI_BUNCH];
-    double  state[PERI_BUNCH * PERI_BOND_STATES]; /* [count][states of the model]                                        */
-} peri__bunch;
-
+typedef struct peri__interface peri__interface; /* this and the next: bond_laws.h                                        */
+typedef struct peri__bond_law peri__bond_law;
 typedef struct peri__ops peri__ops;
 typedef struct peri__contact peri__contact; /* of a body: search.c                                                       */
 
@@ -281,8 +242,8 @@ typedef struct peri__model {
     double     rho[PERI_MATERIAL_LIMIT];
     int32_t    breakable; /* 1 where some pair has a finite s0                                                           */
     peri__pair *pairs;    /* [materials][materials]                                                                      */
-    uint8_t   *law_of;    /* [materials][materials] 1 + which of body->bond_laws bonds follow, 0: none; NULL without such laws */
-    int32_t    bond_states; /* numbers per directed bond in body->history                                                */
+    uint8_t   *law_of;    /* [materials][materials] 1 + which of body->bond_laws bonds follow, 0: none; NULL without such laws, */
+    int32_t    bond_states; /* of which bonds keep that many numbers, in body->history                                   */
 } peri__model;
 
 typedef union peri__reals {
@@ -370,8 +331,8 @@ typedef struct peri__operands {
     double             node_most; /* the largest, of points whose bonds may break by it                                  */
     const peri__bond_law *bond_laws; /* NULL: bonds are linear                                                           */
     double            *history; /* [entries][bond_states] of laws of bonds                                               */
-    int32_t            keeping; /* 1: it is brought up to date; 2: and bonds break by their laws                         */
-    int32_t            secant;  /* the tangent is that of springs as soft as bonds are by now: never negative            */
+    int32_t            keeping, secant; /* 1: that is brought up to date; 2: and bonds break by their laws. 1: the tangent is of springs
+                                           as soft as bonds are by now: never negative                                   */
     int32_t            linear;  /* the geometry                                                                          */
     int32_t            working; /* the work on bonds is counted                                                          */
     int32_t            breaking; /* bonds may break                                                                      */
@@ -397,8 +358,7 @@ typedef struct peri__tangent { /* a change of the displacements, and what the ta
     void       *q;      /* real [dim][stride] with margins: the change of the force density                              */
     void       *change; /* as body->response: that of p and Q; NULL without constants                                    */
     const void *u;      /* real [dim][stride] with margins: the displacement there; NULL, like the next: those of the body */
-    void       *response; /* as body->response: of u                                                                     */
-    int32_t     secant;   /* see peri__operands                                                                          */
+    void       *response; int32_t secant; /* as body->response: of u; see peri__operands                                  */
 } peri__tangent;
 
 typedef struct peri__krylov { /* vectors of conjugate gradients, real [dim][stride], forces times volumes                 */
@@ -466,8 +426,7 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
     int64_t             broken_before; /* report.broken when this load step began                                         */
     int64_t             bytes;    /* taken now                                                                           */
-    int32_t             secants;  /* 1: the tangent is that of secants, see peri__operands                               */
-    int32_t             negative; /* 1: the last linear solve met a direction of negative curvature                      */
+    int32_t             secants, negative; /* 1: the tangent is that of secants; the last linear solve met negative curvature */
 } peri__solver;
 
 typedef struct peri__derived { /* what peri_view_field computed of a field                                               */
@@ -546,9 +505,8 @@ struct peri__ops { /* kernels of one precision, dimension and instruction set; a
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);
     void (*tangent_gather)(void *, int64_t, int64_t, peri__sums *);
     void (*tangent_force)(void *, int64_t, int64_t, peri__sums *);
-    void (*law_force)(void *, int64_t, int64_t, peri__sums *); /* force, energy and tangent of bodies with laws of bonds */
-    void (*law_energy)(void *, int64_t, int64_t, peri__sums *);
-    void (*law_tangent)(void *, int64_t, int64_t, peri__sums *);
+    void (*law_force)(void *, int64_t, int64_t, peri__sums *), (*law_energy)(void *, int64_t, int64_t, peri__sums *),
+        (*law_tangent)(void *, int64_t, int64_t, peri__sums *); /* of bodies with laws of bonds                          */
     void (*krylov_step)(void *, int64_t, int64_t, peri__sums *); /* these on a peri__krylov                              */
     void (*krylov_turn)(void *, int64_t, int64_t, peri__sums *);
     void (*krylov_force)(void *, int64_t, int64_t, peri__sums *);
@@ -569,8 +527,7 @@ struct peri_body {
     int32_t          material_count;
     peri__interface *interfaces;
     int64_t          interface_count, interface_capacity;
-    peri__bond_law  *bond_laws;
-    int64_t          bond_law_count, bond_law_capacity;
+    peri__bond_law  *bond_laws; int64_t bond_law_count, bond_law_capacity;
     peri__setup      setup;
 
     peri__model      *model; /* NULL before peri_build                                                                   */

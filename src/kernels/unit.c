@@ -11,6 +11,7 @@
 #include "src/base/compiler.h"
 #include "src/base/enums.h"
 #include "src/base/types.h"
+#include "src/base/bond_laws.h"
 #include "src/base/inline.h"
 #include "src/laws/law.h"
 #include "src/laws/criteria.h"
