@@ -102,13 +102,13 @@ PERI_INLINE void PERI_FN(tangent_half)(const peri__operands *s, int64_t i, int64
                                        peri_r *dc, peri_r *t) {
     const peri__model *m = s->model;
     const peri__law *law = &m->laws[m->material[i]];
-    const peri_b *change = (const peri_b *)s->change + i;
     if (law->pairwise) {
         const peri_r spring = weight * (peri_r)(0.5 * PERI_FN(pair)(s, i, j)->c) / b->bond;
         *c += spring * b->e;
         *dc += spring * b->de;
         return;
     }
+    const peri_b *change = (const peri_b *)s->change + i; /* pairwise bodies have none */
     const peri_r gauge = law->gauge ? b->bond : 1, spring = PERI_FN(constant)(s, PERI__SPRING, i);
     *c += weight * (PERI_FN(response)(s, 0, i) * gauge + spring * b->e);
     *dc += weight * (change[0] * gauge + spring * b->de);
