@@ -18,6 +18,8 @@
 # make wasm      build/js, a package for node and browsers: WebAssembly and a typed layer (bindings/js); needs emcc and node
 # make web       build/web/index.html, the page where one strikes glass, in one file (web)
 # make web-test  the layer under node, the page in headless Chromium; needs npm
+# make python    build/python, the Python package of bindings/python with the library of build/; needs python3
+# make lessons   the six lessons of docs/lessons -> out/lessons; needs NumPy and matplotlib
 # make lint      strict warnings under every compiler found, static analysis, house rules
 # make clean     removes build/ and out/
 
@@ -42,7 +44,7 @@ TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 GALLERY = $(basename $(notdir $(wildcard examples/gallery/*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench tradeoff machines examples gallery lib install uninstall dist mutants fuzz bindings lint clean
+.PHONY: all demo programs test validate bench tradeoff machines examples gallery lib install uninstall dist mutants fuzz bindings python lessons lint clean
 all: lib
 
 # The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
@@ -200,7 +202,8 @@ gallery: $(GALLERY:%=build/gallery/%)
 	@for p in python3 /usr/bin/python3; do $$p -c 'import matplotlib' 2> /dev/null && exec $$p tools/gallery.py; done; \
 	echo "gallery: no python3 has matplotlib (Debian: python3-matplotlib): out/gallery has the tables, the pictures and the page are as they were"
 
-programs: $(TESTS:%=build/tests/%) build/tests/extremes $(EXAMPLES:%=build/examples/%) build/libperi.so
+programs: $(TESTS:%=build/tests/%) build/tests/extremes $(EXAMPLES:%=build/examples/%) build/libperi.so \
+    build/tests/binding_scenes $(if $(shell command -v python3),python)
 
 test:
 	@mkdir -p build
@@ -273,6 +276,23 @@ fuzz:
 bindings:
 	python3 tools/api.py
 	python3 tools/bind.py
+
+# the Python package with the library of build/: PYTHONPATH=build/python. `pip install bindings/python` compiles its own
+PYTHON_PACKAGE = $(filter-out %/_generated.py,$(wildcard bindings/python/peri/*.py)) bindings/python/peri/py.typed
+python: build/python/peri/_generated.py
+build/python/peri/_generated.py: build/libperi.so bindings/python/generate.py tools/api.py $(PYTHON_PACKAGE)
+	@mkdir -p $(@D)
+	cp $(PYTHON_PACKAGE) build/libperi.so $(@D)
+	python3 bindings/python/generate.py . $@
+
+# docs/lessons: each computes, checks what it says and draws into out/lessons. A python3 with NumPy and matplotlib
+LESSONS = $(sort $(basename $(notdir $(wildcard docs/lessons/*.py))))
+PYTHON ?= $(shell for p in python3 /usr/bin/python3; do $$p -c 'import matplotlib' 2> /dev/null && echo $$p && break; done)
+lessons: $(LESSONS:%=lesson-%)
+lesson-%: build/python/peri/_generated.py
+	@mkdir -p out/lessons
+	@if [ -n "$(PYTHON)" ]; then PYTHONPATH=$(CURDIR)/build/python MPLBACKEND=Agg $(PYTHON) docs/lessons/$*.py; \
+	else echo "lessons: no python3 has matplotlib (Debian: python3-matplotlib)"; fi
 
 lint:
 	@CC="$(CC)" sh tools/lint.sh

@@ -126,4 +126,15 @@ if command -v python3 > /dev/null; then
 else
     skip test_ctypes "no python3 on this machine"
 fi
+python=$(for p in python3 /usr/bin/python3; do $p -c 'import numpy' 2> /dev/null && echo $p && break; done)
+if [ -n "$python" ]; then
+    queue_program test_python "CC='$CC' OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $python tests/test_python.py build/python build/tests/binding_scenes"
+    if $python -c 'import matplotlib' 2> /dev/null; then
+        queue lesson_1 "mkdir -p out/lessons && PYTHONPATH=build/python MPLBACKEND=Agg $python docs/lessons/1_bar.py" # make validate: all
+    else
+        skip lesson_1 "no matplotlib on this machine"
+    fi
+else
+    skip test_python "no python3 with NumPy on this machine"
+fi
 run_queue

@@ -123,6 +123,8 @@ else
     check dist sh tests/check_dist.sh
     check builds sh tests/check_builds.sh
     check bindings sh tests/test_bindings.sh --long
+    check python_install sh tests/check_python_install.sh
+    check lessons make --no-print-directory CC="$CC" lessons
     rm -f build/clang/peri.o build/fast/peri.o build/fast/core.o
     check fast_math make --no-print-directory -j2 CC="$CC" "OWN_fast=$kernels" FAST_CORE= build/fast/peri.o
     rm -f build/fast/core.o # that of make test is another
