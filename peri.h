@@ -568,6 +568,13 @@ PERI_API int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
    three bits per bond. */
 PERI_API int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
 
+/* Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds
+   that `take` takes. Returns how many. */
+PERI_API int64_t peri_set_strength_pairs(peri_body *body, int64_t count, const int32_t *pairs,
+    const double *factors);
+PERI_API int64_t peri_set_strength_if(peri_body *body, double factor, peri_pair_fn take,
+    void *user);
+
 /* on = 1: keeps when bonds between adjacent points break, for peri_get_cracks: 32 to 44 bytes per
    point. */
 PERI_API int32_t peri_record_breaks(peri_body *body, int32_t on);
@@ -972,8 +979,11 @@ typedef enum peri_field {
     PERI_FIELD_REACTION = 2016,         /* [dim] force density of supports, mean of the last step */
     PERI_FIELD_FRAGMENT = 2017,         /* peri_find_fragments */
     PERI_FIELD_MASS = 2018,             /* [M]; planes: thickness included */
-    PERI_FIELD_DENSITY = 2019,          /* of the material [M L^-3] */
-    PERI_FIELD_HELD = 2020              /* [dim] 1: a support prescribes it; else 0 */
+    PERI_FIELD_DENSITY = 2019,          /* W [M L^-3] Default: of the material */
+    PERI_FIELD_HELD = 2020,             /* [dim] 1: a support prescribes it; else 0 */
+    PERI_FIELD_EIGENSTRAIN = 2021,      /* W stretch at no force [-] -0.9..10. Default 0 */
+    PERI_FIELD_STRENGTH = 2022,         /* W times s0, squared times w0 [-] 1e-6..1e6. Default 1 */
+    PERI_FIELD_STIFFNESS = 2023         /* W times E [-] 1e-6..1e6. Default 1 */
 } peri_field;
 
 typedef enum peri_type {
@@ -988,8 +998,8 @@ PERI_API int64_t peri_size_of_field(const peri_body *body, int32_t field);
 /* Copies a field, as double, in your units and order. capacity counts doubles. */
 PERI_API int32_t peri_get_field(peri_body *body, int32_t field, double *out, int64_t capacity);
 
-/* Sets displacement or velocity of all points; count = points*dim. What peri_get_field gives
-   changes no bit. */
+/* Sets a field W of all points; count = points*components. What peri_get_field gives changes no
+   bit. Fields of material (docs/laws.md), which peri_frame_fn may set, too, outlast peri_reset. */
 PERI_API int32_t peri_set_field(peri_body *body, int32_t field, const double *in, int64_t count);
 
 /* A field in place: component k of point i, in your units, is offset[k] + scale *

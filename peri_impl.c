@@ -24,6 +24,7 @@
 #include "src/base/compiler.h"     /* what compilers and machines differ in                                        */
 #include "src/base/enums.h"        /* where the values of each enum begin and end                                     */
 #include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
+#include "src/base/solver.h"       /* what a static solve takes                                                   */
 #include "src/base/bond_laws.h"    /* laws of bonds: what they are, and what passes ask of them                        */
 #include "src/base/obstacles.h"    /* shapes, places and motion of obstacles                                           */
 #include "src/base/inline.h"       /* what is small and used everywhere                                            */
@@ -116,6 +117,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/boundary.c"     /* supports and loads, added and removed                                        */
 #include "src/body/obstacle_desc.c" /* obstacles, added, removed, read and set                                     */
 #include "src/body/contact_desc.c" /* contact between materials, declared                                          */
+#include "src/body/point_fields.c" /* eigenstrain, strength, stiffness and density by point, strength by bond   */
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/fragments.c"    /* points joined by live bonds; what they are as rigid bodies                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */

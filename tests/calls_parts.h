@@ -36,6 +36,37 @@ static void ask_of_pieces(peri_body *b, const double *place) {
     ASK(peri_select_box_in_place(b, NULL, up3, zero3)), ASK(peri_select_ball_in_place(b, NULL, far3, 1e-9));
 }
 
+/* Fields of material, and strengths of bonds. */
+static int32_t fail_pairs(void *user, int32_t i, int32_t j, const double *xi, const double *xj) {
+    return (void)user, (void)i, (void)j, (void)xi, (void)xj, -7;
+}
+static void with_fields(void) {
+    specimen s = plate_of(PERI_LAW_LPS);
+    static double halves[120];
+    const double half = 0.5, none = 0;
+    const int32_t beyond[2] = {0, 500}, apart[2] = {0, 119};
+    peri_body *d = specimen_start(&s), *b = specimen_make(&s);
+    for (int k = 0; k < 120; ++k) halves[k] = 0.5;
+    ASK(peri_set_strength_pairs(NULL, 1, two, &half)), ASK(peri_set_strength_if(NULL, 0.5, cut_none, NULL));
+    ASK(peri_set_strength_pairs(d, 1, two, &half)), ASK(peri_set_strength_if(d, 0.5, cut_none, NULL));
+    ASK(peri_set_strength_pairs(b, -1, two, &half)), ASK(peri_set_strength_pairs(b, 1, NULL, &half));
+    ASK(peri_set_strength_pairs(b, 1, two, NULL)), ASK(peri_set_strength_pairs(b, 1, two, &none));
+    ASK(peri_set_strength_pairs(b, 1, beyond, &half)), ASK(peri_set_strength_pairs(b, 1, apart, &half));
+    ASK(peri_set_strength_if(b, 0.5, NULL, NULL)), ASK(peri_set_strength_if(b, -1, cut_none, NULL));
+    ASK(peri_set_strength_if(b, 0.5, fail_pairs, NULL));
+    fail_in = 0, ASK(peri_set_strength_pairs(b, 1, two, &half)), fail_in = 0, ASK(peri_set_strength_if(b, 0.5, cut_none, NULL));
+    fail_in = 0, ASK(peri_set_field(b, PERI_FIELD_STRENGTH, halves, 120)), fail_in = -1;
+    ASK(peri_set_field(b, PERI_FIELD_STRENGTH, halves, 7)), ASK(peri_set_field(b, PERI_FIELD_STIFFNESS, NULL, 120));
+    peri_body_destroy(d), peri_body_destroy(b);
+    s.material.criterion = PERI_CRITERION_BOND_ENERGY;
+    s.material.fracture_energy = 1;
+    b = specimen_make(&s), ASK(peri_set_field(b, PERI_FIELD_EIGENSTRAIN, halves, 120)), peri_body_destroy(b);
+    s = plate_of(PERI_LAW_BOND_BASED);
+    s.desc.quadrature = PERI_QUADRATURE_PARTIAL_CENTROID;
+    b = specimen_make(&s), ASK(peri_set_field(b, PERI_FIELD_STRENGTH, halves, 120));
+    ASK(peri_set_strength_pairs(b, 1, two, &half)), ASK(peri_set_strength_if(b, 0.5, cut_none, NULL)), peri_body_destroy(b);
+}
+
 /* Forces at a displacement: too early, stopped by a load, and a rule that has no tangent. */
 static int32_t stop_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
     return (void)user, (void)time, (void)count, (void)points, (void)value, 1;

@@ -63,9 +63,9 @@ if command -v tcc > /dev/null; then tcc -c $dir/user.c -o $dir/tcc.o; fi
 if [ -z "$quick" ] && command -v x86_64-w64-mingw32-gcc > /dev/null; then
     x86_64-w64-mingw32-gcc -std=c99 -Wall -Wextra -Werror -fsyntax-only $dir/user.c
 fi
-# guards, and the files of criteria that several lists take up, are some 330 lines
+# guards, and the files of criteria that several lists take up, are some 410 lines
 parts=$(cat peri.h peri_impl.c src/*/* | wc -l)
-[ "$(wc -l < $file)" -le $((parts + 400)) ] || { echo "$file: 400 lines more than its parts: is a text there twice?"; exit 1; }
+[ "$(wc -l < $file)" -le $((parts + 450)) ] || { echo "$file: 450 lines more than its parts: is a text there twice?"; exit 1; }
 
 if command -v nm > /dev/null; then
     nm -g --defined-only build/libperi.a | awk "NF == 3" | grep -v ' peri_' > $dir/foreign || true

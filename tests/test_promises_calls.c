@@ -515,7 +515,7 @@ static void gather(void) {
     without_a_body();
     with_wrong_ids();
     at_the_wrong_time();
-    with_evaluations();
+    with_fields(), with_evaluations();
     with_wrong_laws();
     with_wrong_arguments();
     with_failing_callbacks();

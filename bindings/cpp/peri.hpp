@@ -911,6 +911,22 @@ public:
         check(result_);
         return result_;
     }
+    /* Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take`
+       takes. Returns how many. */
+    int64_t set_strength_pairs(span<const int32_t> pairs_, span<const double> factors_) {
+        detail::sized(pairs_.size(), int64_t(factors_.size())*2, "pairs");
+        const int64_t result_ = peri_set_strength_pairs(handle_, int64_t(factors_.size()), pairs_.data(), factors_.data());
+        check(result_);
+        return result_;
+    }
+    /* Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take`
+       takes. Returns how many. */
+    int64_t set_strength_if(double factor_, const pair_fn &take_) {
+        detail::pair_fn_holder context_ = {dimension(), take_};
+        const int64_t result_ = peri_set_strength_if(handle_, factor_, take_ ? detail::pair_fn_holder::call_c : nullptr, &context_);
+        check(result_);
+        return result_;
+    }
     /* on = 1: keeps when bonds between adjacent points break, for peri_get_cracks: 32 to 44 bytes per point. */
     int32_t record_breaks(int32_t on_) {
         const int32_t result_ = peri_record_breaks(handle_, on_);
@@ -1239,7 +1255,8 @@ public:
         (void)get_field(field_, out_);
         return out_;
     }
-    /* Sets displacement or velocity of all points; count = points*dim. What peri_get_field gives changes no bit. */
+    /* Sets a field W of all points; count = points*components. What peri_get_field gives changes no bit. Fields
+       of material (docs/laws.md), which peri_frame_fn may set, too, outlast peri_reset. */
     int32_t set_field(int32_t field_, span<const double> in_) {
         const int32_t result_ = peri_set_field(handle_, field_, in_.data(), int64_t(in_.size()));
         check(result_);

@@ -329,10 +329,16 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_FIELD_FRAGMENT = 2017
     ! [M]; planes: thickness included
     integer(c_int32_t), parameter :: PERI_FIELD_MASS = 2018
-    ! of the material [M L^-3]
+    ! W [M L^-3] Default: of the material
     integer(c_int32_t), parameter :: PERI_FIELD_DENSITY = 2019
     ! [dim] 1: a support prescribes it; else 0
     integer(c_int32_t), parameter :: PERI_FIELD_HELD = 2020
+    ! W stretch at no force [-] -0.9..10. Default 0
+    integer(c_int32_t), parameter :: PERI_FIELD_EIGENSTRAIN = 2021
+    ! W times s0, squared times w0 [-] 1e-6..1e6. Default 1
+    integer(c_int32_t), parameter :: PERI_FIELD_STRENGTH = 2022
+    ! W times E [-] 1e-6..1e6. Default 1
+    integer(c_int32_t), parameter :: PERI_FIELD_STIFFNESS = 2023
 
     integer(c_int32_t), parameter :: PERI_TYPE_F64 = 1601
     integer(c_int32_t), parameter :: PERI_TYPE_F32 = 1602
@@ -1495,6 +1501,22 @@ module peri_c
             type(c_ptr), value :: user
             integer(c_int32_t) :: c_on_break
         end function
+        function c_set_strength_pairs(body, count, pairs, factors) bind(c, name='peri_set_strength_pairs')
+            import
+            type(c_ptr), value :: body
+            integer(c_int64_t), value :: count
+            type(c_ptr), value :: pairs
+            type(c_ptr), value :: factors
+            integer(c_int64_t) :: c_set_strength_pairs
+        end function
+        function c_set_strength_if(body, factor, take, user) bind(c, name='peri_set_strength_if')
+            import
+            type(c_ptr), value :: body
+            real(c_double), value :: factor
+            type(c_funptr), value :: take
+            type(c_ptr), value :: user
+            integer(c_int64_t) :: c_set_strength_if
+        end function
         function c_record_breaks(body, on) bind(c, name='peri_record_breaks')
             import
             type(c_ptr), value :: body
@@ -2031,6 +2053,8 @@ module peri
     private :: c_cut_if
     private :: c_set_no_fail
     private :: c_on_break
+    private :: c_set_strength_pairs
+    private :: c_set_strength_if
     private :: c_record_breaks
     private :: c_find_fragments
     private :: c_get_fragments
@@ -3682,6 +3706,72 @@ contains
         if (present(stat)) stat = int(result_)
     end subroutine
 
+    ! Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take` takes. Returns
+    ! how many.
+    function peri_set_strength_pairs(body, pairs, factors, stat, errmsg) result(result_)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in), target, contiguous :: pairs(:)
+        real(c_double), intent(in), target, contiguous :: factors(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int64_t) :: result_
+        type(c_ptr) :: pairs_at
+        type(c_ptr) :: factors_at
+        type(peri_error) :: record
+        result_ = PERI_ERROR_ARGUMENT
+        if (size(pairs) /= size(factors, kind=c_int64_t)*2) then
+            call refused('pairs', stat, errmsg)
+            return
+        end if
+        pairs_at = c_null_ptr
+        if (size(pairs) > 0) pairs_at = c_loc(pairs)
+        factors_at = c_null_ptr
+        if (size(factors) > 0) factors_at = c_loc(factors)
+        result_ = c_set_strength_pairs(body%handle, size(factors, kind=c_int64_t), pairs_at, factors_at)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = 0
+    end function
+
+    ! Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take` takes. Returns
+    ! how many.
+    function peri_set_strength_if(body, factor, take, user, stat, errmsg) result(result_)
+        type(peri_body), intent(in) :: body
+        real(c_double), intent(in) :: factor
+        procedure(peri_pair_fn) :: take
+        type(c_ptr), intent(in), optional :: user
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int64_t) :: result_
+        type(c_funptr) :: take_at
+        type(peri_error) :: record
+        take_at = c_funloc(take)
+        result_ = c_set_strength_if(body%handle, factor, take_at, c_ptr_of(user))
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = 0
+    end function
+
     ! on = 1: keeps when bonds between adjacent points break, for peri_get_cracks: 32 to 44 bytes per point.
     subroutine peri_record_breaks(body, on, stat, errmsg)
         type(peri_body), intent(in) :: body
@@ -4878,7 +4968,8 @@ contains
         if (present(stat)) stat = int(result_)
     end subroutine
 
-    ! Sets displacement or velocity of all points; count = points*dim. What peri_get_field gives changes no bit.
+    ! Sets a field W of all points; count = points*components. What peri_get_field gives changes no bit. Fields of material
+    ! (docs/laws.md), which peri_frame_fn may set, too, outlast peri_reset.
     subroutine peri_set_field(body, field, in, stat, errmsg)
         type(peri_body), intent(in) :: body
         integer(c_int32_t), intent(in) :: field

@@ -166,8 +166,11 @@ const FIELD_FORCE_STRESS = Int32(2015) # [tensor] Cauchy, what the bonds carry [
 const FIELD_REACTION = Int32(2016) # [dim] force density of supports, mean of the last step
 const FIELD_FRAGMENT = Int32(2017) # peri_find_fragments
 const FIELD_MASS = Int32(2018) # [M]; planes: thickness included
-const FIELD_DENSITY = Int32(2019) # of the material [M L^-3]
+const FIELD_DENSITY = Int32(2019) # W [M L^-3] Default: of the material
 const FIELD_HELD = Int32(2020) # [dim] 1: a support prescribes it; else 0
+const FIELD_EIGENSTRAIN = Int32(2021) # W stretch at no force [-] -0.9..10. Default 0
+const FIELD_STRENGTH = Int32(2022) # W times s0, squared times w0 [-] 1e-6..1e6. Default 1
+const FIELD_STIFFNESS = Int32(2023) # W times E [-] 1e-6..1e6. Default 1
 const TYPE_F64 = Int32(1601)
 const TYPE_F32 = Int32(1602)
 const TYPE_I32 = Int32(1603)
@@ -1449,6 +1452,26 @@ function on_break(body::Body, fn = nothing)
 end
 
 """
+Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take` takes. Returns how many.
+"""
+function set_strength_pairs(body::Body, pairs, factors)
+    sized(pairs, entries(factors)*2, "pairs")
+    result = GC.@preserve body ccall((:peri_set_strength_pairs, LIB), Int64, (Ptr{Cvoid}, Int64, Ptr{Int32}, Ptr{Float64}), body.handle, entries(factors), maybe(Int32, pairs), maybe(Float64, factors))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take` takes. Returns how many.
+"""
+function set_strength_if(body::Body, factor, take)
+    context = take === nothing ? nothing : Context(Dict{Symbol,Any}(:call => take), nothing, dimension(body))
+    result = GC.@preserve body context ccall((:peri_set_strength_if, LIB), Int64, (Ptr{Cvoid}, Float64, Ptr{Cvoid}, Ptr{Cvoid}), body.handle, factor, context === nothing ? C_NULL : pointer_of_pair_fn_call(), context === nothing ? C_NULL : pointer_from_objref(context))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
 on = 1: keeps when bonds between adjacent points break, for peri_get_cracks: 32 to 44 bytes per point.
 """
 function record_breaks(body::Body, on)
@@ -1895,7 +1918,8 @@ function get_field(body::Body, field)
 end
 
 """
-Sets displacement or velocity of all points; count = points*dim. What peri_get_field gives changes no bit.
+Sets a field W of all points; count = points*components. What peri_get_field gives changes no bit. Fields of material
+(docs/laws.md), which peri_frame_fn may set, too, outlast peri_reset.
 """
 function set_field(body::Body, field, in_)
     result = GC.@preserve body ccall((:peri_set_field, LIB), Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}, Int64), body.handle, field, maybe(Float64, in_), entries(in_))

@@ -381,6 +381,8 @@ int64_t peri_cut_pairs(peri_body *body, int32_t standing, int64_t count, const i
 int64_t peri_cut_if(peri_body *body, int32_t standing, peri_pair_fn cut, void *user);
 int32_t peri_set_no_fail(peri_body *body, int32_t set, int32_t on);
 int32_t peri_on_break(peri_body *body, peri_break_fn fn, void *user);
+int64_t peri_set_strength_pairs(peri_body *body, int64_t count, const int32_t *pairs, const double *factors);
+int64_t peri_set_strength_if(peri_body *body, double factor, peri_pair_fn take, void *user);
 int32_t peri_record_breaks(peri_body *body, int32_t on);
 int64_t peri_find_fragments(peri_body *body, int32_t *of_point, int64_t capacity);
 int32_t peri_get_fragments(peri_body *body, peri_fragment *out, int64_t capacity);
@@ -608,8 +610,11 @@ local peri = {
     FIELD_REACTION = 2016, -- [dim] force density of supports, mean of the last step
     FIELD_FRAGMENT = 2017, -- peri_find_fragments
     FIELD_MASS = 2018, -- [M]; planes: thickness included
-    FIELD_DENSITY = 2019, -- of the material [M L^-3]
+    FIELD_DENSITY = 2019, -- W [M L^-3] Default: of the material
     FIELD_HELD = 2020, -- [dim] 1: a support prescribes it; else 0
+    FIELD_EIGENSTRAIN = 2021, -- W stretch at no force [-] -0.9..10. Default 0
+    FIELD_STRENGTH = 2022, -- W times s0, squared times w0 [-] 1e-6..1e6. Default 1
+    FIELD_STIFFNESS = 2023, -- W times E [-] 1e-6..1e6. Default 1
     TYPE_F64 = 1601,
     TYPE_F32 = 1602,
     TYPE_I32 = 1603,
@@ -1400,6 +1405,30 @@ function Body:on_break(fn)
     return check(result, nil, self.handle)
 end
 
+-- Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take` takes. Returns how many.
+function Body:set_strength_pairs(pairs, factors)
+    local pairs_c, pairs_n = nil, 0
+    if pairs ~= nil then pairs_c, pairs_n = array("int32_t", pairs, "pairs") end
+    sized(pairs_n, factors_n*2, "pairs")
+    local factors_c, factors_n = nil, 0
+    if factors ~= nil then factors_c, factors_n = array("double", factors, "factors") end
+    local result = C.peri_set_strength_pairs(self.handle, factors_n, pairs_c, factors_c)
+    return check(result, nil, self.handle)
+end
+
+-- Strength of bonds, times that of points: factors[count] of pairs[count*2], or of intact bonds that `take` takes. Returns how many.
+function Body:set_strength_if(factor, take)
+    local here = {}
+    local take_c = nil
+    if take then
+        here[#here + 1] = ffi.cast("peri_pair_fn", guard(function(_, i, j, xi, xj) return take(i, j, xi, xj) end))
+        take_c = here[#here]
+    end
+    local result = C.peri_set_strength_if(self.handle, factor, take_c, nil)
+    free(here)
+    return check(result, nil, self.handle)
+end
+
 -- on = 1: keeps when bonds between adjacent points break, for peri_get_cracks: 32 to 44 bytes per point.
 function Body:record_breaks(on)
     local result = C.peri_record_breaks(self.handle, on)
@@ -1853,7 +1882,8 @@ function Body:get_field(field, out)
     return out
 end
 
--- Sets displacement or velocity of all points; count = points*dim. What peri_get_field gives changes no bit.
+-- Sets a field W of all points; count = points*components. What peri_get_field gives changes no bit. Fields of material
+-- (docs/laws.md), which peri_frame_fn may set, too, outlast peri_reset.
 function Body:set_field(field, in_)
     local in_c, in_n = nil, 0
     if in_ ~= nil then in_c, in_n = array("double", in_, "in") end

@@ -20,7 +20,18 @@ PERI_INLINE int64_t peri__nth(const peri__model *m, int64_t k) { return m->order
    divides its sums, in the precision of the state, by its own volume. */
 PERI_INLINE double peri__share(const peri__model *m, int64_t i) { return m->mutual ? m->volume[i] : 1.0; }
 
-PERI_INLINE double peri__mass(const peri__model *m, int64_t i) { return m->rho[m->material[i]] * m->volume[i]; }
+/* The law of point i, its stiffness times a factor. */
+PERI_INLINE const peri__law *peri__stiffened(const peri__model *m, int64_t i, double factor, peri__law *room) {
+    if (factor == 1.0) return &m->laws[m->material[i]];
+    *room = m->laws[m->material[i]];
+    room->young *= factor;
+    room->lambda *= factor;
+    room->mu *= factor;
+    room->a *= factor;
+    room->b *= factor;
+    room->bulk *= factor;
+    return room;
+}
 
 /* The neighbour of entry `at` of the list. */
 PERI_INLINE int64_t peri__entry_id(const peri__model *m, int64_t at) { return m->order ? m->order[m->ids[at]] : m->ids[at]; }

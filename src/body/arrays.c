@@ -34,6 +34,7 @@ typedef enum peri__role {
     PERI__BONDS_LEFT, /* flags of bonds, all set where there is no array: saved                                          */
     PERI__FOLLOWS, /* follows from the rest but for the last digits, which depend on the way: saved                       */
     PERI__HISTORY, /* saved; 0 after peri_reset                                                                           */
+    PERI__FIELD,   /* what the caller has set and may set anew as time goes on: saved; peri_reset leaves it                */
     PERI__RESTING  /* 0 between steps                                                                                     */
 } peri__role;
 
@@ -48,7 +49,7 @@ typedef struct peri__array {
     peri__purpose purpose;
     peri__role    role;
 } peri__array;
-#define PERI_ARRAYS 33       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 38       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
 #define PERI_MODEL_ARRAYS 21 /* with all others                                                                           */
 
@@ -147,6 +148,11 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(history, bonds * m->bond_states, sizeof(double), m->bond_states > 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(node, n, sizeof(double), (m->seen_by & PERI__BY_NODE_ENERGY) != 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(eigenstrain, m->stride + 2 * m->margin, bond, 0, PERI__LAWS, PERI__FIELD),
+        PERI_ARRAY_(strength, m->stride + 2 * m->margin, bond, 0, PERI__DAMAGE, PERI__FIELD),
+        PERI_ARRAY_(bond_strength, bonds, sizeof(float), 0, PERI__DAMAGE, PERI__FIELD),
+        PERI_ARRAY_(stiffness, m->stride + 2 * m->margin, bond, 0, PERI__LAWS, PERI__FIELD),
+        PERI_ARRAY_(density, n, sizeof(double), 0, PERI__POINTS, PERI__FIELD),
         PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side_time, b->side_count, sizeof(double), 0, PERI__DAMAGE, PERI__HISTORY),

@@ -121,6 +121,7 @@ static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->number = desc->number > 0 ? desc->number : peri__number_of(b);
     b->now = peri__at_start(0);
     b->law_bad = -1;
+    b->least_strength = b->row_sum_factor = 1.0;
     (void)peri__set_error(&b->error, PERI_OK, "", -1, 0.0);
 }
 

@@ -100,6 +100,8 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
     b->classes = from->classes;
     b->largest_row_sum = from->largest_row_sum;
     b->sharp = from->sharp;
+    b->least_strength = from->least_strength;
+    b->row_sum_factor = from->row_sum_factor;
     b->softens = from->softens;
     b->side_count = from->side_count;
     b->on_break = from->on_break;

@@ -47,10 +47,10 @@ static int peri__fit_contact(const peri_body *b, peri__contact *c, const peri__t
         peri__touch *t = &c->touch[k];
         const int32_t i = k / n, j = k % n;
         if (!t->on || !(most[i] > 0.0) || !(most[j] > 0.0)) continue;
-        const double young = 2.0 / (1.0 / m->laws[i].young + 1.0 / m->laws[j].young);
+        const double rho = b->density ? peri__least_density(b) : m->rho[i], young = 2.0 / (1.0 / m->laws[i].young + 1.0 / m->laws[j].young);
         t->stiffness = t->desc.stiffness * young / (m->spacing * t->distance);
         c->distance = fmax(c->distance, t->distance);
-        c->bound = fmax(c->bound, 2.0 * peri__assumed_touching(m, t->distance) * t->stiffness / m->rho[i]
+        c->bound = fmax(c->bound, 2.0 * peri__assumed_touching(m, t->distance) * t->stiffness / rho
                                   * (2.0 * most[j] / (least[i] + most[j])));
         resists = resists || t->desc.friction > 0.0 || t->desc.restitution < 1.0;
     }
@@ -60,9 +60,10 @@ static int peri__fit_contact(const peri_body *b, peri__contact *c, const peri__t
     for (int32_t k = 0; k < n * n; ++k) {
         peri__touch *t = &c->touch[k];
         const int32_t i = k / n;
+        const double rho = b->density ? peri__least_density(b) : m->rho[i];
         double reach;
         if (!(t->stiffness > 0.0)) continue;
-        t->loss = peri__loss_for(t->desc.restitution, t->stiffness / m->rho[i], c->hold, step, &reach);
+        t->loss = peri__loss_for(t->desc.restitution, t->stiffness / rho, c->hold, step, &reach);
         *wrong = t;
         *value = reach;
         if (t->loss > 1.0) return 0;

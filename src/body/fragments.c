@@ -502,7 +502,7 @@ static void peri__motion_of(const peri_body *b, int64_t i, double *place, double
 }
 
 static void peri__add_mass(const peri_body *b, int64_t i, peri_fragment *fragment) {
-    const double mass = peri__mass(b->model, i);
+    const double mass = peri__mass(b, i);
     const int first = !(fragment->mass > 0.0);
     double place[3], velocity[3];
     peri__motion_of(b, i, place, velocity);
@@ -517,7 +517,7 @@ static void peri__add_mass(const peri_body *b, int64_t i, peri_fragment *fragmen
 
 /* What a point adds about the centre. */
 static void peri__add_spin(const peri_body *b, int64_t i, peri_fragment *fragment) {
-    const double mass = peri__mass(b->model, i);
+    const double mass = peri__mass(b, i);
     double arm[3], velocity[3], turn[3];
     peri__motion_of(b, i, arm, velocity);
     for (int32_t d = 0; d < b->dim; ++d) {

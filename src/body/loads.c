@@ -164,7 +164,7 @@ static int32_t peri__drive_supports(peri_body *b, double dt, double damping) {
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
-                double rho = m->rho[m->material[i]], value = peri__load_value(b, load, k, d), v, work;
+                double rho = peri__density_at(b, i), value = peri__load_value(b, load, k, d), v, work;
                 double *old = peri__support_at(b, load, PERI__SUPPORT_VALUE, k, d), force, before;
                 if (!(load->owned[k] >> d & 1)) continue;
                 if (load->kind == PERI__DISPLACEMENT) {
@@ -200,7 +200,7 @@ static void peri__hold_supports(peri_body *b, double dt, double damping) {
         for (int64_t k = 0; k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
-                double rho = m->rho[m->material[i]], force = peri__get_real(b->f, b->f32, at);
+                double rho = peri__density_at(b, i), force = peri__get_real(b->f, b->f32, at);
                 double v = *peri__support_at(b, load, PERI__SUPPORT_VELOCITY, k, d), end = v, kicked, need;
                 if (!(load->owned[k] >> d & 1)) continue;
                 *peri__support_at(b, load, PERI__SUPPORT_FORCE, k, d) = force;
@@ -249,7 +249,7 @@ static void peri__supply_supports(peri_body *b, const peri__operands *operands) 
         for (int64_t k = 0; load->owned && k < load->count; ++k)
             for (int32_t d = 0; d < m->dim; ++d) {
                 int64_t i = peri__set_point(b, load->set, k), at = peri__dof(b, load, k, d);
-                double rho = m->rho[m->material[i]], old = peri__get_real(b->v, b->f32, at);
+                double rho = peri__density_at(b, i), old = peri__get_real(b->v, b->f32, at);
                 double now = operands->keep * old + operands->kick / rho * peri__get_real(b->f, b->f32, at);
                 if (!(load->owned[k] >> d & 1)) continue;
                 b->now.ledger.external += (operands->loss_old * old + operands->loss_new * now) * 0.5 * (old + now) * rho * m->volume[i];

@@ -225,9 +225,11 @@ static int32_t peri__set_free(peri_body *b, const peri_obstacle_desc *d, peri__o
 
 static double peri__default_stiffness(const peri__model *m) { return 1.0 / peri__square(m->spacing); }
 
-static double peri__least_density(const peri__model *m) {
+static double peri__least_density(const peri_body *b) {
+    const peri__model *m = b->model;
     double least = m->rho[0];
     for (int32_t k = 1; k < m->materials; ++k) least = fmin(least, m->rho[k]);
+    for (int64_t i = 0; b->density && i < m->points; ++i) least = i == 0 ? b->density[0] : fmin(least, b->density[i]);
     return least;
 }
 
@@ -246,7 +248,7 @@ static int32_t peri__read_surface(peri_body *b, const peri_obstacle_desc *d, per
     const peri__model *m = b->model;
     o->stiffness = d->stiffness > 0.0 ? d->stiffness * m->length * m->length / m->stress : peri__default_stiffness(m);
     /* they add up in the stable step, over the least density (explicit.c): as many as there are ids stay within double */
-    if (!(o->stiffness / peri__least_density(m) < 1e300)) return peri__fail(b, PERI_ERROR_RANGE, "stiffness", -1, d->stiffness);
+    if (!(o->stiffness / peri__least_density(b) < 1e300)) return peri__fail(b, PERI_ERROR_RANGE, "stiffness", -1, d->stiffness);
     o->friction = d->friction;
     o->friction_speed = d->friction_speed > 0.0 ? d->friction_speed / peri__velocity_unit(m) : 1e-6;
     if (!(o->friction_speed > 1e-30)) return peri__fail(b, PERI_ERROR_RANGE, "friction_speed", -1, d->friction_speed);

@@ -150,8 +150,7 @@ static void peri__slip(const peri__pusher *p, const peri__obstacle *o, int64_t i
 /* Adds to push what a lossy obstacle takes energy by at a point; returns the energy that it took in this step, per volume, by the
    trapezoidal rule as all work. elastic: k depth; 0 where the point has left. */
 static double peri__rub(const peri__pusher *p, const peri__obstacle *o, int64_t i, const peri__dip *t, double elastic, double *push) {
-    const peri__model *m = p->body->model;
-    const double most = p->limit * m->rho[m->material[i]];
+    const double most = p->limit * peri__density_at(p->body, i);
     double *fastest = &o->kept[i * PERI_KEPT], *force = fastest + 1, slip[3], pressed = elastic, lost = 0.0;
     if (!(elastic > 0.0) && *fastest == 0.0 && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0) return 0.0;
     peri__slip(p, o, i, t->r, slip);

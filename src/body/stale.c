@@ -11,6 +11,8 @@
 typedef enum peri__change {
     PERI__MOTION, /* displacement or velocity, by the caller                                                             */
     PERI__CUTS,   /* bonds, by the caller                                                                                */
+    PERI__EIGENSTRAIN, /* by the caller                                                                                 */
+    PERI__STIFFNESS, /* or density, by the caller                                                                        */
     PERI__BONDS,  /* bonds that a criterion broke or peri_reset mended: the ledger has an account of its own for them    */
     PERI__ACTION  /* loads, supports, obstacles, the load factor; or a step that ended half way                          */
 } peri__change;
@@ -32,8 +34,10 @@ static void peri__note_energy(peri_body *b) {
 /* To be called before a change by the caller; before or after any other. */
 static void peri__changed(peri_body *b, peri__change what) {
     if (what == PERI__MOTION || what == PERI__CUTS) peri__note_energy(b);
+    if (what == PERI__EIGENSTRAIN || what == PERI__STIFFNESS) peri__note_energy(b);
     if (what == PERI__CUTS || what == PERI__BONDS) b->now.stale |= PERI__STALE_MASKS;
     if ((what == PERI__CUTS || what == PERI__BONDS) && !b->model->pairwise) b->now.stale |= PERI__STALE_CONSTANTS;
+    if (what == PERI__STIFFNESS) b->now.stale |= PERI__STALE_SHARP | (b->model->pairwise ? 0u : (uint32_t)PERI__STALE_CONSTANTS);
     if ((what == PERI__CUTS && b->now.steps == 0) || ((what == PERI__CUTS || what == PERI__BONDS) && !b->softens))
         b->now.stale |= PERI__STALE_SHARP; /* initial cracks, of which a body that softens knows, come before the first step */
     if ((what == PERI__CUTS || what == PERI__BONDS) && b->contact) b->contact->dead = -1;

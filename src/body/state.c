@@ -4,6 +4,21 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
+/* A field of material from the first point on, or NULL. */
+static const void *peri__field_of(const peri_body *b, const void *field) {
+    return field ? (const char *)field + (size_t)b->model->margin * peri__bond_real(b) : NULL;
+}
+
+/* The fields of material: all, or those alone that the tangent at rest has. Of state-based laws the constants hold the stiffness. */
+static void peri__take_fields(const peri_body *b, peri__operands *s, int all) {
+    const int by_pairs = b->stiffness && (b->model->pairwise || b->model->mixed);
+    s->eigenstrain = all ? peri__field_of(b, b->eigenstrain) : NULL;
+    s->strength = all ? peri__field_of(b, b->strength) : NULL;
+    s->bond_strength = all ? b->bond_strength : NULL;
+    s->stiffness = peri__field_of(b, b->stiffness);
+    s->fields = by_pairs || s->eigenstrain || s->strength || s->bond_strength;
+}
+
 /* What passes need of a body, with no step, no breaking and no work. */
 static peri__operands peri__operands_of(const peri_body *b) {
     const peri__model *m = b->model;
@@ -32,6 +47,10 @@ static peri__operands peri__operands_of(const peri_body *b) {
     s.node = b->node;
     s.bond_laws = b->model->law_of ? b->bond_laws : NULL;
     s.history = b->history;
+    s.density = b->density;
+    s.least_strength = b->least_strength;
+    s.partly = b->desc.moments != PERI_MOMENTS_LIVE && b->now.cut + b->now.broken > 0;
+    peri__take_fields(b, &s, 1);
     s.linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     return s;
 }
@@ -42,7 +61,7 @@ static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, 
                            double *tangent) {
     const int64_t first = k - k % PERI_BUNCH;
     if (!b->model->law_of) {
-        *force = peri__stretch(b, i, row, k);
+        *force = peri__stretch(b, i, row, k) - peri__felt_eigenstrain(b, i, row->ids[k]);
         *tangent = 1.0;
         return;
     }

@@ -21,9 +21,9 @@ typedef struct peri__deformation {
     int    whole; /* the live bonds span the space                                                                       */
 } peri__deformation;
 
-/* theta of the law: sum w g e V, in units of what it is where e = |xi|. A point of a pairwise law counts as one of
-   LPS with w/|xi| in place of w. */
-static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *row) {
+/* theta of the law: sum w g e V, in units of what it is where e = |xi|; of the extension beyond the stretch `less`. A point of a pairwise
+   law counts as one of LPS with w/|xi| in place of w. */
+static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *row, double less) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int live = law->pairwise || peri__counts_live(b, law);
@@ -32,7 +32,7 @@ static double peri__dilatation(const peri_body *b, int64_t i, const peri__row *r
         double w = peri__weight_of(m, i, row->weight, k), bond = peri__get_real(row->bond, b->b32, k);
         const int alive = peri__is_alive(b, i, k);
         if (law->gauge) w *= bond;
-        if (alive) sum += w * bond * peri__stretch(b, i, row, k);
+        if (alive) sum += w * bond * (peri__stretch(b, i, row, k) - less);
         if (alive || !live) whole += w * bond;
     }
     return whole > 0.0 ? m->dim * sum / whole : 0.0;
@@ -74,6 +74,14 @@ static void peri__strain_of(const peri_body *b, const peri__deformation *f, doub
         }
 }
 
+/* The strain that bears force: see make_elastic of rows.inl. */
+static void peri__elastic_strain_of(const peri_body *b, int64_t i, const peri__deformation *f, double strain[3][3]) {
+    const double own = peri__eigenstrain_at(b, i), grown = b->desc.geometry == PERI_GEOMETRY_LINEAR ? own : own + 0.5 * own * own;
+    peri__strain_of(b, f, strain);
+    for (int a = 0; grown != 0.0 && a < b->dim; ++a)
+        for (int c = 0; c < b->dim; ++c) strain[a][c] -= grown * (f->whole ? a == c : f->p[a][c]);
+}
+
 static double peri__det(double f[3][3]) {
     return f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0])
          + f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
@@ -105,10 +113,11 @@ static void peri__cauchy(const peri_body *b, double p[3][3], const peri__deforma
 
 /* P of the strain where the law has a gradient; of others as Hooke's law has it. */
 static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
-    const peri__law *law = &b->model->laws[b->model->material[i]];
+    peri__law room;
+    const peri__law *law = peri__law_at(b, i, &room);
     double s[3][3], h[3][3];
     memcpy(h, f->h, sizeof h);
-    peri__strain_of(b, f, s);
+    peri__elastic_strain_of(b, i, f, s);
     peri__stress(law, b->dim, b->desc.geometry == PERI_GEOMETRY_LINEAR, h, s, p);
 }
 
@@ -123,7 +132,7 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
     int tensor = 0;
     bunch.point = -1;
     if (!law->pairwise) pressure_factor = peri__get_constant(b, i, PERI__PRESSURE_FACTOR);
-    if (pressure_factor != 0.0) pressure_factor *= peri__dilatation(b, i, row);
+    if (pressure_factor != 0.0) pressure_factor *= peri__dilatation(b, i, row, peri__eigenstrain_at(b, i));
     if (law->gather & PERI__GRADIENT) {
         stabilization = peri__get_constant(b, i, PERI__STABILIZATION);
         for (int k = 0; k < PERI_PACKED(m->dim); ++k) inverse[k] = peri__get_constant(b, i, PERI__SHAPE_INVERSE + k);
@@ -162,7 +171,7 @@ static void peri__dilatation_at(const peri_body *b, int64_t i, const peri__row *
     double strain[3][3];
     *out = 0.0;
     if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) {
-        *out = peri__dilatation(b, i, row);
+        *out = peri__dilatation(b, i, row, 0.0);
         return;
     }
     peri__deform(b, i, row, &f);

@@ -75,7 +75,7 @@ static void peri__press_block(void *context, int64_t begin, int64_t end, peri__s
             c->touching[p]++;
         }
         if (c->touching[p] == 0) continue;
-        row_sum /= peri__mass(m, i);
+        row_sum /= peri__mass(b, i);
         if (row_sum > sums->b) sums->b = row_sum;
         for (int32_t d = 0; s->presses && d < m->dim; ++d) {
             const int64_t at = d * m->stride + i;
@@ -90,7 +90,7 @@ static void peri__resist(const peri_body *b, int64_t p, int64_t e, const peri__p
     const peri__model *m = b->model;
     const int64_t i = c->member[p];
     const double crowd = (double)(c->touching[p] > c->touching[c->other[e]] ? c->touching[p] : c->touching[c->other[e]]);
-    const double most = 0.5 * c->hold * fmin(peri__mass(m, i), peri__mass(m, t->j)) / crowd, spring = t->stiffness * t->pressed;
+    const double most = 0.5 * c->hold * fmin(peri__mass(b, i), peri__mass(b, t->j)) / crowd, spring = t->stiffness * t->pressed;
     double v[3], apart = 0.0, slip = 0.0;
     for (int32_t d = 0; d < m->dim; ++d) {
         v[d] = peri__get_real(b->v, b->f32, d * m->stride + t->j) - peri__get_real(b->v, b->f32, d * m->stride + i);

@@ -34,8 +34,8 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *r) {
    them leaves the step (sqrt(c^2/4 + lambda) - c/2) 2/lambda. */
 static double peri__step_of(const peri_body *b, double sharp) {
     const peri__model *m = b->model;
-    const double lightest = peri__least_density(m), damping = 0.5 * peri__damping_limit(b);
-    double lambda = b->largest_row_sum > m->row_sum ? b->largest_row_sum : m->row_sum, alone = 0.0;
+    const double lightest = peri__least_density(b), damping = 0.5 * peri__damping_limit(b);
+    double lambda = fmax(b->largest_row_sum, m->row_sum * b->row_sum_factor), alone = 0.0;
     if (m->gathers & PERI__GRADIENT) lambda *= b->now.stiffer; /* of springs, the bound holds however they are stretched */
     if (sharp * b->now.stiffer < lambda) lambda = sharp * b->now.stiffer;
     for (int64_t k = 0; k < b->obstacle_count; ++k) {

@@ -169,7 +169,7 @@ static void peri__close_block(void *context, int64_t begin, int64_t end, peri__s
             const int64_t at = d * m->stride + i;
             const double impulse = peri__get_real(b->closing, b->f32, at);
             if (impulse == 0.0) continue;
-            peri__put_real(b->v, b->f32, at, peri__get_real(b->v, b->f32, at) + impulse / m->rho[m->material[i]]);
+            peri__put_real(b->v, b->f32, at, peri__get_real(b->v, b->f32, at) + impulse / peri__density_at(b, i));
             peri__put_real(b->closing, b->f32, at, 0.0);
         }
 }

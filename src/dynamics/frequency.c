@@ -92,7 +92,7 @@ static void peri__lanczos_start(void *context, int64_t begin, int64_t end, peri_
     const peri__lanczos *s = (const peri__lanczos *)context;
     const peri__model *m = s->body->model;
     for (int64_t i = begin; i < end; ++i) {
-        const double root = sqrt(peri__mass(m, i));
+        const double root = sqrt(peri__mass(s->body, i));
         for (int32_t d = 0; d < m->dim; ++d) {
             const double g = peri__deviate((uint64_t)(i * m->dim + d));
             peri__put_real(s->now, s->body->f32, d * m->stride + i, g / root);
@@ -129,7 +129,7 @@ static void peri__lanczos_next(void *context, int64_t begin, int64_t end, peri__
     const peri__model *m = s->body->model;
     const int32_t f32 = s->body->f32;
     for (int64_t i = begin; i < end; ++i) {
-        const double rho = m->rho[m->material[i]];
+        const double rho = peri__density_at(s->body, i);
         for (int32_t d = 0; d < m->dim; ++d) {
             const int64_t at = d * m->stride + i;
             const double next = -peri__get_real(s->force, f32, at) / rho - s->alpha * peri__get_real(s->now, f32, at)
@@ -149,7 +149,7 @@ static void peri__lanczos_overlap(void *context, int64_t begin, int64_t end, per
     for (int64_t i = begin; i < end; ++i)
         for (int32_t d = 0; d < m->dim; ++d) {
             const int64_t at = d * m->stride + i;
-            sums->a += peri__mass(m, i) * peri__get_real(s->before, f32, at) * peri__get_real(s->now, f32, at);
+            sums->a += peri__mass(s->body, i) * peri__get_real(s->before, f32, at) * peri__get_real(s->now, f32, at);
         }
 }
 
@@ -253,6 +253,7 @@ static double peri__estimate_frequency(const peri_body *b) {
         s.operands.response = s.response ? (char *)s.response + (size_t)m->margin * peri__bond_real(b) : NULL;
         s.operands.node = NULL;
         s.operands.linear = 1;
+        peri__take_fields(b, &s.operands, 0);
         most = peri__lanczos_run(&s, peri__lanczos_products((double)m->points * m->dim));
     }
     for (int k = 0; k < 3; ++k) peri__delete_vector(b, &b->scratch, vectors[k]);

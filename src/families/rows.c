@@ -169,3 +169,46 @@ static double peri__stretch(const peri_body *b, int64_t i, const peri__row *row,
     }
     return along / (bond * (linear ? bond : sqrt(square) + bond));
 }
+
+/* ---- fields of material, in double ----------------------------------------------------------------------------------- */
+
+PERI_INLINE double peri__field_at(const peri_body *b, const void *field, int64_t i, double without) {
+    return field ? peri__get_real(field, b->b32, b->model->margin + i) : without;
+}
+
+PERI_INLINE double peri__eigenstrain_at(const peri_body *b, int64_t i) { return peri__field_at(b, b->eigenstrain, i, 0.0); }
+
+PERI_INLINE double peri__stiffness_at(const peri_body *b, int64_t i) { return peri__field_at(b, b->stiffness, i, 1.0); }
+
+/* What the half that end i gives of a bond feels: its own, of a pairwise law the mean of both ends. */
+PERI_INLINE double peri__felt_eigenstrain(const peri_body *b, int64_t i, int64_t j) {
+    const double own = peri__eigenstrain_at(b, i);
+    return b->model->laws[b->model->material[i]].pairwise ? 0.5 * (own + peri__eigenstrain_at(b, j)) : own;
+}
+
+/* Of the stiffness of a pairwise bond: its halves act one after the other. */
+PERI_INLINE double peri__stiffness_between(const peri_body *b, int64_t i, int64_t j) {
+    const double own = peri__stiffness_at(b, i), other = peri__stiffness_at(b, j);
+    return b->stiffness ? 2.0 * own * other / (own + other) : 1.0;
+}
+
+PERI_INLINE const peri__law *peri__law_at(const peri_body *b, int64_t i, peri__law *room) {
+    return peri__stiffened(b->model, i, peri__stiffness_at(b, i), room);
+}
+
+PERI_INLINE double peri__density_at(const peri_body *b, int64_t i) {
+    return b->density ? b->density[i] : b->model->rho[b->model->material[i]];
+}
+
+PERI_INLINE double peri__mass(const peri_body *b, int64_t i) { return peri__density_at(b, i) * b->model->volume[i]; }
+
+/* What criteria see: stretch beyond the mean eigenstrain of the ends. */
+static double peri__elastic_stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k) {
+    const double stretch = peri__stretch(b, i, row, k);
+    return b->eigenstrain ? stretch - 0.5 * (peri__eigenstrain_at(b, i) + peri__eigenstrain_at(b, row->ids[k])) : stretch;
+}
+
+static double peri__strength_of(const peri_body *b, int64_t i, const peri__row *row, int64_t k) {
+    const double points = 0.5 * (peri__field_at(b, b->strength, i, 1.0) + peri__field_at(b, b->strength, row->ids[k], 1.0));
+    return b->bond_strength ? points * (double)b->bond_strength[peri__bond_slot(b->model, i, row, k)] : points;
+}

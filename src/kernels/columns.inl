@@ -345,7 +345,8 @@ PERI_ISA_TARGET PERI_INLINE uint32_t PERI_ISA_FN(work)(const peri__operands *o, 
     const peri_r *worked = (const peri_r *)o->worked + g * PERI_GROUP;
     const peri_r *portion = PERI_MUTUAL(m) ? (const peri_r *)m->portion + g * PERI_GROUP : NULL;
     peri_r *work = (peri_r *)o->work + at, *pull = (peri_r *)o->pull + at * PERI_D;
-    const peri_r limit = (peri_r)(o->breaking ? PERI_ISA_FN(ends)(o, bond)->energy * (1.0 - PERI_NEAR) : PERI_NEVER);
+    const double most = PERI_ISA_FN(ends)(o, bond)->energy * (o->least_strength * o->least_strength);
+    const peri_r limit = (peri_r)(o->breaking ? most * (1.0 - PERI_NEAR) : PERI_NEVER);
     const peri_r *here = s->u;
     peri_r done[PERI_GROUP] = { 0 };
     uint32_t hit = 0;
@@ -416,6 +417,125 @@ PERI_ISA_TARGET static uint32_t PERI_ISA_FN(mixed)(const peri__operands *o, int6
             }
         }
         if (o->working) hit |= PERI_ISA_FN(work)(o, g, &s, &bond, s.column - first - 1, force);
+    }
+    PERI_ISA_FN(leave)(sum, f);
+    return hit;
+}
+
+/* ---- fields of material ------------------------------------------------------------------------------------------ */
+
+typedef struct PERI_ISA_FN(half) { /* what an end of a column gives along the bond is q e + p g                          */
+    const peri_b *p, *q, *eigenstrain, *strength, *stiffness; /* of the point of the first lane, or NULL                  */
+    peri_b        spring, gauge;                              /* of a pairwise law c/(2 |xi|), else 0; of others g        */
+} PERI_ISA_FN(half);
+
+/* The arrays of ends `offset` further on than the first point of group g. */
+PERI_INLINE void PERI_ISA_FN(see_half)(const peri__operands *o, int64_t g, int64_t offset, PERI_ISA_FN(half) *half) {
+    const int64_t at = g * PERI_GROUP + offset;
+    const peri_b *constant = (const peri_b *)o->constant;
+    half->p = constant ? (const peri_b *)o->response + at : NULL;
+    half->q = constant ? constant + PERI__SPRING * o->model->stride + at : NULL;
+    half->eigenstrain = o->eigenstrain ? (const peri_b *)o->eigenstrain + at : NULL;
+    half->strength = o->strength ? (const peri_b *)o->strength + at : NULL;
+    half->stiffness = o->stiffness ? (const peri_b *)o->stiffness + at : NULL;
+}
+
+/* Springs and gauges of both ends of a column. */
+PERI_INLINE void PERI_ISA_FN(tell_halves)(const peri__operands *o, const PERI_ISA_FN(bond) *bond, PERI_ISA_FN(half) half[2]) {
+    const peri__model *m = o->model;
+    const peri_b gauge = m->pairwise ? 0 : m->gauge ? bond->length : 1;
+    peri_b spring = (peri_b)(0.5 * bond->row->c) / bond->length;
+    half[0].gauge = half[1].gauge = gauge;
+    if (m->stencil.ends) {
+        const peri__stencil_ends *ends = PERI_ISA_FN(ends)(o, bond);
+        half[0].gauge = (peri_b)ends->gauge;
+        half[1].gauge = (peri_b)ends->other_gauge;
+        spring = (peri_b)(half[0].gauge == half[1].gauge ? 0.5 * ends->spring : ends->spring);
+    }
+    for (int n = 0; n < 2; ++n) half[n].spring = half[n].gauge == 0 ? spring : 0;
+}
+
+/* q e + p g of one end, of piece n; shift: the mean eigenstrain less its own, times |xi| reach, of laws that feel their own. */
+PERI_ISA_TARGET PERI_INLINE PERI_VECTOR PERI_ISA_FN(half_pull)(const PERI_ISA_FN(half) *half, int n, const PERI_VECTOR between,
+                                                                   const PERI_VECTOR along, const PERI_VECTOR shift,
+                                                                   const PERI_VECTOR reach) {
+    PERI_NO_CONTRACTION
+    if (half->gauge == 0) return (PERI_VECTOR)(PERI_V(set1)(half->spring) * between * along);
+    return (PERI_VECTOR)(PERI_V(loadu)(half->q + n * PERI_WIDTH) * (along + shift)
+                         + PERI_V(loadu)(half->p + n * PERI_WIDTH) * PERI_V(set1)(half->gauge) * reach);
+}
+
+/* Adds the force of all live bonds of group g to f, by the fields of material, whatever the laws of the ends; work as `mixed`. Returns
+   as that. */
+PERI_ISA_TARGET static uint32_t PERI_ISA_FN(fielded)(const peri__operands *o, int64_t g, peri_r f[PERI_D][PERI_GROUP]) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const peri_b *tensor = (const peri_b *)o->response + m->stride + g * PERI_GROUP;
+    const peri_b *k = (const peri_b *)o->constant + PERI__STABILIZATION * m->stride + g * PERI_GROUP;
+    const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY), one = PERI_V(set1)(1), middle = PERI_V(set1)((peri_b)0.5);
+    const int linear = o->linear, tensors = m->gathers & PERI__GRADIENT;
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    PERI_ISA_FN(group) s;
+    PERI_ISA_FN(bond) bond;
+    PERI_ISA_FN(half) half[2];
+    uint32_t hit = 0;
+    PERI_ISA_FN(enter)(&s, o, g, o->breaking);
+    PERI_ISA_FN(see_half)(o, g, 0, &half[0]);
+    const peri__column *const first = s.column;
+    for (int d = 0; d < PERI_D; ++d)
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_ISA_FN(take)(&f[d][n * PERI_WIDTH]);
+    while (PERI_ISA_FN(next)(&s, &bond)) {
+        const int64_t column = s.column - first - 1;
+        const float *bonds = o->bond_strength ? o->bond_strength + (m->stencil.begin[g] + column) * PERI_GROUP : NULL;
+        const PERI_VECTOR length = PERI_V(set1)(bond.length), weight = PERI_V(set1)(bond.weight);
+        const PERI_VECTOR limit = PERI_V(set1)(bond.limit);
+        peri_b force[PERI_D][PERI_GROUP], by_bond[PERI_GROUP];
+        for (int l = 0; bonds && l < PERI_GROUP; ++l) by_bond[l] = (peri_b)bonds[l];
+        PERI_ISA_FN(see_half)(o, g, bond.offset, &half[1]);
+        PERI_ISA_FN(tell_halves)(o, &bond, half);
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) {
+            const PERI_LIVE live = PERI_TO_LIVE(bond.mask >> (n * PERI_WIDTH));
+            PERI_VECTOR eta[PERI_D], y[PERI_D], along, shift[2], strength = one, between = one;
+            PERI_ISA_FN(moved)(&s, &bond, n, eta);
+            const PERI_VECTOR now = PERI_ISA_FN(extend)(&bond, eta, y, &along, linear), reach = PERI_IF(linear, length, now + length);
+            const PERI_VECTOR most = length * reach;
+            shift[0] = shift[1] = PERI_V(set1)(0);
+            if (o->eigenstrain) {
+                const PERI_VECTOR own = PERI_V(loadu)(half[0].eigenstrain + n * PERI_WIDTH);
+                const PERI_VECTOR other = PERI_V(loadu)(half[1].eigenstrain + n * PERI_WIDTH), mean = middle * (own + other);
+                along -= mean * most;
+                shift[0] = (mean - own) * most;
+                shift[1] = (mean - other) * most;
+            }
+            if (o->strength)
+                strength = middle * (PERI_V(loadu)(half[0].strength + n * PERI_WIDTH) + PERI_V(loadu)(half[1].strength + n * PERI_WIDTH));
+            if (bonds) strength = strength * PERI_V(loadu)(by_bond + n * PERI_WIDTH);
+            if (o->stiffness) {
+                const PERI_VECTOR own = PERI_V(loadu)(half[0].stiffness + n * PERI_WIDTH);
+                const PERI_VECTOR other = PERI_V(loadu)(half[1].stiffness + n * PERI_WIDTH), product = own * other;
+                between = (product + product) / (own + other);
+            }
+            const PERI_VECTOR pull = PERI_ISA_FN(half_pull)(&half[0], n, between, along, shift[0], reach)
+                                   + PERI_ISA_FN(half_pull)(&half[1], n, between, along, shift[1], reach);
+            const PERI_VECTOR scale = weight * pull / (reach * (now + tiny));
+            hit |= (uint32_t)PERI_ABOVE(along, limit * strength * most, live) << (n * PERI_WIDTH);
+            for (int a = 0; a < PERI_D; ++a) {
+                PERI_VECTOR given = scale * y[a];
+                if (tensors) {
+                    const int64_t there = bond.offset + n * PERI_WIDTH;
+                    PERI_VECTOR t = (PERI_V(loadu)(k + n * PERI_WIDTH) + PERI_V(loadu)(k + there)) * eta[a];
+                    for (int d = 0; d < PERI_D; ++d) {
+                        const peri_b *plane = tensor + (a * PERI_D + d) * m->stride;
+                        t += (PERI_V(loadu)(plane + n * PERI_WIDTH) + PERI_V(loadu)(plane + there)) * bond.xi[d];
+                    }
+                    given += weight * t;
+                }
+                const PERI_VECTOR part = PERI_KEEP(live, given);
+                if (o->working) PERI_V(storeu)(&force[a][n * PERI_WIDTH], part);
+                PERI_ISA_FN(gather)(&sum[a][n], part);
+            }
+        }
+        hit |= o->working ? PERI_ISA_FN(work)(o, g, &s, &bond, column, force) : 0;
     }
     PERI_ISA_FN(leave)(sum, f);
     return hit;

@@ -62,6 +62,7 @@ PERI_SHARED const peri__ops PERI_FN(ops) = { 0 }; /* left out: peri_body_create 
 #undef peri_s
 #undef PERI_S_DIM
 #undef PERI_S_FN
+#include "fields.inl"
 #include "rows.inl"
 #ifndef PERI_NO_STATICS
 #include "tangent.inl"
@@ -84,12 +85,14 @@ typedef struct PERI_FN(vector_ops) {
     uint32_t (*ordinary)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
     uint32_t (*mixed)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
     uint32_t (*tensor)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
+    uint32_t (*fielded)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
     void (*dilatation_sum)(const peri__operands *, int64_t, peri_r[PERI_GROUP]);
     void (*squares)(const peri__operands *, int64_t, double[PERI_GROUP]);
     void (*shape)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D][PERI_GROUP]);
     int (*list_pairwise)(const peri__operands *, int64_t, peri_r *);
     int (*list_ordinary)(const peri__operands *, int64_t, peri_r *);
     int (*list_tensor)(const peri__operands *, int64_t, peri_r *);
+    int (*list_fielded)(const peri__operands *, int64_t, peri_r *);
     peri_r (*list_dilatation_sum)(const peri__operands *, int64_t);
     void (*list_shape)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D]);
     void (*list_stretch)(const peri__operands *, int64_t, int64_t, uint64_t, peri__bunch *, PERI_FN(pulled) *);
@@ -127,10 +130,11 @@ typedef struct PERI_FN(vector_ops) {
 
 /* by peri__isa */
 #define PERI_TABLE(set)                                                                                                \
-    { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(dilatation_sum_##set), \
-      PERI_FN(squares_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set), PERI_FN(list_ordinary_##set),          \
-      PERI_FN(list_tensor_##set), PERI_FN(list_dilatation_sum_##set), PERI_FN(list_shape_##set),                           \
-      PERI_FN(list_stretch_##set), PERI_FN(law_sum_##set), PERI_FN(kick_some_##set),                                     \
+    { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(fielded_##set), \
+      PERI_FN(dilatation_sum_##set), PERI_FN(squares_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set),         \
+      PERI_FN(list_ordinary_##set), PERI_FN(list_tensor_##set), PERI_FN(list_fielded_##set),                             \
+      PERI_FN(list_dilatation_sum_##set), PERI_FN(list_shape_##set), PERI_FN(list_stretch_##set), PERI_FN(law_sum_##set), \
+      PERI_FN(kick_some_##set),                                                                                          \
       PERI_FN(drift_some_##set), PERI_FN(share_some_##set), PERI_FN(square_some_##set), PERI_FN(step_some_##set),           \
       PERI_FN(weigh_some_##set), PERI_FN(dot_some_##set), PERI_FN(turn_some_##set) }
 static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {

@@ -173,6 +173,89 @@ PERI_ISA_TARGET static peri_r PERI_ISA_FN(list_dilatation_sum)(const peri__opera
 }
 #undef PERI_BY_GEOMETRY
 
+/* ---- fields of material ------------------------------------------------------------------------------------------- */
+
+typedef struct PERI_ISA_FN(lanes) { /* fields of PERI_CHUNK bonds of a row                                               */
+    peri_b mean[PERI_CHUNK], other[PERI_CHUNK]; /* eigenstrain of the bond and of its far end                             */
+    peri_b strength[PERI_CHUNK], between[PERI_CHUNK], slack[PERI_CHUNK]; /* slack: a margin of `mean`                     */
+} PERI_ISA_FN(lanes);
+
+/* Of the bonds of point i from entry `at` of the list on. */
+PERI_INLINE void PERI_ISA_FN(see_lanes)(const peri__operands *o, int64_t i, int64_t at, PERI_ISA_FN(lanes) *lanes) {
+    const peri__model *m = o->model;
+    const peri_b *eigenstrain = (const peri_b *)o->eigenstrain, *strength = (const peri_b *)o->strength;
+    const peri_b *stiffness = (const peri_b *)o->stiffness;
+    const peri_b zero = 0, one = 1, *const own = eigenstrain ? eigenstrain + i : &zero;
+    for (int l = 0; l < PERI_CHUNK; ++l) {
+        const int64_t place = m->ids[at + l], j = m->order ? m->order[place] : place;
+        lanes->other[l] = eigenstrain ? eigenstrain[j] : zero;
+        lanes->mean[l] = (peri_b)0.5 * (*own + lanes->other[l]);
+        lanes->slack[l] = (peri_b)PERI_NEAR * (lanes->mean[l] < 0 ? -lanes->mean[l] : lanes->mean[l]);
+        lanes->strength[l] = strength ? (peri_b)0.5 * (strength[i] + strength[j]) : one;
+        if (o->bond_strength) lanes->strength[l] *= (peri_b)o->bond_strength[at + l];
+        lanes->between[l] = stiffness ? 2 * (stiffness[i] * stiffness[j]) / (stiffness[i] + stiffness[j]) : one;
+    }
+}
+
+/* As list_row, by the fields of material: q e + p g of both ends, as rows have it. */
+PERI_ISA_TARGET static int PERI_ISA_FN(list_fielded)(const peri__operands *o, int64_t place, peri_r *f) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
+    const int32_t reals = m->record_reals;
+    const int linear = o->linear, pairwise = m->pairwise, several = pairwise && (PERI_D == 2 ? reals > 4 : m->materials > 1);
+    const peri_r *records = (const peri_r *)o->records, *mine = records + place * reals, none[PERI_WIDTH] = { 0 };
+    const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
+    const PERI_VECTOR limit = PERI_V(set1)((peri_b)PERI_ISA_FN(near_stretch)(o, i)), tiny = PERI_V(set1)((peri_b)PERI_TINY);
+    const PERI_VECTOR pi = PERI_V(set1)(!pairwise ? (peri_b)mine[2 * PERI_D] : 0);
+    const PERI_VECTOR qi = PERI_V(set1)(!pairwise ? (peri_b)mine[2 * PERI_D + 1] : 0);
+    const PERI_VECTOR eigen = PERI_V(set1)(o->eigenstrain ? ((const peri_b *)o->eigenstrain)[i] : 0);
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    PERI_VECTOR half = PERI_V(set1)((peri_b)(0.5 * m->pairs->c));
+    PERI_ISA_FN(lanes) lanes;
+    peri_b table[PERI_MATERIAL_LIMIT], pick[PERI_WIDTH];
+    peri_r own[8] = { 0 };
+    int hit = 0;
+    for (int32_t k = 0; several && k < m->materials; ++k) table[k] = (peri_b)(0.5 * m->pairs[m->material[i] * m->materials + k].c);
+    for (int d = 0; d < PERI_D; ++d)
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_ISA_FN(take)(none);
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
+    for (int64_t k = 0; k < count; k += PERI_CHUNK) {
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
+        PERI_ISA_FN(see_lanes)(o, i, first + k, &lanes);
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) {
+            const int at = n * PERI_WIDTH;
+            const PERI_LIVE live = PERI_TO_LIVE(flags >> at);
+            const PERI_VECTOR weight = PERI_V(loadu)(weights + k + at), back = PERI_V(loadu)(backs + k + at);
+            const PERI_VECTOR mean = PERI_V(loadu)(lanes.mean + at), other = PERI_V(loadu)(lanes.other + at);
+            PERI_ISA_FN(piece) s;
+            for (int g = 4; g < 8; ++g) s.got[g] = PERI_V(set1)(0); /* small records have none */
+            PERI_ISA_FN(span)(&s, records, reals, &m->ids[first + k + at], own, linear);
+            const PERI_VECTOR length = PERI_V(sqrt)(s.rest), now = PERI_IF(linear, length, PERI_V(sqrt)(s.now));
+            const PERI_VECTOR reach = PERI_IF(linear, length, now + length), most = length * reach, along = s.along - mean * most;
+            PERI_VECTOR here, there;
+            if (pairwise) {
+                if (several) {
+                    PERI_V(storeu)(pick, s.got[2 * PERI_D]);
+                    for (int l = 0; l < PERI_WIDTH; ++l) pick[l] = table[(int)pick[l]];
+                    half = PERI_V(loadu)(pick);
+                }
+                here = there = half / length * PERI_V(loadu)(lanes.between + at) * along;
+            } else {
+                const PERI_VECTOR gauge = PERI_IF(m->gauge, length, PERI_V(set1)(1));
+                here = qi * (along + (mean - eigen) * most) + pi * gauge * reach;
+                there = s.got[2 * PERI_D + 1] * (along + (mean - other) * most) + s.got[2 * PERI_D] * gauge * reach;
+            }
+            const PERI_VECTOR scale = (weight * here + back * there) / (reach * (now + tiny));
+            const PERI_VECTOR least = (limit * PERI_V(loadu)(lanes.strength + at) - PERI_V(loadu)(lanes.slack + at)) * most;
+            hit |= (int)PERI_ABOVE(along, least, live);
+            for (int d = 0; d < PERI_D; ++d) PERI_ISA_FN(gather)(&sum[d][n], PERI_KEEP_PRODUCT(live, scale, s.y[d]));
+        }
+    }
+    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_ISA_FN(added)(sum[d]);
+    return hit;
+}
+
 /* ---- gradients ---------------------------------------------------------------------------------------------------- */
 
 #define PERI_TENSOR_RECORD (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                            */
@@ -219,7 +302,9 @@ PERI_ISA_TARGET static int PERI_ISA_FN(list_tensor)(const peri__operands *o, int
     const peri_r *records = (const peri_r *)o->records, *mine = records + place * PERI_TENSOR_RECORD, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
     const peri_b s0 = (peri_b)PERI_ISA_FN(near_stretch)(o, i);
-    const PERI_VECTOR limit = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
+    const PERI_VECTOR same = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
+    PERI_ISA_FN(lanes) lanes;
+    peri_b limits[PERI_CHUNK];
     peri_r own[PERI_TENSOR_RECORD] = { 0 };
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_VECTOR got[PERI_TENSOR_RECORD];
@@ -229,9 +314,17 @@ PERI_ISA_TARGET static int PERI_ISA_FN(list_tensor)(const peri__operands *o, int
         PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_ISA_FN(take)(none);
     for (int64_t k = 0; k < count; k += PERI_CHUNK) {
         const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
+        if (o->fields) {
+            PERI_ISA_FN(see_lanes)(o, i, first + k, &lanes);
+            for (int l = 0; l < PERI_CHUNK; ++l) {
+                const peri_b stretch = s0 * lanes.strength[l] + lanes.mean[l] - lanes.slack[l];
+                limits[l] = linear ? stretch : stretch * (2 + stretch);
+            }
+        }
         PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
+            const PERI_VECTOR limit = o->fields ? PERI_V(loadu)(limits + n * PERI_WIDTH) : same;
             const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH), back = PERI_V(loadu)(backs + k + n * PERI_WIDTH);
             PERI_VECTOR along = PERI_V(set1)(0), rest = along;
             for (int s = 0; s < PERI_TENSOR_RECORD; s += 4) PERI_ISA_FN(differ)(records + s, PERI_TENSOR_RECORD, ids, own + s, got + s);

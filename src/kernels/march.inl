@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* march.inl - the pointwise passes of time integration: kicks, drift, kinetic energy. */
 
+PERI_INLINE double PERI_FN(density)(const peri__operands *s, int64_t i) {
+    return s->density ? s->density[i] : s->model->rho[s->model->material[i]];
+}
+
 /* v = keep*v + kick*f/rho; then, where drift > 0: u += drift*v and f = 0, ready for the loads of the new time.
    sums: b work of damping over the kick, its impulse times the mean velocity: what it takes from the kinetic energy, exactly;
    bad the first point whose motion is not finite. At most PERI_BLOCK points. */
@@ -13,7 +17,8 @@ static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums 
     peri_r kick[PERI_BLOCK], old[PERI_BLOCK], now = 0;
     double work[PERI_BLOCK];
     int32_t last = -1;
-    for (int64_t k = 0; k < count; ++k) {
+    for (int64_t k = 0; operands->density && k < count; ++k) kick[k] = (peri_r)(operands->kick / operands->density[begin + k]);
+    for (int64_t k = 0; !operands->density && k < count; ++k) {
         const int32_t material = m->material[begin + k];
         if (material != last) now = (peri_r)(operands->kick / m->rho[last = material]);
         kick[k] = now;
@@ -32,7 +37,7 @@ static void PERI_FN(kick)(void *context, int64_t begin, int64_t end, peri__sums 
         PERI_BY_VECTORS(m, drift_some)(count, (peri_r)operands->drift, v, u);
         memset(f, 0, (size_t)count * sizeof *f);
     }
-    for (int64_t k = 0; lossy && k < count; ++k) sums->b += work[k] * m->rho[m->material[begin + k]] * m->volume[begin + k];
+    for (int64_t k = 0; lossy && k < count; ++k) sums->b += work[k] * PERI_FN(density)(operands, begin + k) * m->volume[begin + k];
 }
 
 static void PERI_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
@@ -41,6 +46,6 @@ static void PERI_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__su
     for (int64_t i = begin; i < end; ++i) {
         double square = 0.0;
         for (int d = 0; d < PERI_D; ++d) square += peri__square((double)((const peri_r *)operands->v)[d * m->stride + i]);
-        sums->a += 0.5 * m->rho[m->material[i]] * m->volume[i] * square;
+        sums->a += 0.5 * PERI_FN(density)(operands, i) * m->volume[i] * square;
     }
 }

@@ -68,7 +68,8 @@ static void PERI_FN(force_list)(const peri__operands *o, int64_t begin, int64_t 
         int by_row;
         PERI_FN(fetch_ahead)(o, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = PERI_MUTUAL(m) ? 0 : force[d * m->stride];
-        if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
+        if (o->fields && !tensors) by_row = PERI_BY_VECTORS(m, list_fielded)(o, k, f);
+        else if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
         else if (!tensors) by_row = PERI_BY_VECTORS(m, list_ordinary)(o, k, f);
         else by_row = o->central[i / PERI_GROUP] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
         if (by_row) {
@@ -108,7 +109,8 @@ static uint32_t PERI_FN(near_node_energy)(const peri__operands *o, int64_t g) {
     uint32_t rows = 0;
     for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
         const int64_t i = g * PERI_GROUP + l;
-        rows |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY)) << l;
+        const double limit = peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY) * peri__square(o->least_strength);
+        rows |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > limit) << l;
     }
     return rows;
 }
@@ -117,8 +119,9 @@ static uint32_t PERI_FN(near_node_energy)(const peri__operands *o, int64_t g) {
 static uint32_t PERI_FN(group_force)(const peri__operands *o, int64_t g, peri_r f[PERI_D][PERI_GROUP]) {
     const peri__model *m = o->model;
     if (m->seen_by & PERI__BY_ROWS && o->breaking) return 0xFFFFu;
-    if (m->pairwise) return PERI_BY_VECTORS(m, pairwise)(o, g, f);
+    if (m->pairwise && !o->fields) return PERI_BY_VECTORS(m, pairwise)(o, g, f);
     uint32_t rows = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
+    if (o->fields) return rows | PERI_BY_VECTORS(m, fielded)(o, g, f);
     if (m->stencil.ends) return rows | PERI_BY_VECTORS(m, mixed)(o, g, f);
     if (!(m->gathers & PERI__GRADIENT)) return rows | PERI_BY_VECTORS(m, ordinary)(o, g, f);
     return o->central[g] ? 0xFFFFu : rows | PERI_BY_VECTORS(m, tensor)(o, g, f);
@@ -179,8 +182,9 @@ static void PERI_FN(group_energy)(const peri__operands *o, int64_t g, double den
 }
 
 /* Are energies had by columns? */
-PERI_INLINE int PERI_FN(has_group_energy)(const peri__model *m) {
-    return m->stencil.columns > 0 && !m->mixed && !(m->gathers & PERI__GRADIENT);
+PERI_INLINE int PERI_FN(has_group_energy)(const peri__operands *o) {
+    const peri__model *m = o->model;
+    return m->stencil.columns > 0 && !m->mixed && !(m->gathers & PERI__GRADIENT) && !o->fields;
 }
 
 static void PERI_FN(gather_columns)(const peri__operands *o, int64_t g) {
@@ -208,9 +212,9 @@ static void PERI_FN(gather_nodes)(const peri__operands *o, int64_t g) {
     const int64_t first = g * PERI_GROUP, end = peri__min(first + PERI_GROUP, m->points);
     double density[PERI_GROUP];
     peri__row row;
-    if (PERI_FN(has_group_energy)(m)) PERI_FN(group_energy)(o, g, density);
+    if (PERI_FN(has_group_energy)(o)) PERI_FN(group_energy)(o, g, density);
     for (int64_t i = first; i < end; ++i) {
-        if (!PERI_FN(has_group_energy)(m)) {
+        if (!PERI_FN(has_group_energy)(o)) {
             peri__row_of(m, i, &row);
             density[i - first] = PERI_FN(point_energy)(o, i, &row);
         }
@@ -248,7 +252,7 @@ static void PERI_FN(force_block)(void *context, int64_t begin, int64_t end, peri
 static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__operands *o = (const peri__operands *)context;
     const peri__model *m = o->model;
-    const int columns = PERI_FN(has_group_energy)(m) && begin % PERI_GROUP == 0;
+    const int columns = PERI_FN(has_group_energy)(o) && begin % PERI_GROUP == 0;
     double group[PERI_GROUP];
     peri__row row;
     for (int64_t i = begin; i < end; ++i) {

@@ -58,8 +58,15 @@ PERI_INLINE void PERI_FN(deform_as)(const peri__operands *s, int64_t i, const pe
     bond->reach = linear ? bond->length : bond->now + bond->length;
 }
 
-PERI_INLINE void PERI_FN(deform)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
+/* As it is, eigenstrain aside. */
+PERI_INLINE void PERI_FN(deform_whole)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
     PERI_FN(deform_as)(s, i, row, k, bond, s->linear, s->model->centroid != NULL);
+}
+
+/* The stretch beyond the mean eigenstrain of the ends: what criteria see. */
+PERI_INLINE void PERI_FN(deform)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, PERI_FN(bond) *bond) {
+    PERI_FN(deform_whole)(s, i, row, k, bond);
+    if (s->eigenstrain) bond->along -= PERI_FN(mean_eigenstrain)(s, i, row->ids[k]) * (bond->length * bond->reach);
 }
 
 PERI_INLINE const peri__pair *PERI_FN(pair)(const peri__operands *s, int64_t i, int64_t j) {
@@ -137,7 +144,8 @@ PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, cons
     }
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
-    const double before = along / (s->linear ? length : sqrt(square) + length), q = before / now;
+    const double eigen = length * (double)PERI_FN(mean_eigenstrain)(s, i, j);
+    const double before = along / (s->linear ? length : sqrt(square) + length) - eigen, q = before / now;
     double t = now > before ? (met * now - before) / (now - before) : 0.5;
     if (!(t > 0.0)) t = 0.0;
     parting.met = q + t * (1.0 - q);
@@ -222,16 +230,25 @@ static peri_b PERI_FN(mixed_pull)(const peri__operands *s, int64_t i, const peri
     const peri__model *m = s->model;
     const int64_t ends[2] = { i, row->ids[k] };
     const peri_b weights[2] = { ((const peri_b *)row->weight)[k], ((const peri_b *)row->back)[k] };
-    peri_b p[2] = { 0, 0 }, q[2], pull; /* rounded before they are added: both ends must come to the same sum on the x87, too */
+    peri_b p[2] = { 0, 0 }, q[2], along[2], pull; /* rounded before they are added: both ends must come to the same sum on the x87, too */
     for (int n = 0; n < 2; ++n) {
         const peri__law *law = &m->laws[m->material[ends[n]]];
-        if (law->pairwise) q[n] = (peri_b)(0.5 * PERI_FN(pair)(s, ends[n], ends[1 - n])->c) / bond->length;
-        else {
+        along[n] = bond->along;
+        if (law->pairwise) {
+            q[n] = (peri_b)(0.5 * PERI_FN(pair)(s, ends[n], ends[1 - n])->c) / bond->length;
+            if (s->stiffness) q[n] *= PERI_FN(stiffness_between)(s, i, row->ids[k]);
+        } else {
+            const peri_b shift = PERI_FN(mean_eigenstrain)(s, i, row->ids[k]) - PERI_FN(eigenstrain)(s, ends[n]);
+            if (s->eigenstrain) along[n] += shift * (bond->length * bond->reach); /* the half of a point feels its own */
             q[n] = PERI_FN(constant)(s, PERI__SPRING, ends[n]);
             p[n] = PERI_FN(response)(s, 0, ends[n]) * PERI_FN(gauge)(law, bond->length);
         }
     }
-    if (m->back == m->weight) pull = weights[0] * ((q[0] + q[1]) * bond->along + (p[0] + p[1]) * bond->reach);
+    if (s->fields) {
+        const peri_b own = q[0] * along[0] + p[0] * bond->reach, other = q[1] * along[1] + p[1] * bond->reach;
+        pull = m->back == m->weight ? weights[0] * (own + other) : weights[0] * own + weights[1] * other;
+    } else if (m->back == m->weight)
+        pull = weights[0] * ((q[0] + q[1]) * bond->along + (p[0] + p[1]) * bond->reach);
     else
         pull = (weights[0] * q[0] + weights[1] * q[1]) * bond->along + (weights[0] * p[0] + weights[1] * p[1]) * bond->reach;
     if (m->gathers & PERI__GRADIENT) PERI_FN(tensor_pull)(s, ends, weights, bond, t);
@@ -309,11 +326,11 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
             if (plain) PERI_FN(deform_as)(s, i, row, k, &bond, 0, 0);
             else PERI_FN(deform)(s, i, row, k, &bond);
 #if PERI_T_BOND == 32
-            if (!mixed && m->record_reals) pull = PERI_FN(listed_pull)(s, i, row, k, &bond);
+            if (!mixed && m->record_reals && (plain || !s->fields)) pull = PERI_FN(listed_pull)(s, i, row, k, &bond);
             else
 #endif
-            if (pairwise) pull = PERI_FN(pairwise_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
-            else if (mixed) pull = PERI_FN(mixed_pull)(s, i, row, k, &bond, t);
+            if (pairwise && (plain || !s->fields)) pull = PERI_FN(pairwise_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
+            else if (pairwise || mixed) pull = PERI_FN(mixed_pull)(s, i, row, k, &bond, t);
             else pull = PERI_FN(ordinary_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
             for (int d = 0; d < PERI_D; ++d) force[d] = mixed ? t[d] + pull * bond.y[d] : pull * bond.y[d];
             if (!pairwise && !plain && s->working) PERI_FN(count_work)(s, i, row, k, bond.eta, force, portion);
@@ -321,7 +338,8 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
                 dead |= (uint32_t)1 << n;
                 over++;
                 if (pairwise) {
-                    const double c = PERI_FN(pair)(s, i, row->ids[k])->c, weight = (double)((const peri_b *)row->weight)[k];
+                    const double c = PERI_FN(pair)(s, i, row->ids[k])->c * (double)PERI_FN(stiffness_between)(s, i, row->ids[k]);
+                    const double weight = (double)((const peri_b *)row->weight)[k];
                     const peri__parting parting = PERI_FN(part)(s, i, row, k, &bond);
                     const double stretch = parting.met * (double)bond.along / ((double)bond.reach * (double)bond.length);
                     *lost += 0.25 * (double)(peri_b)c * weight * stretch * stretch * (double)bond.length
@@ -347,9 +365,9 @@ static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, 
     peri_r impulse[PERI_D] = { 0 };
     peri__row row;
     peri__row_of(m, i, &row);
-    const int plain = !s->linear && !m->centroid && !m->seen_by;
+    const int plain = !s->linear && !m->centroid && !m->seen_by && !s->fields;
     if (!m->pairwise) {
-        const int mixed = m->mixed || m->gathers & PERI__GRADIENT || (PERI_T_BOND == 32 && m->stencil.ends);
+        const int mixed = s->fields || m->mixed || m->gathers & PERI__GRADIENT || (PERI_T_BOND == 32 && m->stencil.ends);
         if (mixed) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1, 0);
         else if (plain) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 1);
         else sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 0);
@@ -400,7 +418,7 @@ static peri_r PERI_FN(row_dilatation_sum)(const peri__operands *s, int64_t i, co
         const peri_b gauge = s->linear ? (by_length ? 1 : 1 / length) : by_length ? length : 1, gauged = weight * gauge;
         PERI_FN(bond) bond;
         if (!PERI_FN(is_live)(s, i, k)) continue;
-        PERI_FN(deform)(s, i, row, k, &bond);
+        PERI_FN(deform_whole)(s, i, row, k, &bond);
         sum += s->linear ? gauged * bond.along : gauged * (bond.along / bond.reach);
     }
     return sum * PERI_FN(portion)(s->model, i);
@@ -440,20 +458,40 @@ static void PERI_FN(gradient)(const peri__operands *s, int64_t i, peri_r n[PERI_
         }
 }
 
+/* theta where all bonds of point i have the stretch of its eigenstrain: D times that, less what bonds that are gone do not add where the
+   constants count them. */
+static peri_r PERI_FN(eigen_dilatation)(const peri__operands *s, int64_t i) {
+    const peri_r eigenstrain = PERI_FN(eigenstrain)(s, i);
+    peri_r sum = 0;
+    peri__row row;
+    if (!s->partly) return PERI_D * eigenstrain;
+    peri__row_of(s->model, i, &row);
+    for (int64_t k = 0; k < row.count; ++k) {
+        const peri_b length = ((const peri_b *)row.bond)[k];
+        if (PERI_FN(is_live)(s, i, k))
+            sum += ((const peri_b *)row.weight)[k] * PERI_FN(gauge)(&s->model->laws[s->model->material[i]], length) * length;
+    }
+    return PERI_FN(constant)(s, PERI__THETA_FACTOR, i) * (eigenstrain * sum * PERI_FN(portion)(s->model, i));
+}
+
 /* p of the sum w g e V. The product of the two constants alone can leave the range of float. */
 PERI_INLINE void PERI_FN(put_pressure)(const peri__operands *s, int64_t i, peri_r sum) {
     const peri_b pressure_factor = PERI_FN(constant)(s, PERI__PRESSURE_FACTOR, i);
-    ((peri_b *)s->response)[i] = pressure_factor == 0 ? 0 : (peri_b)(pressure_factor * (PERI_FN(constant)(s, PERI__THETA_FACTOR, i) * sum));
+    peri_r theta = PERI_FN(constant)(s, PERI__THETA_FACTOR, i) * sum;
+    if (s->eigenstrain && pressure_factor != 0) theta -= PERI_FN(eigen_dilatation)(s, i);
+    ((peri_b *)s->response)[i] = pressure_factor == 0 ? 0 : (peri_b)(pressure_factor * theta);
 }
 
 /* Q = P K^-1 - k H of n = sum w eta xi V. */
 static void PERI_FN(put_tensor)(const peri__operands *s, int64_t i, peri_r n[PERI_D][PERI_D]) {
     const peri__model *m = s->model;
-    const peri__law *law = &m->laws[m->material[i]];
+    peri__law room;
+    const peri__law *law = peri__stiffened(m, i, (double)PERI_FN(stiffness)(s, i), &room);
     peri_b *response = (peri_b *)s->response + i;
     peri_r h[PERI_D][PERI_D], e[PERI_D][PERI_D], p[PERI_D][PERI_D];
     PERI_FN(gradient)(s, i, n, h);
     PERI_FN(strain)(PERI_D, s->linear, h, e);
+    if (s->eigenstrain) PERI_FN(make_elastic)(s, i, e);
     PERI_FN(stress)(law, PERI_D, s->linear, h, e, p);
     response[0] = 0;
     for (int a = 0; a < PERI_D; ++a)
@@ -469,17 +507,22 @@ static void PERI_FN(put_tensor)(const peri__operands *s, int64_t i, peri_r n[PER
 /* Energy density of point i: half of that of its bonds, w q e^2/2 each, and what it gathers. */
 static double PERI_FN(point_energy)(const peri__operands *s, int64_t i, const peri__row *row) {
     const peri__model *m = s->model;
-    const peri__law *law = &m->laws[m->material[i]];
+    peri__law room;
+    const peri__law *law = peri__stiffened(m, i, (double)PERI_FN(stiffness)(s, i), &room);
     double density = 0.0, squares = 0.0, apart = 0.0;
     peri_r sum = 0;
     for (int64_t k = 0; k < row->count; ++k) {
         const peri_b weight = ((const peri_b *)row->weight)[k];
         PERI_FN(bond) bond;
         if (!PERI_FN(is_live)(s, i, k)) continue;
-        PERI_FN(deform)(s, i, row, k, &bond);
-        const peri_b e = bond.along / bond.reach;
+        PERI_FN(deform_whole)(s, i, row, k, &bond);
+        peri_b e = bond.along / bond.reach, c = 1;
+        if (s->eigenstrain)
+            e -= bond.length * (law->pairwise ? PERI_FN(mean_eigenstrain)(s, i, row->ids[k]) : PERI_FN(eigenstrain)(s, i));
+        if (s->stiffness) c = PERI_FN(stiffness_between)(s, i, row->ids[k]);
         if (law->pairwise)
-            density += 0.25 * PERI_FN(pair)(s, i, row->ids[k])->c * (double)weight * (double)e * (double)e / (double)bond.length;
+            density += 0.25 * PERI_FN(pair)(s, i, row->ids[k])->c * (double)c * (double)weight * (double)e * (double)e
+                     / (double)bond.length;
         sum += weight * PERI_FN(gauge)(law, bond.length) * e;
         squares += (double)weight * (double)e * (double)e;
     }
@@ -496,6 +539,7 @@ static double PERI_FN(point_energy)(const peri__operands *s, int64_t i, const pe
     PERI_FN(row_shape)(s, i, row, n);
     PERI_FN(gradient)(s, i, n, h);
     PERI_FN(strain)(PERI_D, s->linear, h, strain);
+    if (s->eigenstrain) PERI_FN(make_elastic)(s, i, strain);
     for (int64_t k = 0; k < row->count; ++k) { /* sum w |eta - H xi|^2 V */
         peri_b xi[PERI_D], eta[PERI_D];
         if (!PERI_FN(is_live)(s, i, k)) continue;

@@ -52,7 +52,8 @@ static void PERI_FN(change_pressure)(const peri__operands *s, int64_t i, const p
 /* dQ of a point with a gradient. */
 static void PERI_FN(change_tensor)(const peri__operands *s, int64_t i, const peri__row *row) {
     const peri__model *m = s->model;
-    const peri__law *law = &m->laws[m->material[i]];
+    peri__law room;
+    const peri__law *law = peri__stiffened(m, i, (double)PERI_FN(stiffness)(s, i), &room);
     peri_b *change = (peri_b *)s->change + i;
     peri_r n[PERI_D][PERI_D] = { { 0 } }, dn[PERI_D][PERI_D] = { { 0 } };
     peri_r h[PERI_D][PERI_D], dh[PERI_D][PERI_D], e[PERI_D][PERI_D], dp[PERI_D][PERI_D];
@@ -72,6 +73,7 @@ static void PERI_FN(change_tensor)(const peri__operands *s, int64_t i, const per
     PERI_FN(gradient)(s, i, n, h);
     PERI_FN(gradient)(s, i, dn, dh);
     PERI_FN(strain)(PERI_D, 0, h, e);
+    if (s->eigenstrain) PERI_FN(make_elastic)(s, i, e);
     PERI_FN(stress_change)(law, PERI_D, 0, h, e, dh, dp);
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) {
@@ -103,14 +105,14 @@ PERI_INLINE void PERI_FN(tangent_half)(const peri__operands *s, int64_t i, int64
     const peri__model *m = s->model;
     const peri__law *law = &m->laws[m->material[i]];
     if (law->pairwise) {
-        const peri_r spring = weight * (peri_r)(0.5 * PERI_FN(pair)(s, i, j)->c) / b->bond;
-        *c += spring * b->e;
+        const peri_r spring = weight * (peri_r)(0.5 * PERI_FN(pair)(s, i, j)->c) * PERI_FN(stiffness_between)(s, i, j) / b->bond;
+        *c += spring * (b->e - b->bond * PERI_FN(mean_eigenstrain)(s, i, j));
         *dc += spring * b->de;
         return;
     }
     const peri_b *change = (const peri_b *)s->change + i; /* pairwise bodies have none */
     const peri_r gauge = law->gauge ? b->bond : 1, spring = PERI_FN(constant)(s, PERI__SPRING, i);
-    *c += weight * (PERI_FN(response)(s, 0, i) * gauge + spring * b->e);
+    *c += weight * (PERI_FN(response)(s, 0, i) * gauge + spring * (b->e - b->bond * PERI_FN(eigenstrain)(s, i)));
     *dc += weight * (change[0] * gauge + spring * b->de);
     if (!(law->gather & PERI__GRADIENT)) return;
     for (int a = 0; a < PERI_D; ++a) {

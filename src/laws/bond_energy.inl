@@ -17,13 +17,15 @@ PERI_INLINE int PERI_FN(over_bond_energy)(const peri__operands *s, int64_t i, co
     if (!s->work || !(bond->along > 0)) return 0;
     const double partial_volume = row->partial_volume ? (double)row->partial_volume[k] : s->model->volume[j];
     return (double)((const peri_r *)s->work)[peri__bond_slot(s->model, i, row, k)]
-         > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_BOND_ENERGY - peri__first_criterion] * partial_volume;
+         > PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_BOND_ENERGY - peri__first_criterion]
+               * peri__square((double)PERI_FN(strength)(s, i, row, k)) * partial_volume;
 }
 
 /* Work goes with the square of the extension. */
 PERI_INLINE double PERI_FN(met_bond_energy)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k,
                                            const PERI_FN(bond) *bond) {
-    const double limit = PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_BOND_ENERGY - peri__first_criterion];
+    const double limit = PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_BOND_ENERGY - peri__first_criterion]
+                       * peri__square((double)PERI_FN(strength)(s, i, row, k));
     const double partial_volume = row->partial_volume ? (double)row->partial_volume[k] : s->model->volume[row->ids[k]];
     const double work = s->work ? (double)((const peri_r *)s->work)[peri__bond_slot(s->model, i, row, k)] : 0.0;
     (void)bond;

@@ -96,7 +96,8 @@ static int peri__calibrate(const peri__law *law, int32_t dim, const peri__moment
 
 static void peri__set_constants(peri_body *b, int64_t i, const peri__row *row) {
     const peri__model *m = b->model;
-    const peri__law *law = &m->laws[m->material[i]];
+    peri__law room;
+    const peri__law *law = peri__law_at(b, i, &room);
     if (law->pairwise) return;
     peri__calibration r;
     peri__moments sum = peri__family_moments(b, i, row, peri__counts_live(b, law));
@@ -114,6 +115,7 @@ PERI_INLINE double peri__law_gauge(const peri__law *law, double bond) { return l
 
 PERI_INLINE double peri__spring(const peri_body *b, int64_t i, int64_t j, double bond) {
     const peri__model *m = b->model;
-    if (m->laws[m->material[i]].pairwise) return 0.5 * m->pairs[m->material[i] * m->materials + m->material[j]].c / bond;
+    if (m->laws[m->material[i]].pairwise)
+        return 0.5 * m->pairs[m->material[i] * m->materials + m->material[j]].c * peri__stiffness_between(b, i, j) / bond;
     return peri__get_constant(b, i, PERI__SPRING);
 }

@@ -14,12 +14,14 @@ static double peri__limit_node_energy(const peri__fracture *g) {
 PERI_INLINE int PERI_FN(over_node_energy)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k];
     const int at = PERI_CRITERION_NODE_ENERGY - peri__first_criterion;
-    return s->node && bond->along > 0 && 0.5 * (s->node[i] + s->node[j]) > PERI_FN(pair)(s, i, j)->limit[at];
+    return s->node && bond->along > 0
+        && 0.5 * (s->node[i] + s->node[j]) > PERI_FN(pair)(s, i, j)->limit[at] * peri__square((double)PERI_FN(strength)(s, i, row, k));
 }
 
 PERI_INLINE double PERI_FN(met_node_energy)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k,
                                            const PERI_FN(bond) *bond) {
-    const double limit = PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_NODE_ENERGY - peri__first_criterion];
+    const double limit = PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_NODE_ENERGY - peri__first_criterion]
+                       * peri__square((double)PERI_FN(strength)(s, i, row, k));
     const double energy = s->node ? 0.5 * (s->node[i] + s->node[row->ids[k]]) : 0.0;
     (void)bond;
     return energy > 0.0 ? sqrt(limit / energy) : 1.0;

@@ -179,7 +179,7 @@ static void peri__take_reference(const peri_body *b, int64_t i, double c, peri__
 }
 
 /* The strength of a curve that begins to soften at `first`. */
-static double peri__strength_of(peri__bond_law *law, const peri__reference *r, int32_t dim, double first, double area) {
+static double peri__tabled_strength(peri__bond_law *law, const peri__reference *r, int32_t dim, double first, double area) {
     double strength = 0.0;
     peri__draw_curve(law, first, area);
     for (int32_t d = 0; d < dim; ++d) {
@@ -192,10 +192,10 @@ static double peri__strength_of(peri__bond_law *law, const peri__reference *r, i
 /* strength: inner units. */
 static void peri__fit_table(peri__bond_law *law, const peri__reference *r, int32_t dim, double strength, double area) {
     const double most = sqrt(2.0 * area);
-    double high = most, low = 0.0, above = peri__strength_of(law, r, dim, most, area) - strength, below = -strength;
+    double high = most, low = 0.0, above = peri__tabled_strength(law, r, dim, most, area) - strength, below = -strength;
     law->brittle = above <= 0.0;
     for (int k = 0; !law->brittle && k < 60; ++k) { /* the false position, halved where one end stays (Illinois) */
-        const double first = low + (high - low) * below / (below - above), rest = peri__strength_of(law, r, dim, first, area) - strength;
+        const double first = low + (high - low) * below / (below - above), rest = peri__tabled_strength(law, r, dim, first, area) - strength;
         if (fabs(rest) < 1e-4 * strength || high - low < 1e-9 * most) break;
         if (rest > 0.0) {
             high = first;

@@ -88,6 +88,7 @@ static void peri__set_gather_row_sum(peri_body *b, int64_t i, const peri__row *r
 PERI_INLINE double peri__row_sum_of(const peri_body *b, int32_t dim, int64_t i) {
     const peri__model *m = b->model;
     double s[6] = { 0.0 }, g[3] = { 0.0 };
+    peri__law room;
     const int tensors = (m->gathers & PERI__GRADIENT) != 0, even = m->centroid != NULL;
     peri__row row;
     peri__read_row(b, i, &row);
@@ -106,14 +107,14 @@ PERI_INLINE double peri__row_sum_of(const peri_body *b, int32_t dim, int64_t i) 
         peri__add_stiffness(dim, even ? 0.0 : along, round, xi, bond, s);
         if (!(b->gather_row_sum[j] > 0.0)) continue;
         const double size = peri__gather_vector(b, dim, j, xi, bond, g);
-        peri__add_gathered(&m->laws[m->material[j]], dim, even, back * b->gather_row_sum[j], g, size, s);
+        peri__add_gathered(peri__law_at(b, j, &room), dim, even, back * b->gather_row_sum[j], g, size, s);
     }
     if (b->gather_row_sum[i] > 0.0) {
         double whole;
         peri__gather_diagonal(b, dim, i, &row, g, &whole);
-        peri__add_gathered(&m->laws[m->material[i]], dim, even, b->gather_row_sum[i], g, sqrt(peri__dot(g, g, dim)), s);
+        peri__add_gathered(peri__law_at(b, i, &room), dim, even, b->gather_row_sum[i], g, sqrt(peri__dot(g, g, dim)), s);
     }
-    return peri__largest_eigenvalue(dim, s) / m->rho[m->material[i]];
+    return peri__largest_eigenvalue(dim, s) / peri__density_at(b, i);
 }
 
 static void peri__set_row_sum(peri_body *b, int64_t i) {
@@ -182,7 +183,7 @@ PERI_INLINE void peri__group_row_sums(peri_body *b, int32_t dim, int64_t g) {
         const double size = sqrt(peri__dot(own, own, dim));
         const double gathered = size * peri__get_constant(b, first + n, PERI__THETA_FACTOR) * b->gather_row_sum[first + n];
         peri__add_stiffness(dim, gathered, 0.0, own, size, s);
-        b->row_sum[first + n] = peri__largest_eigenvalue(dim, s) / m->rho[m->material[first + n]];
+        b->row_sum[first + n] = peri__largest_eigenvalue(dim, s) / peri__density_at(b, first + n);
     }
 }
 
@@ -230,7 +231,7 @@ static void peri__refresh(peri_body *b) {
     peri__refresher r;
     if (!(b->now.stale & PERI__STALE_CONSTANTS)) return;
     r.body = b;
-    r.whole = b->model->stencil.columns > 0 && b->now.cut == 0 && b->now.broken == 0;
+    r.whole = b->model->stencil.columns > 0 && b->now.cut == 0 && b->now.broken == 0 && !b->stiffness;
     if (r.whole) peri__find_equal_groups(b);
     if (b->central) memset(b->central, 0, (size_t)(b->model->points / PERI_GROUP + 1));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &r, NULL);

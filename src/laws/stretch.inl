@@ -18,17 +18,18 @@ PERI_INLINE int PERI_FN(over_stretch)(const peri__operands *s, int64_t i, const 
     const int64_t j = row->ids[k];
     const peri_b s0 = (peri_b)PERI_FN(pair)(s, i, j)->limit[PERI_CRITERION_STRETCH - peri__first_criterion];
     if (s->model->centroid && j < i) return PERI_FN(is_over_for_other)(s, i, j, s0);
+    if (s->fields) return bond->along > s0 * PERI_FN(strength)(s, i, row, k) * bond->length * bond->reach;
     return bond->along > s0 * bond->length * bond->reach;
 }
 
 PERI_INLINE double PERI_FN(met_stretch)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const double s0 = PERI_FN(pair)(s, i, row->ids[k])->limit[PERI_CRITERION_STRETCH - peri__first_criterion];
-    return (double)(peri_b)s0 * (double)bond->length * (double)bond->reach / (double)bond->along;
+    return (double)(peri_b)s0 * (double)PERI_FN(strength)(s, i, row, k) * (double)bond->length * (double)bond->reach / (double)bond->along;
 }
 #endif
 
 #ifdef PERI_CRITERION_ROLE_EXCESS
 static double peri__excess_stretch(const peri_body *b, int64_t i, const peri__row *row, int64_t k, double limit) {
-    return peri__stretch(b, i, row, k) / limit;
+    return peri__elastic_stretch(b, i, row, k) / limit;
 }
 #endif

@@ -273,7 +273,7 @@ static int64_t peri__list_sections(const peri_body *b, uint64_t *words, peri__se
     for (int k = 0; k < PERI_ARRAYS; ++k) {
         const peri__role role = arrays[k].role;
         void *array = peri__array_of(b, &arrays[k]);
-        if (role != PERI__BONDS_LEFT && (!array || (role != PERI__FOLLOWS && role != PERI__HISTORY))) continue;
+        if (role != PERI__BONDS_LEFT && (!array || (role != PERI__FOLLOWS && role != PERI__HISTORY && role != PERI__FIELD))) continue;
         peri__put_section(&end, arrays[k].name, 0, array, arrays[k].count * (int64_t)arrays[k].size, role == PERI__BONDS_LEFT ? k : -1);
     }
     for (int64_t k = 0; k < b->load_count; ++k) {
@@ -437,6 +437,7 @@ static void peri__take_sections(peri_body *b, const char *bytes, const peri__sec
         else if (list[k].data) peri__set_flags(m, (uint32_t *)(void *)list[k].data);
     }
     peri__progress_from_words(b, words);
+    peri__weigh_fields(b);
     peri__clear_arrays(b, 0);
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) peri__update_axes(&b->obstacles[k], b->dim);

@@ -31,7 +31,10 @@ static int32_t peri__ensure_fragments(peri_body *b) { return peri__label_fragmen
     X(FRAGMENT, 2017, 1, 1.0, read, fragment, fragments)                                                        \
     X(MASS, 2018, 1, 1.0, read, point_mass, none)                                                                              \
     X(DENSITY, 2019, 1, 1.0, read, density, none)                                                                        \
-    X(HELD, 2020, dim, 1.0, read, held, none)
+    X(HELD, 2020, dim, 1.0, read, held, none)                                                                                \
+    X(EIGENSTRAIN, 2021, 1, 1.0, read, eigenstrain, none)                                                                    \
+    X(STRENGTH, 2022, 1, 1.0, read, strength, none)                                                                          \
+    X(STIFFNESS, 2023, 1, 1.0, read, stiffness, none)
 
 #define PERI_FIELD_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(FIELD_##name, PERI_FIELD_##name == (number))
 PERI_FIELD_LIST(PERI_FIELD_NUMBER_)
@@ -165,13 +168,27 @@ static void peri__read_fragment(peri_body *b, double *out) {
 }
 
 static void peri__read_density(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->materials[b->model->material[i]].density;
+    for (int64_t i = 0; i < b->model->points; ++i)
+        out[i] = b->density ? b->density[i] * b->model->density : b->materials[b->model->material[i]].density;
 }
 
 static void peri__read_point_mass(peri_body *b, double *out) {
     const peri__model *m = b->model;
     const double unit = pow(m->length, m->dim) * (m->dim == 3 ? 1.0 : b->desc.thickness);
-    for (int64_t i = 0; i < m->points; ++i) out[i] = b->materials[m->material[i]].density * (m->volume[i] * unit);
+    for (int64_t i = 0; i < m->points; ++i) out[i] = m->volume[i] * unit;
+    for (int64_t i = 0; i < m->points; ++i) out[i] *= b->density ? b->density[i] * m->density : b->materials[m->material[i]].density;
+}
+
+static void peri__read_eigenstrain(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__eigenstrain_at(b, i);
+}
+
+static void peri__read_strength(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__field_at(b, b->strength, i, 1.0);
+}
+
+static void peri__read_stiffness(peri_body *b, double *out) {
+    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__stiffness_at(b, i);
 }
 
 static void peri__read_held(peri_body *b, double *out) {
@@ -267,8 +284,14 @@ static int peri__tells(const peri_view *view, int64_t i, int32_t d, const double
 }
 
 PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, int64_t count) {
-    PERI_NEED_IDLE(b);
+    PERI_NEED_CHANGEABLE(b);
     PERI_NEED_CHOICE(b, field, field);
+    if (peri__is_material_field(field)) {
+        PERI_NEED(b, in, "in");
+        if (count != b->model->points) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)b->model->points);
+        return peri__set_material_field(b, field, in);
+    }
+    PERI_NEED_IDLE(b);
     if (field != PERI_FIELD_DISPLACEMENT && field != PERI_FIELD_VELOCITY) return peri__fail(b, PERI_ERROR_FIELD, "field", -1, field);
     PERI_NEED(b, in, "in");
     const peri__model *m = b->model;
@@ -322,7 +345,7 @@ PERI_API int32_t peri_get_momentum(peri_body *b, double *linear, double *angular
     (void)peri__stored_view(b, PERI_FIELD_DISPLACEMENT, &u);
     (void)peri__stored_view(b, PERI_FIELD_VELOCITY, &v);
     for (int64_t i = 0; i < m->points; ++i) {
-        double y[3] = { 0.0, 0.0, 0.0 }, p[3] = { 0.0, 0.0, 0.0 }, mass = peri__mass(m, i) * unit, cross[3];
+        double y[3] = { 0.0, 0.0, 0.0 }, p[3] = { 0.0, 0.0, 0.0 }, mass = peri__mass(b, i) * unit, cross[3];
         for (int32_t d = 0; d < m->dim; ++d) {
             y[d] = peri__view_at(&x, i, d) + peri__view_at(&u, i, d);
             p[d] = mass * peri__view_at(&v, i, d);

@@ -44,6 +44,26 @@ static int32_t peri__take_solver(peri__solver *s) {
 
 /* ---- forces ------------------------------------------------------------------------------------------------------- */
 
+/* What eigenstrain does to the body at rest, as a load: a measure of residuals, where nothing else acts. p and q are used up. */
+static void peri__note_strained(peri__solver *s) {
+    peri_body *b = s->body;
+    const peri__model *m = b->model;
+    peri__operands operands = peri__operands_of(b);
+    double square = 0.0;
+    s->strained = 0.0;
+    if (!b->eigenstrain) return;
+    memset(s->k.p, 0, peri__vector_bytes(b));
+    memset(s->k.q, 0, peri__vector_bytes(b));
+    operands.u = s->k.p;
+    operands.f = s->k.q;
+    operands.node = NULL;
+    peri__sum_bonds(b, &operands, NULL);
+    for (int32_t d = 0; d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i)
+            square += s->constrained[i] >> d & 1 ? 0.0 : peri__square(m->volume[i] * peri__get_real(s->k.q, b->f32, d * m->stride + i));
+    s->strained = sqrt(square);
+}
+
 /* Sets f and r = V f at the present displacements; the loads alone to z. Returns |loads| of what is free, < 0: a status. */
 static double peri__static_forces(peri__solver *s) {
     peri_body *b = s->body;
@@ -71,7 +91,7 @@ static double peri__static_forces(peri__solver *s) {
     if (b->desc.geometry != PERI_GEOMETRY_LINEAR) peri__weigh_modes(s);
     peri__balance(s, s->k.r, 1);
     peri__drop_singular(s, s->k.r);
-    return sqrt(square);
+    return sqrt(square + peri__square(s->strained));
 }
 
 /* |r| of what is free, with the scale brought up to date. */

@@ -17,11 +17,14 @@ static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, 
     const int64_t j = row->ids[k];
     const peri__pair *pair = b->point_class ? &b->pairs[b->point_class[i] * b->classes + b->point_class[j]] : b->pairs;
     double excess = 0.0;
-    if (!(peri__stretch(b, i, row, k) > 0.0)) return 0.0;
+    if (!(peri__elastic_stretch(b, i, row, k) > 0.0)) return 0.0;
+    const double strength = peri__strength_of(b, i, row, k);
 #define PERI_CASE(name, number)                                                                                        \
     if (pair->limit[(number) - peri__first_criterion] < PERI_NEVER) {                                                  \
-        const double passed = peri__excess_##name(b, i, row, k, pair->limit[(number) - peri__first_criterion]);        \
-        excess = fmax(excess, (int)PERI__SEEN_##name == PERI__BY_STRETCH ? passed : sqrt(passed));                     \
+        const int by_stretch = (int)PERI__SEEN_##name == PERI__BY_STRETCH;                                             \
+        const double limit = pair->limit[(number) - peri__first_criterion] * (by_stretch ? strength : peri__square(strength)); \
+        const double passed = peri__excess_##name(b, i, row, k, limit);                                                \
+        excess = fmax(excess, by_stretch ? passed : sqrt(passed));                                                     \
     }
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE

@@ -57,10 +57,11 @@ static int64_t peri__coupled(const peri_body *b, int64_t i, int32_t *mark, int32
 
 /* dP for a change d of H at the deformation f of a correspondence point. */
 static void peri__change_of_stress(const peri_body *b, int64_t i, const peri__deformation *f, double d[3][3], double out[3][3]) {
-    const peri__law *law = &b->model->laws[b->model->material[i]];
+    peri__law room;
+    const peri__law *law = peri__law_at(b, i, &room);
     double e[3][3], h[3][3];
     memcpy(h, f->h, sizeof h);
-    peri__strain_of(b, f, e);
+    peri__elastic_strain_of(b, i, f, e);
     peri__stress_change(law, b->dim, b->desc.geometry == PERI_GEOMETRY_LINEAR, h, e, d, out);
 }
 
@@ -89,7 +90,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     if (!law->pairwise) {
         pressure_factor = peri__get_constant(b, o, PERI__PRESSURE_FACTOR);
         theta_factor = peri__get_constant(b, o, PERI__THETA_FACTOR);
-        if (pressure_factor != 0.0) p = pressure_factor * peri__dilatation(b, o, &row);
+        if (pressure_factor != 0.0) p = pressure_factor * peri__dilatation(b, o, &row, peri__eigenstrain_at(b, o));
     }
     if (law->gather & PERI__GRADIENT) {
         stabilization = peri__get_constant(b, o, PERI__STABILIZATION);

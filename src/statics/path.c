@@ -28,7 +28,7 @@ typedef struct peri__path {
 } peri__path;
 
 static int peri__is_proportional(const peri_body *b) {
-    if (!peri__is_linear(b)) return 0;
+    if (!peri__is_linear(b) || b->eigenstrain) return 0;
     for (int64_t l = 0; l < b->load_count; ++l) {
         const peri__load *load = &b->loads[l];
         if (load->kind != PERI__FREE && (load->fn || load->kind == PERI__VELOCITY)) return 0;

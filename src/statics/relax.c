@@ -18,14 +18,14 @@ static int peri__relax_step(peri__solver *s, double unit, int64_t k) {
             if ((s->constrained[i] >> d & 1) || v == 0.0) continue;
             double stiff = (peri__get_real(s->k.q, b->f32, at) - peri__get_real(s->k.r, b->f32, at)) / v;
             if (stiff > 0.0) bent += stiff * u * u;
-            square += peri__mass(m, i) * unit * u * u;
+            square += peri__mass(b, i) * unit * u * u;
         }
     if (square > 0.0) damping = 2.0 * sqrt(bent / square);
     if (damping > 1.9) damping = 1.9;
     for (int32_t d = 0; d < m->dim; ++d)
         for (int64_t i = 0; i < m->points; ++i) {
             int64_t at = d * m->stride + i;
-            double push = peri__get_real(s->k.r, b->f32, at) / (peri__mass(m, i) * unit);
+            double push = peri__get_real(s->k.r, b->f32, at) / (peri__mass(b, i) * unit);
             double v = peri__get_real(s->k.p, b->f32, at);
             if (s->constrained[i] >> d & 1) continue;
             v = k == 0 ? 0.5 * push : ((2.0 - damping) * v + 2.0 * push) / (2.0 + damping);

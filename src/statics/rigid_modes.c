@@ -217,12 +217,12 @@ static void peri__weigh_modes(peri__solver *s) {
     for (int64_t i = 0; i < m->points; ++i) {
         peri__floating_part *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
         double mode[PERI_RIGID_MODES][3];
-        if (part) part->sum[0] += peri__mass(m, i);
+        if (part) part->sum[0] += peri__mass(b, i);
         for (int32_t k = 0; part && k < part->modes; ++k) peri__mode_at(s, part, i, k, mode[k]);
         for (int32_t d = 0; part && d < m->dim; ++d) {
             double moved[PERI_RIGID_MODES];
             for (int32_t k = 0; k < part->modes; ++k) moved[k] = mode[k][d];
-            const double mass = peri__mass(m, i);
+            const double mass = peri__mass(b, i);
             for (int32_t p = 0; p < part->modes; ++p)
                 for (int32_t q = 0; q < part->modes; ++q) part->inverse[p][q] += mass * moved[p] * moved[q];
         }
@@ -373,7 +373,7 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
     for (int64_t p = 0; p < s->part_count; ++p) memset(s->parts[p].sum, 0, sizeof s->parts[p].sum);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__floating_part *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
-        double mass = forces ? 1.0 : peri__mass(m, i);
+        double mass = forces ? 1.0 : peri__mass(b, i);
         for (int32_t k = 0; part && k < part->modes; ++k) {
             double moved[3] = { 0.0 };
             peri__mode_at(s, part, i, k, moved);
@@ -388,7 +388,7 @@ static void peri__balance(peri__solver *s, void *vector, int forces) {
     }
     for (int64_t i = 0; i < m->points; ++i) {
         const peri__floating_part *part = s->part_of[i] < 0 ? NULL : &s->parts[s->part_of[i]];
-        double mass = forces ? peri__mass(m, i) : 1.0;
+        double mass = forces ? peri__mass(b, i) : 1.0;
         for (int32_t k = 0; part && k < part->modes; ++k) {
             double moved[3] = { 0.0 };
             peri__mode_at(s, part, i, k, moved);

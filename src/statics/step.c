@@ -6,16 +6,19 @@
 
 /* ---- the ledger --------------------------------------------------------------------------------------------------- */
 
-/* The force density of loads and supports at this equilibrium, to `load`; with the one before and the way since then, their work. */
+/* The force density of loads and supports at this equilibrium, to `load`; with the one before and the way since then, their work. Where
+   eigenstrain was changed before the first, that is the force that would hold the body: what is released on the way is work of the
+   eigenstrain. */
 static void peri__count_work(peri__solver *s, const void *from) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
+    const int unbalanced = b->eigenstrain != NULL;
     double work = 0.0;
     for (int32_t d = 0; s->load && d < m->dim; ++d)
         for (int64_t i = 0; i < m->points; ++i) {
             int64_t at = d * m->stride + i;
             double outer = peri__get_real(s->k.z, b->f32, at), way;
-            if (s->constrained[i] >> d & 1) outer -= peri__get_real(b->f, b->f32, at);
+            if (s->constrained[i] >> d & 1 || (unbalanced && !from)) outer -= peri__get_real(b->f, b->f32, at);
             way = from ? peri__get_real(b->u, b->f32, at) - peri__get_real(from, b->f32, at) : 0.0;
             work += 0.5 * (outer + peri__get_real(s->load, b->f32, at)) * way * m->volume[i];
             peri__put_real(s->load, b->f32, at, outer);
@@ -87,6 +90,7 @@ static int32_t peri__equilibrium(peri__solver *s, peri__afresh afresh) {
     peri__stand_still(s);
     s->left = s->settings->iterations;
     s->energy0 = 0.0;
+    peri__note_strained(s);
     status = s->settings->method == PERI_METHOD_RELAXATION ? peri__relax(s) : peri__newton(s);
     if (status == PERI_OK && b->model->seen_by & PERI__BY_WORK) {
         peri__operands operands = peri__operands_of(b);

@@ -29,6 +29,7 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
         operands.response = change;
         operands.node = NULL;
         operands.linear = 1;
+        peri__take_fields(b, &operands, 0);
         memset(t->q, 0, (size_t)(m->stride * m->dim) * peri__real(b));
         peri__sum_bonds(b, &operands, NULL);
         return;
@@ -61,7 +62,8 @@ static void peri__add_dyad(int32_t dim, double scale, const double *v, double ro
 static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const peri__model *m = b->model;
     const int32_t dim = m->dim;
-    const peri__law *own_law = &m->laws[m->material[i]];
+    peri__law room, other;
+    const peri__law *own_law = peri__law_at(b, i, &room);
     const int linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     double gather_diagonal[3] = { 0.0 }, h[3] = { 0.0 }, whole = 0.0;
     peri__bunch bunch;
@@ -71,7 +73,7 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
     for (int64_t k = 0; k < row.count; ++k) {
         const int64_t j = row.ids[k];
-        const peri__law *law = &m->laws[m->material[j]];
+        const peri__law *law = peri__law_at(b, j, &other);
         double own = peri__weight_of(m, i, row.weight, k), back = peri__weight_of(m, i, row.back, k), xi[3] = { 0.0 }, n[3] = { 0.0 };
         double bond = peri__get_real(row.bond, b->b32, k), length = 0.0, spring = 0.0, round = 0.0, by = back * m->volume[i] / m->volume[j];
         if (!peri__is_alive(b, i, k)) continue;

@@ -349,10 +349,16 @@ pub const PERI_FIELD_REACTION: i32 = 2016;
 pub const PERI_FIELD_FRAGMENT: i32 = 2017;
 /// \[M\]; planes: thickness included
 pub const PERI_FIELD_MASS: i32 = 2018;
-/// of the material \[M L^-3\]
+/// W \[M L^-3\] Default: of the material
 pub const PERI_FIELD_DENSITY: i32 = 2019;
 /// \[dim\] 1: a support prescribes it; else 0
 pub const PERI_FIELD_HELD: i32 = 2020;
+/// W stretch at no force \[-\] -0.9..10. Default 0
+pub const PERI_FIELD_EIGENSTRAIN: i32 = 2021;
+/// W times s0, squared times w0 \[-\] 1e-6..1e6. Default 1
+pub const PERI_FIELD_STRENGTH: i32 = 2022;
+/// W times E \[-\] 1e-6..1e6. Default 1
+pub const PERI_FIELD_STIFFNESS: i32 = 2023;
 
 // peri_type
 pub const PERI_TYPE_F64: i32 = 1601;
@@ -1192,6 +1198,12 @@ unsafe extern "C" {
     pub fn peri_set_no_fail(body: *mut peri_body, set: i32, on: i32) -> i32;
     /// fn is called for every bond that breaks by its criterion; NULL removes. Costs two to three bits per bond.
     pub fn peri_on_break(body: *mut peri_body, r#fn: peri_break_fn, user: *mut c_void) -> i32;
+    /// Strength of bonds, times that of points: factors\[count\] of pairs\[count\*2\], or of intact bonds that \`take\` takes.
+    /// Returns how many.
+    pub fn peri_set_strength_pairs(body: *mut peri_body, count: i64, pairs: *const i32, factors: *const f64) -> i64;
+    /// Strength of bonds, times that of points: factors\[count\] of pairs\[count\*2\], or of intact bonds that \`take\` takes.
+    /// Returns how many.
+    pub fn peri_set_strength_if(body: *mut peri_body, factor: f64, take: peri_pair_fn, user: *mut c_void) -> i64;
     /// on = 1: keeps when bonds between adjacent points break, for peri\_get\_cracks: 32 to 44 bytes per point.
     pub fn peri_record_breaks(body: *mut peri_body, on: i32) -> i32;
     /// How many there are, and which each point is in: of\_point\[points\], or NULL. They are numbered 0, 1, ... by their least
@@ -1300,7 +1312,8 @@ unsafe extern "C" {
     pub fn peri_size_of_field(body: *const peri_body, field: i32) -> i64;
     /// Copies a field, as double, in your units and order. capacity counts doubles.
     pub fn peri_get_field(body: *mut peri_body, field: i32, out: *mut f64, capacity: i64) -> i32;
-    /// Sets displacement or velocity of all points; count = points\*dim. What peri\_get\_field gives changes no bit.
+    /// Sets a field W of all points; count = points\*components. What peri\_get\_field gives changes no bit. Fields of material
+    /// (docs/laws.md), which peri\_frame\_fn may set, too, outlast peri\_reset.
     pub fn peri_set_field(body: *mut peri_body, field: i32, r#in: *const f64, count: i64) -> i32;
     /// Without a copy. Of a stored field it shows the present state; of a derived one that of the call, until it is viewed again.
     pub fn peri_view_field(body: *mut peri_body, field: i32, view: *mut peri_view) -> i32;

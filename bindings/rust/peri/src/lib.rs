@@ -479,10 +479,16 @@ pub const FIELD_REACTION: i32 = sys::PERI_FIELD_REACTION;
 pub const FIELD_FRAGMENT: i32 = sys::PERI_FIELD_FRAGMENT;
 /// \[M\]; planes: thickness included
 pub const FIELD_MASS: i32 = sys::PERI_FIELD_MASS;
-/// of the material \[M L^-3\]
+/// W \[M L^-3\] Default: of the material
 pub const FIELD_DENSITY: i32 = sys::PERI_FIELD_DENSITY;
 /// \[dim\] 1: a support prescribes it; else 0
 pub const FIELD_HELD: i32 = sys::PERI_FIELD_HELD;
+/// W stretch at no force \[-\] -0.9..10. Default 0
+pub const FIELD_EIGENSTRAIN: i32 = sys::PERI_FIELD_EIGENSTRAIN;
+/// W times s0, squared times w0 \[-\] 1e-6..1e6. Default 1
+pub const FIELD_STRENGTH: i32 = sys::PERI_FIELD_STRENGTH;
+/// W times E \[-\] 1e-6..1e6. Default 1
+pub const FIELD_STIFFNESS: i32 = sys::PERI_FIELD_STIFFNESS;
 pub const TYPE_F64: i32 = sys::PERI_TYPE_F64;
 pub const TYPE_F32: i32 = sys::PERI_TYPE_F32;
 pub const TYPE_I32: i32 = sys::PERI_TYPE_I32;
@@ -1916,6 +1922,24 @@ impl Body {
         self.check(i64::from(result))?;
         Ok(result)
     }
+    /// Strength of bonds, times that of points: factors\[count\] of pairs\[count\*2\], or of intact bonds that \`take\` takes.
+    /// Returns how many.
+    pub fn set_strength_pairs(&self, pairs: &[i32], factors: &[f64]) -> Result<i64> {
+        sized(pairs.len(), (factors.len() as i64)*2, "pairs")?;
+        let result = unsafe { sys::peri_set_strength_pairs(self.handle, (factors.len() as i64), pairs.as_ptr(), factors.as_ptr()) };
+        self.check(result)?;
+        Ok(result)
+    }
+    /// Strength of bonds, times that of points: factors\[count\] of pairs\[count\*2\], or of intact bonds that \`take\` takes.
+    /// Returns how many.
+    pub fn set_strength_if(&self, factor: f64, take: &mut dyn FnMut(i32, i32, &[f64], &[f64]) -> i32) -> Result<i64> {
+        let mut holder = PairFnHolder { dim: i64::from(self.dimension()), call: Some(take) };
+        let user = &mut holder as *mut _ as *mut c_void;
+        let call_c: sys::peri_pair_fn = Some(PairFnHolder::call_c);
+        let result = unsafe { sys::peri_set_strength_if(self.handle, factor, call_c, user) };
+        self.check(result)?;
+        Ok(result)
+    }
     /// on = 1: keeps when bonds between adjacent points break, for peri\_get\_cracks: 32 to 44 bytes per point.
     pub fn record_breaks(&self, on: i32) -> Result<i32> {
         let result = unsafe { sys::peri_record_breaks(self.handle, on) };
@@ -2294,7 +2318,8 @@ impl Body {
         self.get_field_into(field, &mut out_array)?;
         Ok(out_array)
     }
-    /// Sets displacement or velocity of all points; count = points\*dim. What peri\_get\_field gives changes no bit.
+    /// Sets a field W of all points; count = points\*components. What peri\_get\_field gives changes no bit. Fields of material
+    /// (docs/laws.md), which peri\_frame\_fn may set, too, outlast peri\_reset.
     pub fn set_field(&self, field: i32, r#in: &[f64]) -> Result<i32> {
         let result = unsafe { sys::peri_set_field(self.handle, field, r#in.as_ptr(), (r#in.len() as i64)) };
         self.check(i64::from(result))?;
