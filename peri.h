@@ -366,7 +366,13 @@ typedef enum peri_law {
 typedef enum peri_criterion {
     PERI_CRITERION_STRETCH = 1101,     /* s > s0 [T] 1.40, 1.41 */
     PERI_CRITERION_BOND_ENERGY = 1102, /* state-based: work on the bond > w0 [T] 1.100 */
-    PERI_CRITERION_NODE_ENERGY = 1103  /* state-based: mean energy of both ends > w0 [T] 1.102 */
+    PERI_CRITERION_NODE_ENERGY = 1103, /* state-based: mean energy of both ends > w0 [T] 1.102 */
+    PERI_CRITERION_PRINCIPAL_STRESS = 1104, /* tension along the bond > strength */
+    PERI_CRITERION_VON_MISES = 1105,        /* von Mises's > strength; shortened bonds, too */
+    PERI_CRITERION_MOHR_COULOMB = 1106,     /* shear > cohesion - tan(friction_angle) normal */
+    PERI_CRITERION_CONFINED_STRETCH = 1107, /* s > s0 - compression * least s at either end */
+    PERI_CRITERION_RATE_STRETCH = 1108,     /* s > s0 (1 + (ds/dt / rate)^rate_power) */
+    PERI_CRITERION_DELAYED_STRETCH = 1109   /* s > s0 for `delay` in all */
 } peri_criterion;
 
 typedef struct peri_material_desc {
@@ -380,6 +386,13 @@ typedef struct peri_material_desc {
     double fracture_energy;  /* G0 [M T^-2] > 0, per area of crack. 0 (default) = not given */
     double critical_stretch; /* s0 [-] > 0. 0 (default) = from G0; with neither, no bond breaks */
     double stabilization;    /* [-] >= 0, correspondence: against zero-energy modes. Default 0.2 */
+    double strength;         /* [M L^-1 T^-2] > 0 of the criteria of stress; Mohr-Coulomb: or 0 */
+    double cohesion;         /* [M L^-1 T^-2] > 0 of Mohr-Coulomb */
+    double friction_angle;   /* [-] [0, pi/2) likewise */
+    double compression;      /* [-] 0..1e3 */
+    double rate;             /* [T^-1] > 0 */
+    double rate_power;       /* [-] 0..10. 0 (default): 1 */
+    double delay;            /* [T] > 0 */
 } peri_material_desc;
 
 PERI_API void peri_material_desc_init(peri_material_desc *desc, int32_t law);
@@ -901,7 +914,7 @@ typedef struct peri_solve_desc {
                                        [L], peri_get_reaction, broken bonds */
     int64_t curve_rows;             /* rows that fit; more are counted in the report */
     peri_iteration_fn on_iteration; /* Default NULL */
-    peri_frame_fn on_step;          /* at each equilibrium. Default NULL */
+    peri_frame_fn on_step;          /* at each equilibrium, also after it cut. Default NULL */
     void *user;                     /* for both */
 } peri_solve_desc;
 

@@ -23,6 +23,7 @@
 /* ---- base: knows nobody ---------------------------------------------------------------- */
 #include "src/base/compiler.h"     /* what compilers and machines differ in                                        */
 #include "src/base/enums.h"        /* where the values of each enum begin and end                                     */
+#include "src/base/pairs.h"        /* limits of the bonds between two materials                                           */
 #include "src/base/types.h"        /* every internal struct, and the glossary of symbols                           */
 #include "src/base/solver.h"       /* what a static solve takes                                                   */
 #include "src/base/bond_laws.h"    /* laws of bonds: what they are, and what passes ask of them                        */
@@ -62,6 +63,7 @@
 #include "src/laws/calibration.c"  /* live families                   -> constants of state-based laws             */
 #include "src/laws/bond_laws.c"    /* stretches and histories of bonds -> forces, where bonds are not linear          */
 #include "src/laws/softening.c"    /* strength, fracture energy, families -> tables of bonds that soften              */
+#include "src/laws/traction.c"     /* the stress of points             -> what planes of bonds bear                       */
 #include "src/laws/stiffness.c"    /* live families                   -> row sums that bound the frequency            */
 
 /* ---- kernels: one text, six instantiations -> peri__ops_d2 ... -------------------------- */
@@ -121,6 +123,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/fragments.c"    /* points joined by live bonds; what they are as rigid bodies                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
+#include "src/body/strength.c"     /* and what criteria ask of them                                                */
 
 /* ---- dynamics -------------------------------------------------------------------------- */
 #include "src/dynamics/frequency.c" /* the highest frequency, by Lanczos's method                                  */

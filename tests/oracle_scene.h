@@ -11,6 +11,7 @@
 #ifndef ORACLE_SCENE_H
 #define ORACLE_SCENE_H
 
+#include "criterion.h"
 #include "scene.h"
 
 #define MOST       160 /* points of a scene                                                                              */
@@ -119,6 +120,10 @@ static peri_material_desc choose_material(scene *s, int32_t law) {
     if (law == PERI_LAW_CORRESPONDENCE) m.stabilization = below(s, 4) ? between(s, 0.05, 0.5) : 0;
     if (!s->breakable) return m;
     if (!bonds) m.criterion = peri__first_criterion + below(s, peri__count_criterion);
+    if (m.criterion > PERI_CRITERION_NODE_ENERGY) {
+        give_criterion(&m, m.criterion, s0, s->desc.horizon, s->desc.horizon * sqrt(m.density / m.young));
+        return m;
+    }
     if (m.criterion != PERI_CRITERION_STRETCH || (below(s, 2) && has_moments(s->desc.influence)))
         m.fracture_energy = m.young * s->desc.horizon * s0 * s0;
     else m.critical_stretch = s0;
@@ -317,6 +322,10 @@ static peri_body *body_in(const scene *s, const frame *f, int32_t *status) {
         m[k].young *= f->stress;
         m[k].density *= f->density;
         m[k].fracture_energy *= f->stress * f->length;
+        m[k].strength *= f->stress;
+        m[k].cohesion *= f->stress;
+        m[k].rate /= time_factor(f);
+        m[k].delay *= time_factor(f);
     }
     for (int k = 0; k < s->materials; ++k) ids[k] = (int32_t)MUST(b, peri_add_material(b, &m[k]));
     if (s->interfaced) MUST(b, peri_set_interface(b, ids[0], ids[1], &m[MATERIALS]));

@@ -4,6 +4,7 @@
 #ifndef RESTART_SCENE_H
 #define RESTART_SCENE_H
 
+#include "criterion.h"
 #include "scene.h"
 #include "specimen.h"
 
@@ -49,7 +50,8 @@ static inline peri_body *scene_make(const scene *at) {
     s.material.density = 0.7;
     s.material.criterion = at->criterion;
     if (at->criterion == PERI_CRITERION_STRETCH) s.material.critical_stretch = 0.02;
-    else s.material.fracture_energy = 0.002;
+    else if (at->criterion <= PERI_CRITERION_NODE_ENERGY) s.material.fracture_energy = 0.002;
+    else give_criterion(&s.material, at->criterion, 0.02, s.desc.horizon, 0.3);
     if (at->scattered) s.scatter = 0.4, s.seed = 11;
     peri_body *b = specimen_make(&s);
     memcpy(hi, s.hi, sizeof hi);

@@ -108,7 +108,7 @@ static void critical_energy(void) {
     int32_t space, law, criterion;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
         for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-            for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+            for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
                 kind k = kind_of(space, law, criterion, 0.2);
                 peri_body_desc d = plan(space);
                 peri_material_desc m = stuff(k);
@@ -352,7 +352,7 @@ static void a_pair_breaks_at_its_energy(void) {
     int32_t space, criterion;
     int l, n;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
-        for (criterion = PERI_CRITERION_BOND_ENERGY; criterion < peri__end_criterion; ++criterion)
+        for (criterion = PERI_CRITERION_BOND_ENERGY; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion)
             for (l = 0; l < 5; ++l)
                 for (n = 0; n < 3; ++n) {
                     pair_breaks(space, laws[l], criterion, nus[n], PERI_GEOMETRY_NONLINEAR, 0);
@@ -474,7 +474,7 @@ static void compression_breaks_nothing(void) {
     int32_t space, law, criterion;
     for (space = PERI_SPACE_PLANE_STRAIN; space < peri__end_space; ++space)
         for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-            for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+            for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
                 const int dim = dim_of(space);
                 kind k = kind_of(space, law, criterion, 0.3);
                 double *x;

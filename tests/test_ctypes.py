@@ -39,7 +39,8 @@ class BodyDesc(C.Structure):
 class Material(C.Structure):
     _fields_ = ([("cookie", C.c_uint64), ("law", C.c_int32), ("criterion", C.c_int32)]
                 + [(n, C.c_double) for n in ("young", "bulk", "poisson", "density", "fracture_energy", "critical_stretch",
-                                            "stabilization")])
+                                            "stabilization", "strength", "cohesion", "friction_angle", "compression",
+                                            "rate", "rate_power", "delay")])
 
 
 class Run(C.Structure):

@@ -114,7 +114,7 @@ static tearing small_plate(int32_t law, int32_t criterion) {
 static void fracture_closes(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
             if (law == PERI_LAW_BOND_BASED && criterion != PERI_CRITERION_STRETCH) continue;
             if (!test_long && law > PERI_LAW_LPS && (law + criterion) % 2 == 0) continue; /* LPS has them all */
             closes(small_plate(law, criterion), "");
@@ -143,7 +143,7 @@ static void fracture_closes_otherwise(void) {
 static void fracture_closes_in_3d(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
             tearing how = {{0, 0, 0, 0, 0}, PERI_INTEGRATOR_VELOCITY_VERLET, PERI_BREAK_WITHIN_STEP, 1, 16, 4, 3, 0.012, 4};
             how.what = kind_of(PERI_SPACE_SOLID, law, criterion, 0.2);
             closes(how, "");
@@ -152,7 +152,7 @@ static void fracture_closes_in_3d(void) {
 static void fracture_closes_on_a_large_plate(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
             tearing how = small_plate(law, criterion);
             how.nx = 40;
             how.ny = 20;
@@ -314,7 +314,7 @@ static void torn_twice(int32_t law, int32_t criterion) {
 static void reset_clone_and_both_ends(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion)
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion)
             if (is_played(law, criterion)) torn_twice(law, criterion);
 }
 
@@ -361,7 +361,7 @@ static void same_bits_on_any_threads(void) {
 static void same_bits_on_any_threads_long(void) {
     int32_t law, criterion, precision;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion)
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion)
             for (precision = PERI_PRECISION_DOUBLE; precision <= PERI_PRECISION_SINGLE; ++precision)
                 threads_do_not_matter(law, criterion, precision);
 }
@@ -370,7 +370,7 @@ static void same_bits_on_any_threads_long(void) {
 static void textbook_kernels_agree(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
             if (!is_played(law, criterion)) continue;
             kind k = kind_of(PERI_SPACE_PLANE_STRAIN, law, criterion, 0.3);
             peri_body_desc d = plan(k.space);
@@ -400,7 +400,7 @@ static void textbook_kernels_agree(void) {
 static void no_fail_holds(void) {
     int32_t law, criterion;
     for (law = PERI_LAW_LPS; law < peri__end_law; ++law)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
             if (!is_played(law, criterion)) continue;
             tearing how = small_plate(law, criterion);
             peri_body_desc d = plan(how.what.space);

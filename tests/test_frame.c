@@ -387,7 +387,7 @@ static void turned_breaks(void) {
     uint64_t seed = 21;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; space += 2)
         for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
-            for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+            for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
                 const int dim = dim_of(space);
                 double moved[2][3 * MOST], read[3 * MOST], speed[3 * MOST];
                 int64_t broken[2];

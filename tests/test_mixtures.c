@@ -98,7 +98,7 @@ static void every_pair_of_laws(void) {
 }
 
 static void every_criterion(void) {
-    for (int32_t criterion = PERI_CRITERION_BOND_ENERGY; criterion < peri__end_criterion; ++criterion)
+    for (int32_t criterion = PERI_CRITERION_BOND_ENERGY; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion)
         for (int32_t space = PERI_SPACE_PLANE_STRAIN; space <= PERI_SPACE_SOLID; ++space)
             for (int32_t law = PERI_LAW_LPS; law < peri__end_law; ++law) {
                 const mixture alone = {space, PERI_PRECISION_DOUBLE, {law, law}, criterion};

@@ -189,9 +189,9 @@ static void defaults(void) {
     REQUIRED(PERI_ERROR_RANGE, "hi", peri_choose(&c, &d, &m, &choice, &seen));
 }
 
-/* README.md: "four laws, three failure criteria", "15 influence functions or yours; five quadratures". */
+/* README.md: "four laws, nine failure criteria", "15 influence functions or yours; five quadratures". */
 static void choices_are_counted(void) {
-    CHECK(peri__count_law == 4 && peri__count_criterion == 3 && peri__count_influence == 15 + 1 && peri__count_quadrature == 5);
+    CHECK(peri__count_law == 4 && peri__count_criterion == 9 && peri__count_influence == 15 + 1 && peri__count_quadrature == 5);
     CHECK(peri__count_space == 3 && peri__count_precision == 3 && peri__count_geometry == 2 && peri__count_integrator == 2);
 }
 

@@ -44,7 +44,7 @@ static void stretch_once(peri_body *b, double stretch) {
    pressed together, too. */
 static void broken_bonds_stay_broken(void) {
     for (int32_t law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
-        for (int32_t criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) {
+        for (int32_t criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) {
             specimen s = plate_of(law, 8, 6);
             if (law == PERI_LAW_BOND_BASED && criterion != PERI_CRITERION_STRETCH) continue;
             s.material.criterion = criterion;

@@ -140,7 +140,7 @@ static void meets(int32_t space, int32_t criterion) {
 static void criteria_are_met_where_they_should(void) {
     int32_t space, criterion;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
-        for (criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion) meets(space, criterion);
+        for (criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion) meets(space, criterion);
 }
 
 /* ---- a notched strip ---------------------------------------------------------------------------------------------- */

@@ -171,7 +171,7 @@ static void energy_of_points(void) {
 /* All laws and criteria at 3 and 5 spacings, and what steeper weights make of them. No bars but that G0 is met to a factor of two. */
 static void table(void) {
     for (int32_t law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
-        for (int32_t criterion = PERI_CRITERION_STRETCH; criterion < peri__end_criterion; ++criterion)
+        for (int32_t criterion = PERI_CRITERION_STRETCH; criterion <= PERI_CRITERION_NODE_ENERGY; ++criterion)
             for (int k = 0; k < 8; ++k) {
                 const int ordinary = law == PERI_LAW_LPS || law == PERI_LAW_OTERKUS;
                 strip s = {PERI_SPACE_PLANE_STRESS, law, criterion, k & 1 ? PERI_MOMENTS_WHOLE : PERI_MOMENTS_LIVE,

@@ -391,9 +391,9 @@ struct solve_desc : peri_solve_desc {
     /* Default NULL After each iteration of the linear solver, with the residual over its scale. > 0 stops there,
        short of the equilibrium. (iteration, residual) */
     std::function<int32_t(int64_t, double)> on_iteration;
-    /* at each equilibrium. Default NULL Every frame_steps steps and at the end of a run; at each equilibrium of
-       peri_solve. > 0 stops. It may also cut, select, set no-fail zones and contact, add or remove loads and
-       obstacles. (body) */
+    /* at each equilibrium, also after it cut. Default NULL Every frame_steps steps and at the end of a run; at
+       each equilibrium of peri_solve. > 0 stops. It may also cut, select, set no-fail zones and contact, add or
+       remove loads and obstacles. (body) */
     std::function<int32_t(body &)> on_step;
 };
 

@@ -213,6 +213,18 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_CRITERION_BOND_ENERGY = 1102
     ! state-based: mean energy of both ends > w0 [T] 1.102
     integer(c_int32_t), parameter :: PERI_CRITERION_NODE_ENERGY = 1103
+    ! tension along the bond > strength
+    integer(c_int32_t), parameter :: PERI_CRITERION_PRINCIPAL_STRESS = 1104
+    ! von Mises's > strength; shortened bonds, too
+    integer(c_int32_t), parameter :: PERI_CRITERION_VON_MISES = 1105
+    ! shear > cohesion - tan(friction_angle) normal
+    integer(c_int32_t), parameter :: PERI_CRITERION_MOHR_COULOMB = 1106
+    ! s > s0 - compression * least s at either end
+    integer(c_int32_t), parameter :: PERI_CRITERION_CONFINED_STRETCH = 1107
+    ! s > s0 (1 + (ds/dt / rate)^rate_power)
+    integer(c_int32_t), parameter :: PERI_CRITERION_RATE_STRETCH = 1108
+    ! s > s0 for `delay` in all
+    integer(c_int32_t), parameter :: PERI_CRITERION_DELAYED_STRETCH = 1109
 
     ! straight
     integer(c_int32_t), parameter :: PERI_SOFTENING_BILINEAR = 2901
@@ -497,6 +509,20 @@ module peri_c
         real(c_double) :: critical_stretch = 0
         ! [-] >= 0, correspondence: against zero-energy modes. Default 0.2
         real(c_double) :: stabilization = 0
+        ! [M L^-1 T^-2] > 0 of the criteria of stress; Mohr-Coulomb: or 0
+        real(c_double) :: strength = 0
+        ! [M L^-1 T^-2] > 0 of Mohr-Coulomb
+        real(c_double) :: cohesion = 0
+        ! [-] [0, pi/2) likewise
+        real(c_double) :: friction_angle = 0
+        ! [-] 0..1e3
+        real(c_double) :: compression = 0
+        ! [T^-1] > 0
+        real(c_double) :: rate = 0
+        ! [-] 0..10. 0 (default): 1
+        real(c_double) :: rate_power = 0
+        ! [T] > 0
+        real(c_double) :: delay = 0
     end type
 
     type, bind(c) :: peri_softening_desc
@@ -743,7 +769,7 @@ module peri_c
         integer(c_int64_t) :: curve_rows = 0
         ! c_funloc of a peri_iteration_fn. Default NULL
         type(c_funptr) :: on_iteration = c_null_funptr
-        ! c_funloc of a peri_frame_fn. at each equilibrium. Default NULL
+        ! c_funloc of a peri_frame_fn. at each equilibrium, also after it cut. Default NULL
         type(c_funptr) :: on_step = c_null_funptr
         ! for both
         type(c_ptr) :: user = c_null_ptr

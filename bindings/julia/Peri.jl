@@ -110,6 +110,12 @@ const LAW_CORRESPONDENCE = Int32(1004) # T = w P K^-1 xi, stabilised [C] 18-21
 const CRITERION_STRETCH = Int32(1101) # s > s0 [T] 1.40, 1.41
 const CRITERION_BOND_ENERGY = Int32(1102) # state-based: work on the bond > w0 [T] 1.100
 const CRITERION_NODE_ENERGY = Int32(1103) # state-based: mean energy of both ends > w0 [T] 1.102
+const CRITERION_PRINCIPAL_STRESS = Int32(1104) # tension along the bond > strength
+const CRITERION_VON_MISES = Int32(1105) # von Mises's > strength; shortened bonds, too
+const CRITERION_MOHR_COULOMB = Int32(1106) # shear > cohesion - tan(friction_angle) normal
+const CRITERION_CONFINED_STRETCH = Int32(1107) # s > s0 - compression * least s at either end
+const CRITERION_RATE_STRETCH = Int32(1108) # s > s0 (1 + (ds/dt / rate)^rate_power)
+const CRITERION_DELAYED_STRETCH = Int32(1109) # s > s0 for `delay` in all
 const SOFTENING_BILINEAR = Int32(2901) # straight
 const SOFTENING_TRILINEAR = Int32(2902) # kinked at 1/4 of the strength: concrete
 const SOFTENING_EXPONENTIAL = Int32(2903) # cut off at 1/100 of the strength
@@ -256,6 +262,13 @@ mutable struct peri_material_desc
     fracture_energy::Float64 # G0 [M T^-2] > 0, per area of crack. 0 (default) = not given
     critical_stretch::Float64 # s0 [-] > 0. 0 (default) = from G0; with neither, no bond breaks
     stabilization::Float64 # [-] >= 0, correspondence: against zero-energy modes. Default 0.2
+    strength::Float64 # [M L^-1 T^-2] > 0 of the criteria of stress; Mohr-Coulomb: or 0
+    cohesion::Float64 # [M L^-1 T^-2] > 0 of Mohr-Coulomb
+    friction_angle::Float64 # [-] [0, pi/2) likewise
+    compression::Float64 # [-] 0..1e3
+    rate::Float64 # [T^-1] > 0
+    rate_power::Float64 # [-] 0..10. 0 (default): 1
+    delay::Float64 # [T] > 0
     peri_material_desc() = new()
 end
 
@@ -412,7 +425,7 @@ mutable struct peri_solve_desc
     curve::Ptr{Float64} # [curve_rows][2 + 2*dim]: load factor, mean displacement [L], peri_get_reaction, broken bonds
     curve_rows::Int64 # rows that fit; more are counted in the report
     on_iteration::Ptr{Cvoid} # Default NULL
-    on_step::Ptr{Cvoid} # at each equilibrium. Default NULL
+    on_step::Ptr{Cvoid} # at each equilibrium, also after it cut. Default NULL
     user::Ptr{Cvoid} # for both
     peri_solve_desc() = new()
 end

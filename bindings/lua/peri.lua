@@ -90,6 +90,13 @@ typedef struct peri_material_desc {
     double fracture_energy;
     double critical_stretch;
     double stabilization;
+    double strength;
+    double cohesion;
+    double friction_angle;
+    double compression;
+    double rate;
+    double rate_power;
+    double delay;
 } peri_material_desc;
 typedef struct peri_softening_desc {
     uint64_t cookie;
@@ -554,6 +561,12 @@ local peri = {
     CRITERION_STRETCH = 1101, -- s > s0 [T] 1.40, 1.41
     CRITERION_BOND_ENERGY = 1102, -- state-based: work on the bond > w0 [T] 1.100
     CRITERION_NODE_ENERGY = 1103, -- state-based: mean energy of both ends > w0 [T] 1.102
+    CRITERION_PRINCIPAL_STRESS = 1104, -- tension along the bond > strength
+    CRITERION_VON_MISES = 1105, -- von Mises's > strength; shortened bonds, too
+    CRITERION_MOHR_COULOMB = 1106, -- shear > cohesion - tan(friction_angle) normal
+    CRITERION_CONFINED_STRETCH = 1107, -- s > s0 - compression * least s at either end
+    CRITERION_RATE_STRETCH = 1108, -- s > s0 (1 + (ds/dt / rate)^rate_power)
+    CRITERION_DELAYED_STRETCH = 1109, -- s > s0 for `delay` in all
     SOFTENING_BILINEAR = 2901, -- straight
     SOFTENING_TRILINEAR = 2902, -- kinked at 1/4 of the strength: concrete
     SOFTENING_EXPONENTIAL = 2903, -- cut off at 1/100 of the strength
@@ -767,7 +780,7 @@ function peri.body_desc()
 end
 
 -- peri_material_desc, filled with the defaults: law, criterion, young, bulk, poisson, density, fracture_energy, critical_stretch,
--- stabilization.
+-- stabilization, strength, cohesion, friction_angle, compression, rate, rate_power, delay.
 function peri.material_desc(law)
     local raw = ffi.new("peri_material_desc[1]")
     C.peri_material_desc_init(raw, law)

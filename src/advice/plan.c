@@ -73,6 +73,7 @@ static int32_t peri__lay_out_estimate(peri__estimate *s) {
     int32_t status = peri__fill_units(b, m);
     if (status == PERI_OK) status = peri__constants(b, material, m->stress, m->length, s->cloud.edge, &s->pair);
     m->breakable = peri__is_breakable(&s->pair);
+    m->criteria = peri__criteria_of(&s->pair);
     return status;
 }
 

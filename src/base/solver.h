@@ -55,6 +55,7 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int32_t             energy_done; /* 1: the linear solve was ended by energy_tolerance                                */
     int32_t             begun;    /* 1: the body has been changed                                                        */
     int32_t             disturbed; /* 1: on_step has changed what acts, or the bonds                                      */
+    int32_t             cut;      /* 1: on_step has cut bonds, whose equilibrium is another                               */
     peri_error          failure;  /* why the last step ended: the body's record only where it is not halved               */
     int64_t             left;     /* iterations that may still be taken for this equilibrium                             */
     int64_t             broken_before; /* report.broken when this load step began                                         */

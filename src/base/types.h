@@ -73,6 +73,7 @@
 #define PERI_BLOCK 64          /* points per task; totals are summed block by block, whatever the threads                */
 #define PERI_GROUP 16          /* points per group of the stencil; component planes are padded to a multiple of it       */
 #define PERI_MATERIAL_LIMIT 120 /* a point's class is material + (no-fail ? materials : 0), in 8 bits                    */
+#define PERI_ALIGNED 2         /* criteria that look at planes                                                           */
 #define PERI_NEVER 1e30        /* critical stretch of bonds that do not break; finite, so that 0*PERI_NEVER is 0         */
 
 /* Lists that belong to an enum are macros LIST(X), which call X(name, number, ...) for each entry. An entry that the enum has and the
@@ -116,25 +117,6 @@ typedef struct peri__setup {
     int64_t      ibond_entries;
     int32_t      ibond_width;
 } peri__setup;
-
-typedef enum peri__seen { /* how passes on vectors see that a bond may be over a criterion; rows decide                   */
-    PERI__BY_STRETCH = 0,     /* its stretch nears the limit: nothing need be kept                                        */
-    PERI__BY_WORK = 1,        /* the work done on it does: bodies keep that of every bond                                 */
-    PERI__BY_NODE_ENERGY = 2, /* the energy of its ends does: bodies keep that of every point over the volume of its family */
-    PERI__BY_ROWS = 4         /* not at all: every bond is looked at by rows                                              */
-} peri__seen;
-
-typedef struct peri__pair { /* constants of the bonds between two materials, in inner units                               */
-    double c; /* of the end whose row this is; the same from both where both laws are pairwise                           */
-    double limit[peri__count_criterion]; /* by criterion; PERI_NEVER where neither material has it                       */
-    double s0; /* the least limit of those seen by stretch: over it a bond breaks                                        */
-} peri__pair;
-
-typedef enum peri__gather { /* what a point makes of its family before forces can be had                                  */
-    PERI__NO_GATHER = 0,
-    PERI__DILATATION = 1,
-    PERI__GRADIENT = 2
-} peri__gather;
 
 typedef struct peri__law { /* the elasticity of a material, inner units                                                   */
     int32_t kind;              /* peri_law                                                                               */
@@ -239,6 +221,7 @@ typedef struct peri__model {
     int32_t    gauge;    /* of laws that do not                                                                          */
     int32_t    gathers;  /* bits of peri__gather: what some law in use asks for                                          */
     int32_t    seen_by;   /* bits of peri__seen: how criteria in use are seen                                            */
+    uint32_t   criteria;  /* bits of the criteria of which some pair has a limit                                         */
     peri__law  laws[PERI_MATERIAL_LIMIT];
     double     rho[PERI_MATERIAL_LIMIT];
     int32_t    breakable; /* 1 where some pair has a finite s0                                                           */
@@ -337,6 +320,12 @@ typedef struct peri__operands {
     double            *history; /* [entries][bond_states] of laws of bonds                                               */
     int32_t            keeping, secant; /* 1: that is brought up to date; 2: and bonds break by their laws. 1: the tangent is of springs
                                            as soft as bonds are by now: never negative                                   */
+    double            *stress;  /* [points][dim*dim], see peri_body; NULL, like the next, where nobody asks              */
+    const double      *nearness; /* [points] the most that a bond of the point can have of a criterion of stress, over its limit */
+    double             nearness_most;
+    const double      *aligned; /* [points][PERI_ALIGNED], see peri_body                                                 */
+    double            *least;   /* [points] least stretch of the live bonds                                              */
+    double            *past;    /* [bonds] how long a bond has been over its limit                                       */
     int32_t            linear;  /* the geometry                                                                          */
     int32_t            working; /* the work on bonds is counted                                                          */
     int32_t            breaking; /* bonds may break                                                                      */
@@ -349,12 +338,6 @@ typedef struct peri__operands {
     void              *q;       /* real [dim][stride]: the change that the tangent makes of the force density            */
     void              *change;  /* as response: of p and Q                                                               */
 } peri__operands;
-
-typedef struct peri__parting { /* how a bond breaks within a step: PERI_FN(part)                                         */
-    double met;    /* the extension at which it breaks, over that at the end of the step                                 */
-    double moment; /* when, as a part of the step                                                                        */
-    double share;  /* what it still gives, over the force at the end of the step times half a step                       */
-} peri__parting;
 
 typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                        */
     peri_body  *body;
@@ -443,6 +426,8 @@ struct peri__ops { /* kernels of one precision, dimension and instruction set; a
     void (*fill_responses)(void *, int64_t, int64_t, peri__sums *); /* p; before force                                   */
     void (*gather)(void *, int64_t, int64_t, peri__sums *);  /* what each point makes of its family, then                */
     void (*gather_rows)(void *, int64_t, int64_t, peri__sums *);
+    void (*gather_shapes)(void *, int64_t, int64_t, peri__sums *); /* the sum of w eta xi V, to ->stress                 */
+    void (*gather_least)(void *, int64_t, int64_t, peri__sums *);  /* to ->least                                         */
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
     void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign, double time);
     peri__parting (*part)(const peri__operands *, int64_t i, const peri__row *row, int64_t k);
@@ -518,6 +503,15 @@ struct peri_body {
     peri__fragment *fragments; /* [points], of which there are now.fragments                                             */
     double   *history;       /* [entries][bond_states] what laws of bonds keep, both ends the same; NULL without          */
     double   *node;          /* [points] 2 W/volume of the family; NULL without that criterion                           */
+    double   *stress;        /* [points][dim*dim] of points, for criteria: xx yy xy zz, or xx yy zz xy yz xz and 3 of no use; first
+                                the sum of w eta xi V that it is made of. NULL, like the next four, without such a criterion */
+    double   *nearness;      /* [points] see peri__operands                                                              */
+    double   *aligned;       /* [points][PERI_ALIGNED] how much more the worst plane has than that of the best bond of the family: of
+                                principal stress, of Mohr-Coulomb                                                        */
+    double   *inverse;       /* [points][packed + 1] K^-1 of the live family, and 1 where that spans the space           */
+    uint32_t *inverse_alive; /* [points][words] alive when that was made; none at first                                  */
+    double   *least;         /* [points] least stretch of the live bonds; NULL without a criterion that asks             */
+    double   *past;          /* how long bonds have been over their limit, by peri__bond_slot; NULL likewise             */
     int64_t   side_count;    /* pairs i < j of adjacent points, see sides.c; 0 unless they are recorded                 */
     int64_t  *side_start;    /* [points+1] pairs of the points before; NULL, like the next, unless recorded              */
     int32_t  *side;          /* [side_count] bond of the row of i                                                        */

@@ -49,7 +49,7 @@ typedef struct peri__array {
     peri__purpose purpose;
     peri__role    role;
 } peri__array;
-#define PERI_ARRAYS 38       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 45       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
 #define PERI_MODEL_ARRAYS 21 /* with all others                                                                           */
 
@@ -153,6 +153,14 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(bond_strength, bonds, sizeof(float), 0, PERI__DAMAGE, PERI__FIELD),
         PERI_ARRAY_(stiffness, m->stride + 2 * m->margin, bond, 0, PERI__LAWS, PERI__FIELD),
         PERI_ARRAY_(density, n, sizeof(double), 0, PERI__POINTS, PERI__FIELD),
+        PERI_ARRAY_(stress, n * m->dim * m->dim, sizeof(double), (m->seen_by & PERI__BY_STRESS) != 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(nearness, n, sizeof(double), (m->seen_by & PERI__BY_STRESS) != 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(aligned, n * PERI_ALIGNED, sizeof(double), (m->seen_by & PERI__BY_STRESS) != 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(inverse, n * (PERI_PACKED(m->dim) + 1), sizeof(double), (m->seen_by & PERI__BY_STRESS) != 0, PERI__DAMAGE,
+                    PERI__SCRATCH),
+        PERI_ARRAY_(inverse_alive, flags, sizeof(uint32_t), (m->seen_by & PERI__BY_STRESS) != 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(least, n, sizeof(double), (m->seen_by & PERI__AND_LEAST) != 0, PERI__DAMAGE, PERI__SCRATCH),
+        PERI_ARRAY_(past, bonds, sizeof(double), (m->seen_by & PERI__AND_PAST) != 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side_time, b->side_count, sizeof(double), 0, PERI__DAMAGE, PERI__HISTORY),

@@ -206,6 +206,7 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
             status = peri__pair_constants(b, i, j, m->stress, m->length, 0.5 * m->spacing / m->horizon, own, pair);
             if (status < 0) return status;
             if (peri__is_breakable(pair)) m->breakable = 1;
+            m->criteria |= peri__criteria_of(pair);
         }
     return PERI_OK;
 }
@@ -247,7 +248,8 @@ static int64_t peri__stride(int64_t points) { return ((points + PERI_GROUP - 1) 
 static void peri__fit_model(const peri_body *b, peri__model *m) {
     m->margin = (m->stencil.reach + 2 * PERI_GROUP - 1) / PERI_GROUP * PERI_GROUP;
     m->words = (m->width + 31) / 32;
-    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed && !m->seen_by)
+    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed
+        && !(m->seen_by & ~(PERI__BY_STRESS | PERI__AND_MORE | PERI__AND_LEAST | PERI__AND_PAST)))
         m->record_reals = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
 }
 

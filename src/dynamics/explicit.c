@@ -111,6 +111,7 @@ static int peri__forces_and_breaks(peri_body *b, peri__operands *operands) {
     operands->breaking = b->alive != NULL && m->breakable;
     operands->working = m->seen_by & PERI__BY_WORK;
     operands->keeping = b->model->law_of ? 2 : 0;
+    if (operands->breaking) peri__note_stresses(b, operands);
     peri__bond_forces(b, operands);
     if (!operands->breaking) return 0;
     const peri__sums total = peri__total(b->sums, m->points);

@@ -154,7 +154,8 @@ static const PERI_FN(vector_ops) PERI_FN(vectors)[] = {
 #endif
 
 PERI_SHARED const peri__ops PERI_FN(ops) = {
-    PERI_FN(fill_records), PERI_FN(fill_responses), PERI_FN(gather_block), PERI_FN(gather_rows), PERI_FN(force_block),
+    PERI_FN(fill_records), PERI_FN(fill_responses), PERI_FN(gather_block), PERI_FN(gather_rows), PERI_FN(gather_shapes),
+    PERI_FN(gather_least), PERI_FN(force_block),
     PERI_FN(add_point_forces),
     PERI_FN(part_of),
     PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic),

@@ -4,6 +4,11 @@
 
 #define PERI_BY_VECTORS(model, name) PERI_FN(vectors)[(model)->stencil.isa].name
 
+/* Can a bond of point i be over a criterion of stress? A measure of the mean of two stresses is at most the mean of theirs. */
+PERI_INLINE int PERI_FN(near_stress)(const peri__operands *o, int64_t i) {
+    return o->breaking && o->nearness && 0.5 * (o->nearness[i] + o->nearness_most) > 1.0 - 1e-6;
+}
+
 /* ---- the list ------------------------------------------------------------------------------------------------------ */
 
 /* Records of list.inl. */
@@ -68,7 +73,8 @@ static void PERI_FN(force_list)(const peri__operands *o, int64_t begin, int64_t 
         int by_row;
         PERI_FN(fetch_ahead)(o, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = PERI_MUTUAL(m) ? 0 : force[d * m->stride];
-        if (o->fields && !tensors) by_row = PERI_BY_VECTORS(m, list_fielded)(o, k, f);
+        if (PERI_FN(near_stress)(o, i)) by_row = 1;
+        else if (o->fields && !tensors) by_row = PERI_BY_VECTORS(m, list_fielded)(o, k, f);
         else if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
         else if (!tensors) by_row = PERI_BY_VECTORS(m, list_ordinary)(o, k, f);
         else by_row = o->central[i / PERI_GROUP] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
@@ -119,9 +125,11 @@ static uint32_t PERI_FN(near_node_energy)(const peri__operands *o, int64_t g) {
 static uint32_t PERI_FN(group_force)(const peri__operands *o, int64_t g, peri_r f[PERI_D][PERI_GROUP]) {
     const peri__model *m = o->model;
     if (m->seen_by & PERI__BY_ROWS && o->breaking) return 0xFFFFu;
-    if (m->pairwise && !o->fields) return PERI_BY_VECTORS(m, pairwise)(o, g, f);
     uint32_t rows = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
+    for (int l = 0; o->nearness && l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l)
+        rows |= (uint32_t)PERI_FN(near_stress)(o, g * PERI_GROUP + l) << l;
     if (o->fields) return rows | PERI_BY_VECTORS(m, fielded)(o, g, f);
+    if (m->pairwise) return rows | PERI_BY_VECTORS(m, pairwise)(o, g, f);
     if (m->stencil.ends) return rows | PERI_BY_VECTORS(m, mixed)(o, g, f);
     if (!(m->gathers & PERI__GRADIENT)) return rows | PERI_BY_VECTORS(m, ordinary)(o, g, f);
     return o->central[g] ? 0xFFFFu : rows | PERI_BY_VECTORS(m, tensor)(o, g, f);
@@ -160,6 +168,27 @@ static void PERI_FN(force_columns)(const peri__operands *o, int64_t g, peri__sum
         return;
     }
     PERI_FN(finish_by_rows)(o, g, by_row, f, sums);
+}
+
+/* The sums of w eta xi V, for criteria of stress. */
+static void PERI_FN(gather_shapes)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__operands *o = (const peri__operands *)context;
+    const peri__model *m = o->model;
+    (void)sums;
+    if (!m->stencil.columns) {
+        PERI_FN(shape_rows)(o, begin, end);
+        return;
+    }
+    for (int64_t g = begin / PERI_GROUP; g * PERI_GROUP < end; ++g) {
+        peri_r shape[PERI_D][PERI_D][PERI_GROUP];
+        PERI_BY_VECTORS(m, shape)(o, g, shape);
+        for (int64_t i = g * PERI_GROUP; i < peri__min((g + 1) * PERI_GROUP, m->points); ++i) {
+            const peri_r portion = PERI_FN(portion)(m, i);
+            for (int a = 0; a < PERI_D; ++a)
+                for (int d = 0; d < PERI_D; ++d)
+                    o->stress[(i * PERI_D + a) * PERI_D + d] = (double)(portion * shape[a][d][i - g * PERI_GROUP]);
+        }
+    }
 }
 
 /* Energy densities of group g, without gradients. */

@@ -101,6 +101,22 @@ static int PERI_FN(is_over_for_other)(const peri__operands *s, int64_t i, int64_
     return bond.along > s0 * bond.length * bond.reach;
 }
 
+/* What the mean stress of the ends puts on the plane that the bond is normal to. */
+PERI_INLINE peri__traction PERI_FN(traction)(const peri__operands *s, int64_t i, int64_t j, const PERI_FN(bond) *bond) {
+    double y[PERI_D];
+    for (int d = 0; d < PERI_D; ++d) y[d] = (double)bond->y[d];
+    return peri__traction_of(PERI_D, s->stress + i * PERI_D * PERI_D, s->stress + j * PERI_D * PERI_D, y);
+}
+
+/* The rate of stretch. */
+PERI_INLINE double PERI_FN(stretching)(const peri__operands *s, int64_t i, int64_t j, const PERI_FN(bond) *bond) {
+    const int64_t stride = s->model->stride;
+    const peri_r *v = (const peri_r *)s->v;
+    double rate = 0.0;
+    for (int d = 0; d < PERI_D; ++d) rate += (double)bond->y[d] * ((double)v[d * stride + j] - (double)v[d * stride + i]);
+    return rate / ((double)bond->now * (double)bond->length + DBL_MIN);
+}
+
 #define PERI_CRITERION_ROLE_OVER
 #include "../laws/criteria.inl"
 #undef PERI_CRITERION_ROLE_OVER
@@ -108,9 +124,10 @@ static int PERI_FN(is_over_for_other)(const peri__operands *s, int64_t i, int64_
 /* Does bond k of row i meet a criterion? `plain`: all are seen by stretch, and there are no centroids. */
 PERI_INLINE int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                  const int plain) {
+    const uint32_t used = s->model->criteria;
     int over = 0;
     if (plain) return bond->along > (peri_b)PERI_FN(pair)(s, i, row->ids[k])->s0 * bond->length * bond->reach;
-#define PERI_CASE(name, number) over |= PERI_FN(over_##name)(s, i, row, k, bond);
+#define PERI_CASE(name, number) if (used >> ((number) - peri__first_criterion) & 1) over |= PERI_FN(over_##name)(s, i, row, k, bond);
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
     return over;
@@ -129,6 +146,7 @@ PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, cons
     const peri_r *v = (const peri_r *)s->v;
     const double length = (double)bond->length, now = (double)bond->along / (double)bond->reach;
     double along = 0.0, square = 0.0, met = 1.0;
+    const peri__parting middle = { 1.0, 0.5, 0.0 };
     peri__parting parting = { 1.0, 1.0, 0.0 };
     if (!s->closing) return parting;
     for (int d = 0; d < PERI_D; ++d) {
@@ -138,7 +156,7 @@ PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, cons
         square += (xi + eta) * (xi + eta);
     }
 #define PERI_CASE(name, number)                                             \
-    {                                                                       \
+    if (s->model->criteria >> ((number) - peri__first_criterion) & 1) {     \
         const double at = PERI_FN(met_##name)(s, i, row, k, bond);          \
         if (at < met) met = at;                                             \
     }
@@ -146,7 +164,9 @@ PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, cons
 #undef PERI_CASE
     const double eigen = length * (double)PERI_FN(mean_eigenstrain)(s, i, j);
     const double before = along / (s->linear ? length : sqrt(square) + length) - eigen, q = before / now;
-    double t = now > before ? (met * now - before) / (now - before) : 0.5;
+    /* the stress of a bond need not go with its extension: where that did not grow from zero, the middle of the step */
+    if (s->stress && !(q >= 0.0 && q < 1.0)) return middle;
+    double t = now > before || s->stress ? (met * now - before) / (now - before) : 0.5;
     if (!(t > 0.0)) t = 0.0;
     parting.met = q + t * (1.0 - q);
     parting.moment = t;
@@ -443,6 +463,37 @@ static void PERI_FN(row_shape)(const peri__operands *s, int64_t i, const peri__r
             for (int d = 0; d < PERI_D; ++d) n[a][d] += weight * eta[a] * xi[d];
     }
     PERI_FN(share_out)(s->model, i, n);
+}
+
+/* Points [begin, end), for criteria of stress. */
+static void PERI_FN(shape_rows)(const peri__operands *s, int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) {
+        peri__row row;
+        peri_r n[PERI_D][PERI_D];
+        peri__row_of(s->model, i, &row);
+        PERI_FN(row_shape)(s, i, &row, n);
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) s->stress[(i * PERI_D + a) * PERI_D + d] = (double)n[a][d];
+    }
+}
+
+/* The least stretch of the live bonds of a point; 0 where there are none. */
+static void PERI_FN(gather_least)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__operands *s = (const peri__operands *)context;
+    (void)sums;
+    for (int64_t i = begin; i < end; ++i) {
+        peri__row row;
+        double least = HUGE_VAL;
+        peri__row_of(s->model, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            PERI_FN(bond) bond;
+            if (!PERI_FN(is_live)(s, i, k)) continue;
+            PERI_FN(deform)(s, i, &row, k, &bond);
+            const double stretch = (double)bond.along / ((double)bond.reach * (double)bond.length);
+            if (stretch < least) least = stretch;
+        }
+        s->least[i] = least < HUGE_VAL ? least : 0.0;
+    }
 }
 
 PERI_INLINE peri_b PERI_FN(inverse)(const peri__operands *s, int64_t i, int c, int d) {

@@ -10,6 +10,7 @@
 
 #include "src/base/compiler.h"
 #include "src/base/enums.h"
+#include "src/base/pairs.h"
 #include "src/base/types.h"
 #include "src/base/bond_laws.h"
 #include "src/base/inline.h"

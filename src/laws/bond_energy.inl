@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* bond_energy.inl - a bond breaks when the work done on it passes w0 V V ([T] 1.100). */
 #ifdef PERI_CRITERION_ROLE_TRAITS
-enum { PERI__SEEN_bond_energy = PERI__BY_WORK };
+enum { PERI__SEEN_bond_energy = PERI__BY_WORK, PERI__SHORT_bond_energy = 0 };
 #endif
 
 #ifdef PERI_CRITERION_ROLE_LIMIT
 /* w0 such that all bonds across a unit of area take G0: in 3D G0 = w0 int_0^h dz int_z^h 2 pi r^2 (1 - z/r) dr = w0 pi h^4/4. */
 static double peri__limit_bond_energy(const peri__fracture *g) {
+    if (!(g->energy > 0.0)) return PERI_NEVER;
     return peri__critical_energy(g->material, g->space, g->horizon) / g->unit;
 }
 #endif

@@ -121,12 +121,15 @@ typedef struct peri__fracture { /* what limits follow from                      
     int32_t space;
     double  horizon; /* inner units                                                                                      */
     double  unit;    /* of energy per area                                                                               */
+    double  stress;  /* of stress                                                                                        */
     double  energy;  /* G0, inner units                                                                                  */
     double  c;       /* of a pairwise law with the same central bonds                                                    */
     double  moment;  /* of the influence function: I4 in 3D, I3 in the plane, see peri__constants                        */
     double  across;  /* spacings to the horizon                                                                          */
     int32_t live;    /* 1: bonds that are left take over what broken ones carried                                        */
 } peri__fracture;
+
+static double peri__limit_of_stress(const peri__fracture *g, double limit) { return limit > 0.0 ? limit / g->stress : PERI_NEVER; }
 
 #define PERI_CRITERION_ROLE_LIMIT
 #include "criteria.inl"
@@ -156,13 +159,25 @@ static int32_t peri__seen_by(int32_t criterion) {
     }
 }
 
-static void peri__set_stretch(peri__pair *pair) {
-    pair->s0 = PERI_NEVER;
+static int peri__is_by_stretch(int32_t seen) {
+    return !(seen & (PERI__BY_WORK | PERI__BY_NODE_ENERGY | PERI__BY_ROWS | PERI__BY_STRESS));
+}
+
+/* The least critical stretch of any kind. */
+static double peri__least_critical(const peri__pair *pair) {
+    double least = PERI_NEVER;
 #define PERI_CASE(name, number)                                                                                        \
-    if ((int)PERI__SEEN_##name == (int)PERI__BY_STRETCH && pair->limit[(number) - peri__first_criterion] < pair->s0)   \
-        pair->s0 = pair->limit[(number) - peri__first_criterion];
+    if (peri__is_by_stretch(PERI__SEEN_##name) && pair->limit[(number) - peri__first_criterion] < least)               \
+        least = pair->limit[(number) - peri__first_criterion];
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
+    return least;
+}
+
+/* s + a least > s0 is met by no s below s0/(1 + a). */
+static void peri__set_stretch(peri__pair *pair) {
+    const double least = peri__least_critical(pair);
+    pair->s0 = least < PERI_NEVER ? least / (1.0 + pair->compression) : PERI_NEVER;
 }
 
 /* Can bonds of this pair break? */
@@ -170,6 +185,45 @@ static int peri__is_breakable(const peri__pair *pair) {
     int breakable = 0;
     for (int32_t k = 0; k < peri__count_criterion; ++k) breakable |= pair->limit[k] < PERI_NEVER;
     return breakable;
+}
+
+static uint32_t peri__criteria_of(const peri__pair *pair) {
+    uint32_t criteria = 0;
+    for (int32_t k = 0; k < peri__count_criterion; ++k) criteria |= (uint32_t)(pair->limit[k] < PERI_NEVER) << k;
+    return criteria;
+}
+
+/* What criteria ask of a material: fields that none but theirs may have, and those that they cannot do without. */
+static int32_t peri__check_criterion(peri_body *b, const peri_material_desc *m) {
+    const int32_t seen = peri__seen_by(m->criterion), mohr = m->criterion == PERI_CRITERION_MOHR_COULOMB;
+    const int by_energy = (seen & (PERI__BY_WORK | PERI__BY_NODE_ENERGY)) != 0, by_stress = (seen & PERI__BY_STRESS) != 0;
+    const int rated = m->criterion == PERI_CRITERION_RATE_STRETCH, delayed = m->criterion == PERI_CRITERION_DELAYED_STRETCH;
+    const int confined = m->criterion == PERI_CRITERION_CONFINED_STRETCH, limited = m->fracture_energy > 0.0 || m->critical_stretch > 0.0;
+    const struct {
+        const char *name;
+        double      value, end; /* below `end`                                                                            */
+        int         taken, needed;
+    } field[] = {
+        { "strength", m->strength, HUGE_VAL, by_stress, by_stress && !mohr },
+        { "cohesion", m->cohesion, HUGE_VAL, mohr, mohr },
+        { "friction_angle", m->friction_angle, 0.5 * PERI_PI, mohr, 0 },
+        { "compression", m->compression, 1e3, confined, 0 },
+        { "rate", m->rate, HUGE_VAL, rated, rated },
+        { "rate_power", m->rate_power, 10.0, rated, 0 },
+        { "delay", m->delay, HUGE_VAL, delayed, delayed },
+        { "fracture_energy", m->fracture_energy, HUGE_VAL, !by_stress, by_energy },
+        { "critical_stretch", m->critical_stretch, HUGE_VAL, !by_stress, (confined || rated || delayed) && !limited },
+    };
+    for (size_t k = 0; k < sizeof field / sizeof *field; ++k)
+        if (!(field[k].value >= 0.0 && field[k].value < field[k].end))
+            return peri__fail(b, PERI_ERROR_RANGE, field[k].name, -1, field[k].value);
+    if (by_energy && peri__is_pairwise(m->law)) return peri__fail(b, PERI_ERROR_CRITERION, "criterion", -1, m->criterion);
+    for (size_t k = 0; k < sizeof field / sizeof *field; ++k)
+        if ((field[k].value > 0.0 && !field[k].taken) || (field[k].value <= 0.0 && field[k].needed))
+            return peri__fail(b, PERI_ERROR_CRITERION, field[k].name, -1, m->criterion);
+    if (seen != PERI__BY_STRETCH && peri__is_planar(b->desc.quadrature))
+        return peri__fail(b, PERI_ERROR_CRITERION, "quadrature", -1, b->desc.quadrature);
+    return PERI_OK;
 }
 
 /* What only some laws can have. */
@@ -180,8 +234,8 @@ static int32_t peri__check_law(peri_body *b, const peri_material_desc *m) {
     PERI_NEED_NUMBER(b, m->stabilization >= 0.0, m->stabilization);
     if (!peri__has_gradient(m->law) && m->stabilization != 0.0)
         return peri__fail(b, PERI_ERROR_LAW, "stabilization", -1, m->stabilization);
-    if (m->criterion != PERI_CRITERION_STRETCH && (bonds || !(m->fracture_energy > 0.0)))
-        return peri__fail(b, PERI_ERROR_CRITERION, bonds ? "criterion" : "fracture_energy", -1, m->criterion);
+    const int32_t status = peri__check_criterion(b, m);
+    if (status < 0) return status;
     if (!bonds && peri__is_planar(b->desc.quadrature))
         return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     if (!bonds) PERI_NEED_NUMBER(b, m->poisson > -1.0 && m->poisson < 0.5, m->poisson);
@@ -269,7 +323,7 @@ static int32_t peri__constants(peri_body *b, const peri_material_desc *m, double
                                peri__pair *pair) {
     int32_t space = b->desc.space, states = m->law != PERI_LAW_BOND_BASED;
     /* the limits of energies need no c */
-    int solid = space == PERI_SPACE_SOLID, stretch = !(peri__seen_by(m->criterion) & (PERI__BY_WORK | PERI__BY_NODE_ENERGY));
+    int solid = space == PERI_SPACE_SOLID, stretch = peri__is_by_stretch(peri__seen_by(m->criterion));
     double h = b->desc.horizon / length, modulus = peri__young(m, space) / stress, ic = 1.0, is = 1.0;
     for (int32_t k = 0; k < peri__count_criterion; ++k) pair->limit[k] = PERI_NEVER;
     pair->c = 0.0;
@@ -284,15 +338,36 @@ static int32_t peri__constants(peri_body *b, const peri_material_desc *m, double
             pair->c = (space == PERI_SPACE_PLANE_STRAIN ? 3.2 : 3.0) * modulus / (PERI_PI * ic * h * h * h);
         }
     }
-    const peri__fracture fracture = { m, space, h, stress * length, m->fracture_energy / (stress * length), pair->c, is,
+    const peri__fracture fracture = { m, space, h, stress * length, stress, m->fracture_energy / (stress * length), pair->c, is,
                                       edge > 0.0 ? 0.5 / edge : 0.0, peri__takes_over(b, m) };
-    if (m->fracture_energy > 0.0) pair->limit[m->criterion - peri__first_criterion] = peri__limit_of(&fracture);
-    if (m->critical_stretch > 0.0) pair->limit[PERI_CRITERION_STRETCH - peri__first_criterion] = m->critical_stretch;
+    pair->limit[m->criterion - peri__first_criterion] = peri__limit_of(&fracture);
+    if (m->criterion == PERI_CRITERION_MOHR_COULOMB)
+        pair->limit[PERI_CRITERION_PRINCIPAL_STRESS - peri__first_criterion] = peri__limit_principal_stress(&fracture);
+    pair->friction = tan(m->friction_angle);
+    pair->compression = m->compression;
+    pair->rate = m->rate;
+    pair->power = m->rate_power > 0.0 ? m->rate_power : 1.0;
+    pair->delay = m->delay;
     peri__set_stretch(pair);
     return PERI_OK;
 }
 
 static double peri__lower(double a, double b) { return a < b ? a : b; }
+
+/* What goes with a limit is that of the material with the lower one; of equal ones what breaks first. */
+static void peri__take_lower(const peri__pair *p, const peri__pair *q, peri__pair *pair) {
+#define PERI_LIMIT_(of, name) (of)->limit[PERI_CRITERION_##name - peri__first_criterion]
+#define PERI_TAKE_(name, member, first)                                                                                \
+    if (PERI_LIMIT_(q, name) < PERI_LIMIT_(p, name) || (PERI_LIMIT_(q, name) == PERI_LIMIT_(p, name) && (first)))      \
+        pair->member = q->member;
+    PERI_TAKE_(MOHR_COULOMB, friction, q->friction < p->friction)
+    PERI_TAKE_(CONFINED_STRETCH, compression, q->compression < p->compression)
+    PERI_TAKE_(RATE_STRETCH, power, q->rate > p->rate)
+    PERI_TAKE_(RATE_STRETCH, rate, q->rate > p->rate)
+    PERI_TAKE_(DELAYED_STRETCH, delay, q->delay < p->delay)
+#undef PERI_TAKE_
+#undef PERI_LIMIT_
+}
 
 /* The same for the bonds between materials i and j, c as of the end i; own: of each material by itself. */
 static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double stress, double length, double edge,
@@ -308,6 +383,7 @@ static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double s
     }
     *pair = *p;
     for (int32_t k = 0; k < peri__count_criterion; ++k) pair->limit[k] = peri__lower(p->limit[k], q->limit[k]);
+    peri__take_lower(p, q, pair);
     peri__set_stretch(pair);
     if (i != j && b->materials[i].law == PERI_LAW_BOND_BASED && b->materials[j].law == PERI_LAW_BOND_BASED)
         pair->c = 2.0 * p->c * q->c / (p->c + q->c);
@@ -339,7 +415,7 @@ PERI_API int32_t peri_get_bond_constants(peri_body *b, int32_t first, int32_t se
     const double unit = stress / length / length / length / (solid ? length : b->desc.thickness), micromodulus = pair.c * unit;
     if (c && !(micromodulus >= DBL_MIN && peri__finite(micromodulus))) return peri__fail(b, PERI_ERROR_RANGE, "c", -1, micromodulus);
     if (c) *c = micromodulus;
-    const double stretch = pair.limit[PERI_CRITERION_STRETCH - peri__first_criterion];
+    const double stretch = peri__least_critical(&pair);
     if (s0) *s0 = stretch < PERI_NEVER ? stretch : HUGE_VAL;
     return PERI_OK;
 }
@@ -356,8 +432,9 @@ PERI_API int32_t peri_get_critical_energy(peri_body *b, int32_t material, double
         PERI_NEED_BUILT(b);
         critical /= peri__node_share(b->desc.space, b->model->horizon / b->model->spacing, peri__takes_over(b, m));
     }
-    if (m->criterion != PERI_CRITERION_STRETCH && !(critical >= DBL_MIN && peri__finite(critical)))
+    const int by_energy = (peri__seen_by(m->criterion) & (PERI__BY_WORK | PERI__BY_NODE_ENERGY)) != 0;
+    if (by_energy && !(critical >= DBL_MIN && peri__finite(critical)))
         return peri__fail(b, PERI_ERROR_RANGE, "w0", -1, critical);
-    *w0 = m->criterion == PERI_CRITERION_STRETCH ? HUGE_VAL : critical;
+    *w0 = by_energy ? critical : HUGE_VAL;
     return PERI_OK;
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* node_energy.inl - a bond breaks when the mean energy of its ends, 2 W over the volume of the family, passes w0 ([T] 1.102). */
 #ifdef PERI_CRITERION_ROLE_TRAITS
-enum { PERI__SEEN_node_energy = PERI__BY_NODE_ENERGY };
+enum { PERI__SEEN_node_energy = PERI__BY_NODE_ENERGY, PERI__SHORT_node_energy = 0 };
 #endif
 
 #ifdef PERI_CRITERION_ROLE_LIMIT
 static double peri__limit_node_energy(const peri__fracture *g) {
+    if (!(g->energy > 0.0)) return PERI_NEVER;
     return peri__critical_energy(g->material, g->space, g->horizon) / g->unit / peri__node_share(g->space, g->across, g->live);
 }
 #endif

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* stretch.inl - a bond breaks beyond its critical stretch ([T] 1.39, [P] C.20). */
 #ifdef PERI_CRITERION_ROLE_TRAITS
-enum { PERI__SEEN_stretch = PERI__BY_STRETCH };
+enum { PERI__SEEN_stretch = PERI__BY_STRETCH, PERI__SHORT_stretch = 0 };
 #endif
 
 #ifdef PERI_CRITERION_ROLE_LIMIT
 /* s0^2 = 2 G0/(pi c I4 h^5) in 3D, G0/(c I3 h^4) in the plane: the bonds across a unit of area then take G0. */
 static double peri__limit_stretch(const peri__fracture *g) {
     const double h = g->horizon;
+    if (g->material->critical_stretch > 0.0) return g->material->critical_stretch;
+    if (!(g->energy > 0.0)) return PERI_NEVER;
     return sqrt(g->space == PERI_SPACE_SOLID ? 2.0 * g->energy / (PERI_PI * g->c * g->moment * h * h * h * h * h)
                                        : g->energy / (g->c * g->moment * h * h * h * h));
 }

@@ -74,9 +74,10 @@ static uint64_t peri__hash_numbers(uint64_t h, const double *a, int count) {
 }
 
 static uint64_t peri__hash_material(uint64_t h, const peri_material_desc *d) {
-    const double numbers[9] = { d->law, d->criterion, d->young, d->bulk, d->poisson, d->density, d->fracture_energy, d->critical_stretch,
-                                d->stabilization };
-    return peri__hash_numbers(h, numbers, 9);
+    const double numbers[16] = { d->law, d->criterion, d->young, d->bulk, d->poisson, d->density, d->fracture_energy, d->critical_stretch,
+                                 d->stabilization, d->strength, d->cohesion, d->friction_angle, d->compression, d->rate, d->rate_power,
+                                 d->delay };
+    return peri__hash_numbers(h, numbers, 16);
 }
 
 static uint64_t peri__hash_materials(const peri_body *b) {

@@ -12,19 +12,19 @@
 #undef PERI_CRITERION_ROLE_EXCESS
 
 /* By how much the criterion of bond k of row i is passed, as a ratio that goes with the load factor: stretch over its limit, or the root of
-   an energy over its limit; 0 where the bond is not longer than at rest. */
+   an energy over its limit; 0 where the bond is not longer than at rest, unless shortened ones break, too. */
 static double peri__excess(const peri_body *b, const peri__row *row, int64_t i, int64_t k) {
     const int64_t j = row->ids[k];
-    const peri__pair *pair = b->point_class ? &b->pairs[b->point_class[i] * b->classes + b->point_class[j]] : b->pairs;
+    const peri__pair *pair = peri__pair_at(b, i, j);
+    const int longer = peri__elastic_stretch(b, i, row, k) > 0.0;
     double excess = 0.0;
-    if (!(peri__elastic_stretch(b, i, row, k) > 0.0)) return 0.0;
     const double strength = peri__strength_of(b, i, row, k);
 #define PERI_CASE(name, number)                                                                                        \
-    if (pair->limit[(number) - peri__first_criterion] < PERI_NEVER) {                                                  \
-        const int by_stretch = (int)PERI__SEEN_##name == PERI__BY_STRETCH;                                             \
-        const double limit = pair->limit[(number) - peri__first_criterion] * (by_stretch ? strength : peri__square(strength)); \
+    if (pair->limit[(number) - peri__first_criterion] < PERI_NEVER && (longer || PERI__SHORT_##name)) {                \
+        const int by_energy = ((int)PERI__SEEN_##name & (PERI__BY_WORK | PERI__BY_NODE_ENERGY)) != 0;                  \
+        const double limit = pair->limit[(number) - peri__first_criterion] * (by_energy ? peri__square(strength) : strength); \
         const double passed = peri__excess_##name(b, i, row, k, limit);                                                \
-        excess = fmax(excess, by_stretch ? passed : sqrt(passed));                                                     \
+        excess = fmax(excess, by_energy ? sqrt(passed) : passed);                                                      \
     }
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE
@@ -49,6 +49,7 @@ static void peri__excess_block(void *context, int64_t begin, int64_t end, peri__
 static double peri__most_excess(peri_body *b) {
     const peri__model *m = b->model;
     double most = 0.0;
+    peri__note_stresses(b, NULL);
     peri__for_points(b, m->points, 2 * m->width, peri__excess_block, b, b->sums);
     for (int64_t k = 0; k < m->blocks; ++k) most = fmax(most, b->sums[k].a);
     return most;
@@ -88,6 +89,7 @@ static int64_t peri__break_static(peri__solver *s, double most, double limit) {
     const double least = s->settings->criticality * most * (1.0 - PERI_EQUAL(b));
     const uint32_t stale = b->now.stale;
     int64_t count = 0, losing = 0;
+    peri__note_stresses(b, NULL);
     if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;

@@ -180,6 +180,20 @@ static int32_t peri__to_next_break(peri__path *path, double *level) {
     return PERI_OK;
 }
 
+/* As peri__show_settled of load steps; until bonds are over their limit for those that on_step has cut. */
+static int32_t peri__show_first(peri__path *path, double *level) {
+    peri__solver *s = path->s;
+    int32_t status = peri__show_step(s, 0);
+    for (int64_t rounds = 0; status == PERI_OK && s->cut; ++rounds) {
+        if (rounds >= s->settings->breaks) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
+        status = peri__find_anew(path);
+        if (status == PERI_OK && peri__may_break(s)) *level = peri__level(s);
+        if (status != PERI_OK || *level > 1.0) break;
+        status = peri__show_step(s, 1);
+    }
+    return status;
+}
+
 /* Up to the first factor of the load steps at which a bond is over its limit, in *level. The rate is that of the last step. */
 static int32_t peri__to_first(peri__path *path, double *level) {
     peri__solver *s = path->s;
@@ -201,8 +215,9 @@ static int32_t peri__to_first(peri__path *path, double *level) {
         *level = peri__may_break(s) ? peri__level(s) : 0.0;
         if (*level > 1.0) break;
         peri__settle(path, &b->now.ledger.damping);
-        status = peri__show_step(s);
+        status = peri__show_first(path, level);
         if (status == PERI_OK) status = peri__heed_callbacks(b);
+        if (*level > 1.0) break;
     }
     return status;
 }
@@ -234,7 +249,7 @@ static int32_t peri__follow(peri__solver *s) {
     if (status != PERI_OK || !(level > 1.0)) return status;
     for (status = peri__to_next_break(&path, &level); status == PERI_OK; status = peri__to_next_break(&path, &level)) {
         peri__settle(&path, &b->now.ledger.fracture);
-        status = peri__show_step(s);
+        status = peri__show_step(s, 0);
         if (status == PERI_OK) status = peri__heed_callbacks(b);
         const int changed = (b->now.stale & PERI__STALE_BALANCE) != 0;
         if (status != PERI_OK || (!path.arrested && !changed && b->now.load_factor == path.end && level <= 1.0)) break;

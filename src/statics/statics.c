@@ -93,6 +93,18 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     return status;
 }
 
+/* Reactions and on_step at the equilibrium. Bonds that on_step cuts are answered as those that break: by another equilibrium at the same
+   factor, and on_step again, until it cuts none. */
+static int32_t peri__show_settled(peri__solver *s) {
+    int32_t status = peri__show_step(s, 0);
+    for (int64_t rounds = 0; status == PERI_OK && s->cut; ++rounds) {
+        if (rounds >= s->settings->breaks) return peri__fail_step(s, PERI_ERROR_CONVERGENCE, "breaks", -1, (double)s->report.broken);
+        status = peri__static_step(s, s->body->now.load_factor);
+        if (status == PERI_OK) status = peri__show_step(s, 1);
+    }
+    return status;
+}
+
 /* From one planned load factor to the next, in as many steps as it takes. */
 static int32_t peri__load_step(peri__solver *s, double from, double to) {
     peri_body *b = s->body;
@@ -104,7 +116,7 @@ static int32_t peri__load_step(peri__solver *s, double from, double to) {
         if (s->before) memcpy(s->before, b->u, peri__vector_bytes(b));
         status = peri__static_step(s, next < 1.0 ? from + next * (to - from) : to);
         if (status == PERI_OK) {
-            status = peri__show_step(s);
+            status = peri__show_settled(s);
             if (status == PERI_OK) status = peri__heed_callbacks(b);
             at = next;
             part *= 2.0;

@@ -101,7 +101,8 @@ static int32_t peri__equilibrium(peri__solver *s, peri__afresh afresh) {
     return status;
 }
 
-static int32_t peri__record(peri__solver *s) {
+/* again: 1: in place of the last row, which was of the same factor, before on_step cut bonds. */
+static int32_t peri__record(peri__solver *s, int again) {
     peri_body *b = s->body;
     const peri_solve_desc *st = s->settings;
     const int32_t dim = b->dim;
@@ -110,8 +111,8 @@ static int32_t peri__record(peri__solver *s) {
     if (st->curve_load == 0 || b->loads[curve].kind == PERI__FREE) return PERI_OK;
     int32_t status = peri__read_reaction_of(b, curve, force);
     if (status < 0) return status;
-    if (s->report.curve_rows < st->curve_rows) {
-        double *row = &st->curve[s->report.curve_rows * (2 + 2 * dim)];
+    if (s->report.curve_rows - again < st->curve_rows) {
+        double *row = &st->curve[(s->report.curve_rows - again) * (2 + 2 * dim)];
         const peri__load *load = &b->loads[curve];
         row[0] = b->now.load_factor;
         for (int32_t d = 0; d < dim; ++d) {
@@ -122,21 +123,23 @@ static int32_t peri__record(peri__solver *s) {
         }
         row[1 + 2 * dim] = (double)(b->now.broken / 2);
     }
-    s->report.curve_rows++;
+    s->report.curve_rows += !again;
     return PERI_OK;
 }
 
-/* Reactions, the record and the callback at an equilibrium. */
-static int32_t peri__show_step(peri__solver *s) {
+/* Reactions, the record and the callback at an equilibrium; again: 1: of the same step, after on_step cut bonds. */
+static int32_t peri__show_step(peri__solver *s, int again) {
     peri_body *b = s->body;
-    b->now.steps++;
-    s->report.steps++;
+    const int64_t broken = b->now.broken;
+    b->now.steps += !again;
+    s->report.steps += !again;
+    s->cut = 0;
     s->report.load_factor = b->now.load_factor;
     if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b)); /* the way here has been accounted for */
     for (int64_t l = 0; l < b->load_count; ++l) b->loads[l].stepped = 0;
     int32_t status = peri__meet_supports(b);
     if (status == PERI_OK) b->now.stale &= ~(uint32_t)(PERI__STALE_FORCE | PERI__STALE_BALANCE); /* f is that of the equilibrium */
-    if (status == PERI_OK) status = peri__record(s);
+    if (status == PERI_OK) status = peri__record(s, again);
     if (status == PERI_OK && b->break_said < 0) status = peri__heed_callbacks(b);
     if (status != PERI_OK || !s->settings->on_step) return status;
     const int32_t former = peri__enter(b, PERI__IN_FRAME);
@@ -144,6 +147,7 @@ static int32_t peri__show_step(peri__solver *s) {
     peri__leave(b, former);
     (void)peri__ensure(b, PERI__STALE_LEDGER);
     s->disturbed = b->desc.ledger && b->now.stale & PERI__STALE_BALANCE;
+    s->cut = b->now.broken != broken;
     if (s->disturbed && said >= 0) status = peri__note_forces(s);
     return status < 0 ? status : said;
 }

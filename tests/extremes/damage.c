@@ -361,7 +361,7 @@ static double no_fail_probe(scene *s) {
 static outcome no_fail(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(0.1);
-    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < peri__end_criterion; ++c.criterion) {
+    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion <= PERI_CRITERION_NODE_ENERGY; ++c.criterion) {
         c.except = c.criterion == PERI_CRITERION_BOND_ENERGY ? PERI_LAW_OTERKUS : 0; /* see limits_of */
         each(&o, row, precision, &c, no_fail_probe);
         c.limit = -1e-12;
@@ -407,7 +407,7 @@ static double reset_probe(scene *s) {
 static outcome reset(const extreme *row, int32_t precision) {
     outcome o = {PERI_OK, "", 0};
     setting c = plain(0.03);
-    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion < peri__end_criterion; ++c.criterion) {
+    for (c.criterion = PERI_CRITERION_STRETCH; c.criterion <= PERI_CRITERION_NODE_ENERGY; ++c.criterion) {
         each(&o, row, precision, &c, reset_probe);
         c.limit = -2e-3;
     }

@@ -221,6 +221,18 @@ pub const PERI_CRITERION_STRETCH: i32 = 1101;
 pub const PERI_CRITERION_BOND_ENERGY: i32 = 1102;
 /// state-based: mean energy of both ends \> w0 \[T\] 1.102
 pub const PERI_CRITERION_NODE_ENERGY: i32 = 1103;
+/// tension along the bond \> strength
+pub const PERI_CRITERION_PRINCIPAL_STRESS: i32 = 1104;
+/// von Mises's \> strength; shortened bonds, too
+pub const PERI_CRITERION_VON_MISES: i32 = 1105;
+/// shear \> cohesion - tan(friction\_angle) normal
+pub const PERI_CRITERION_MOHR_COULOMB: i32 = 1106;
+/// s \> s0 - compression \* least s at either end
+pub const PERI_CRITERION_CONFINED_STRETCH: i32 = 1107;
+/// s \> s0 (1 + (ds/dt / rate)^rate\_power)
+pub const PERI_CRITERION_RATE_STRETCH: i32 = 1108;
+/// s \> s0 for \`delay\` in all
+pub const PERI_CRITERION_DELAYED_STRETCH: i32 = 1109;
 
 // peri_softening
 /// straight
@@ -577,6 +589,20 @@ pub struct peri_material_desc {
     pub critical_stretch: f64,
     /// \[-\] \>= 0, correspondence: against zero-energy modes. Default 0.2
     pub stabilization: f64,
+    /// \[M L^-1 T^-2\] \> 0 of the criteria of stress; Mohr-Coulomb: or 0
+    pub strength: f64,
+    /// \[M L^-1 T^-2\] \> 0 of Mohr-Coulomb
+    pub cohesion: f64,
+    /// \[-\] \[0, pi/2) likewise
+    pub friction_angle: f64,
+    /// \[-\] 0..1e3
+    pub compression: f64,
+    /// \[T^-1\] \> 0
+    pub rate: f64,
+    /// \[-\] 0..10. 0 (default): 1
+    pub rate_power: f64,
+    /// \[T\] \> 0
+    pub delay: f64,
 }
 
 #[repr(C)]
@@ -840,7 +866,7 @@ pub struct peri_solve_desc {
     pub curve_rows: i64,
     /// Default NULL
     pub on_iteration: peri_iteration_fn,
-    /// at each equilibrium. Default NULL
+    /// at each equilibrium, also after it cut. Default NULL
     pub on_step: peri_frame_fn,
     /// for both
     pub user: *mut c_void,

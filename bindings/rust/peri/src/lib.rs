@@ -375,6 +375,18 @@ pub const CRITERION_STRETCH: i32 = sys::PERI_CRITERION_STRETCH;
 pub const CRITERION_BOND_ENERGY: i32 = sys::PERI_CRITERION_BOND_ENERGY;
 /// state-based: mean energy of both ends \> w0 \[T\] 1.102
 pub const CRITERION_NODE_ENERGY: i32 = sys::PERI_CRITERION_NODE_ENERGY;
+/// tension along the bond \> strength
+pub const CRITERION_PRINCIPAL_STRESS: i32 = sys::PERI_CRITERION_PRINCIPAL_STRESS;
+/// von Mises's \> strength; shortened bonds, too
+pub const CRITERION_VON_MISES: i32 = sys::PERI_CRITERION_VON_MISES;
+/// shear \> cohesion - tan(friction\_angle) normal
+pub const CRITERION_MOHR_COULOMB: i32 = sys::PERI_CRITERION_MOHR_COULOMB;
+/// s \> s0 - compression \* least s at either end
+pub const CRITERION_CONFINED_STRETCH: i32 = sys::PERI_CRITERION_CONFINED_STRETCH;
+/// s \> s0 (1 + (ds/dt / rate)^rate\_power)
+pub const CRITERION_RATE_STRETCH: i32 = sys::PERI_CRITERION_RATE_STRETCH;
+/// s \> s0 for \`delay\` in all
+pub const CRITERION_DELAYED_STRETCH: i32 = sys::PERI_CRITERION_DELAYED_STRETCH;
 /// straight
 pub const SOFTENING_BILINEAR: i32 = sys::PERI_SOFTENING_BILINEAR;
 /// kinked at 1/4 of the strength: concrete
@@ -685,6 +697,20 @@ pub struct MaterialDesc {
     pub critical_stretch: f64,
     /// \[-\] \>= 0, correspondence: against zero-energy modes. Default 0.2
     pub stabilization: f64,
+    /// \[M L^-1 T^-2\] \> 0 of the criteria of stress; Mohr-Coulomb: or 0
+    pub strength: f64,
+    /// \[M L^-1 T^-2\] \> 0 of Mohr-Coulomb
+    pub cohesion: f64,
+    /// \[-\] \[0, pi/2) likewise
+    pub friction_angle: f64,
+    /// \[-\] 0..1e3
+    pub compression: f64,
+    /// \[T^-1\] \> 0
+    pub rate: f64,
+    /// \[-\] 0..10. 0 (default): 1
+    pub rate_power: f64,
+    /// \[T\] \> 0
+    pub delay: f64,
 }
 
 impl MaterialDesc {
@@ -701,6 +727,13 @@ impl MaterialDesc {
             fracture_energy: raw.fracture_energy,
             critical_stretch: raw.critical_stretch,
             stabilization: raw.stabilization,
+            strength: raw.strength,
+            cohesion: raw.cohesion,
+            friction_angle: raw.friction_angle,
+            compression: raw.compression,
+            rate: raw.rate,
+            rate_power: raw.rate_power,
+            delay: raw.delay,
         }
     }
     fn start(law: i32) -> sys::peri_material_desc {
@@ -722,6 +755,13 @@ impl MaterialDesc {
         raw.fracture_energy = self.fracture_energy;
         raw.critical_stretch = self.critical_stretch;
         raw.stabilization = self.stabilization;
+        raw.strength = self.strength;
+        raw.cohesion = self.cohesion;
+        raw.friction_angle = self.friction_angle;
+        raw.compression = self.compression;
+        raw.rate = self.rate;
+        raw.rate_power = self.rate_power;
+        raw.delay = self.delay;
         raw
     }
     fn take(&mut self, raw: &sys::peri_material_desc) {
@@ -734,6 +774,13 @@ impl MaterialDesc {
         self.fracture_energy = raw.fracture_energy;
         self.critical_stretch = raw.critical_stretch;
         self.stabilization = raw.stabilization;
+        self.strength = raw.strength;
+        self.cohesion = raw.cohesion;
+        self.friction_angle = raw.friction_angle;
+        self.compression = raw.compression;
+        self.rate = raw.rate;
+        self.rate_power = raw.rate_power;
+        self.delay = raw.delay;
     }
 }
 
@@ -1106,7 +1153,7 @@ pub struct SolveDesc<'a> {
     pub curve: &'a mut [f64],
     /// Default NULL (iteration, residual)
     pub on_iteration: Option<&'a mut dyn FnMut(i64, f64) -> i32>,
-    /// at each equilibrium. Default NULL (body)
+    /// at each equilibrium, also after it cut. Default NULL (body)
     pub on_step: Option<&'a mut dyn FnMut(&Body) -> i32>,
 }
 
