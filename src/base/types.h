@@ -325,7 +325,7 @@ typedef struct peri__operands {
     double             nearness_most;
     const double      *aligned; /* [points][PERI_ALIGNED], see peri_body                                                 */
     double            *least;   /* [points] least stretch of the live bonds                                              */
-    double            *past;    /* [bonds] how long a bond has been over its limit                                       */
+    double            *overtime;   /* [bonds] how long a bond has been over its limit                                       */
     int32_t            linear;  /* the geometry                                                                          */
     int32_t            working; /* the work on bonds is counted                                                          */
     int32_t            breaking; /* bonds may break                                                                      */
@@ -511,7 +511,7 @@ struct peri_body {
     double   *inverse;       /* [points][packed + 1] K^-1 of the live family, and 1 where that spans the space           */
     uint32_t *inverse_alive; /* [points][words] alive when that was made; none at first                                  */
     double   *least;         /* [points] least stretch of the live bonds; NULL without a criterion that asks             */
-    double   *past;          /* how long bonds have been over their limit, by peri__bond_slot; NULL likewise             */
+    double   *overtime;      /* how long bonds have been over their limit, by peri__bond_slot; NULL likewise             */
     int64_t   side_count;    /* pairs i < j of adjacent points, see sides.c; 0 unless they are recorded                 */
     int64_t  *side_start;    /* [points+1] pairs of the points before; NULL, like the next, unless recorded              */
     int32_t  *side;          /* [side_count] bond of the row of i                                                        */

@@ -160,7 +160,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
                     PERI__SCRATCH),
         PERI_ARRAY_(inverse_alive, flags, sizeof(uint32_t), (m->seen_by & PERI__BY_STRESS) != 0, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(least, n, sizeof(double), (m->seen_by & PERI__AND_LEAST) != 0, PERI__DAMAGE, PERI__SCRATCH),
-        PERI_ARRAY_(past, bonds, sizeof(double), (m->seen_by & PERI__AND_PAST) != 0, PERI__DAMAGE, PERI__HISTORY),
+        PERI_ARRAY_(overtime, bonds, sizeof(double), (m->seen_by & PERI__AND_PAST) != 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side_time, b->side_count, sizeof(double), 0, PERI__DAMAGE, PERI__HISTORY),

@@ -145,5 +145,5 @@ static void peri__note_stresses(peri_body *b, peri__operands *operands) {
     operands->nearness_most = o.nearness_most;
     operands->aligned = b->aligned;
     operands->least = b->least;
-    operands->past = b->past;
+    operands->overtime = b->overtime;
 }

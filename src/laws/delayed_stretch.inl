@@ -15,11 +15,11 @@ PERI_INLINE int PERI_FN(over_delayed_stretch)(const peri__operands *s, int64_t i
     const peri__pair *pair = PERI_FN(pair)(s, i, row->ids[k]);
     const double s0 = pair->limit[PERI_CRITERION_DELAYED_STRETCH - peri__first_criterion];
     const double over = (double)bond->along / ((double)bond->length * (double)bond->reach) - s0;
-    if (!s->past || !(over > 0.0)) return 0;
+    if (!s->overtime || !(over > 0.0)) return 0;
     const double way = s->step > 0.0 ? s->step * PERI_FN(stretching)(s, i, row->ids[k], bond) : 0.0;
-    double *past = &s->past[peri__bond_slot(s->model, i, row, k)];
-    *past += s->step * s->model->time * (way > over ? over / way : 1.0); /* what of the step it was over */
-    return *past > pair->delay;
+    double *over_for = &s->overtime[peri__bond_slot(s->model, i, row, k)];
+    *over_for += s->step * s->model->time * (way > over ? over / way : 1.0); /* what of the step it was over */
+    return *over_for > pair->delay;
 }
 
 PERI_INLINE double PERI_FN(met_delayed_stretch)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k,
@@ -27,8 +27,8 @@ PERI_INLINE double PERI_FN(met_delayed_stretch)(const peri__operands *s, int64_t
     const peri__pair *pair = PERI_FN(pair)(s, i, row->ids[k]);
     const double s0 = pair->limit[PERI_CRITERION_DELAYED_STRETCH - peri__first_criterion];
     const double stretch = (double)bond->along / ((double)bond->length * (double)bond->reach);
-    if (!s->past || !(s->step > 0.0) || !(stretch > s0)) return 1.0;
-    const double late = s->past[peri__bond_slot(s->model, i, row, k)] - pair->delay;
+    if (!s->overtime || !(s->step > 0.0) || !(stretch > s0)) return 1.0;
+    const double late = s->overtime[peri__bond_slot(s->model, i, row, k)] - pair->delay;
     return 1.0 - late / s->model->time * PERI_FN(stretching)(s, i, row->ids[k], bond) / stretch;
 }
 #endif
