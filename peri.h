@@ -171,6 +171,22 @@ typedef int32_t (*peri_motion_fn)(void *user, double time, double *place, double
    of any length; in the frame of the obstacle */
 typedef int32_t (*peri_distance_fn)(void *user, const double *x, double *distance, double *normal);
 
+/* Points whose stress is asked for; matrices by rows, out: to be written. */
+typedef struct peri_stress_block {
+    int64_t count;
+    const int32_t *points;  /* [count] */
+    const double *gradient; /* [count][dim][dim] H = F - 1 */
+    double time_step;       /* [T] since the history was committed */
+    double *history;        /* [count][history] as committed; out: as it becomes */
+    double *stress;         /* [count][dim][dim] out: P, first Piola-Kirchhoff; linear: Cauchy */
+    double *tangent;        /* [count][dim^2][dim^2] out: dP/dH, symmetric; NULL: not wanted */
+    double *energy;         /* [count] out: stored [M L^-1 T^-2]. 0 */
+    double *dissipation;    /* [count] out: lost in time_step, likewise. 0 */
+} peri_stress_block;
+
+/* Comes on the threads of the body, for several blocks at once; no jump may leave it. */
+typedef int32_t (*peri_stress_fn)(void *user, const peri_stress_block *block);
+
 /* Writes the motion of a rigid support at `time`. > 0: likewise. */
 typedef int32_t (*peri_rigid_fn)(void *user, double time, double *motion);
 
@@ -362,6 +378,9 @@ typedef enum peri_law {
     PERI_LAW_CORRESPONDENCE = 1004 /* T = w P K^-1 xi, stabilised [C] 18-21 */
 } peri_law;
 
+#define PERI_RELAXATIONS 4
+#define PERI_HISTORY     64
+
 /* When a stretched bond breaks; between two materials: when either's criterion is met. */
 typedef enum peri_criterion {
     PERI_CRITERION_STRETCH = 1101,     /* s > s0 [T] 1.40, 1.41 */
@@ -393,6 +412,13 @@ typedef struct peri_material_desc {
     double rate;             /* [T^-1] > 0 */
     double rate_power;       /* [-] 0..10. 0 (default): 1 */
     double delay;            /* [T] > 0 */
+    double yield_shear;      /* LPS: stress in shear at which it flows. 0 (default): never */
+    int32_t relaxations;     /* LPS, viscous: 0..PERI_RELAXATIONS. Default 0 */
+    int32_t history;         /* numbers per point for `stress`, 0..PERI_HISTORY. Default 0 */
+    double relaxation_part[4]; /* (0, 1] of the stiffness in shear, and */
+    double relaxation_time[4]; /* [T] > 0 in which it relaxes */
+    peri_stress_fn stress;   /* correspondence: yours. Default NULL */
+    void *stress_user;
 } peri_material_desc;
 
 PERI_API void peri_material_desc_init(peri_material_desc *desc, int32_t law);
@@ -909,6 +935,7 @@ typedef struct peri_solve_desc {
     double load_from;               /* factor to begin at. NaN (default): peri_load_factor */
     double load_to;                 /* factor at the end. Default 1 */
     int64_t steps;                  /* load steps >= 1. Default 1 */
+    double duration;                /* [T] >= 0 of all steps: what flows, does. Default 0 */
     int64_t halvings;               /* most halvings of a failing step, 0..60. Default 8 */
     double *curve;                  /* [curve_rows][2 + 2*dim]: load factor, mean displacement
                                        [L], peri_get_reaction, broken bonds */

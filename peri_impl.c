@@ -104,9 +104,11 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 
 /* ---- body: what there is, and what may be done to it ----------------------------------- */
 #include "src/body/arrays.c"       /* what a body keeps                                                            */
+#include "src/body/flow.c"         /* inelastic extensions of bonds -> force, energy, tangent                         */
 #include "src/body/body.c"         /* create, build, destroy                                                       */
 #include "src/body/clone.c"        /* copies; counts                                                               */
 #include "src/body/sets.c"         /* selections of points                                                         */
+#include "src/body/own_stress.c"   /* stresses of the caller        -> force, energy, tangent                         */
 #include "src/body/state.c"        /* units; the force of bonds, energies                                          */
 #include "src/body/loads.c"        /* loads and supports            -> force, work                                 */
 #include "src/body/free_bodies.c"  /* places of obstacles, and how free ones move                                  */

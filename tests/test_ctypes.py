@@ -40,7 +40,9 @@ class Material(C.Structure):
     _fields_ = ([("cookie", C.c_uint64), ("law", C.c_int32), ("criterion", C.c_int32)]
                 + [(n, C.c_double) for n in ("young", "bulk", "poisson", "density", "fracture_energy", "critical_stretch",
                                             "stabilization", "strength", "cohesion", "friction_angle", "compression",
-                                            "rate", "rate_power", "delay")])
+                                            "rate", "rate_power", "delay", "yield_shear")]
+                + [("relaxations", C.c_int32), ("history", C.c_int32), ("relaxation_part", C.c_double * 4),
+                   ("relaxation_time", C.c_double * 4), ("stress", C.c_void_p), ("stress_user", C.c_void_p)])
 
 
 class Run(C.Structure):
@@ -54,7 +56,8 @@ class Statics(C.Structure):
                 + [(n, C.c_int32) for n in ("method", "preconditioner", "loose", "fracture", "control", "curve_load")]
                 + [(n, C.c_double) for n in ("criticality", "tolerance", "energy_tolerance")]
                 + [(n, C.c_int64) for n in ("iterations", "newton", "breaks")]
-                + [("load_from", C.c_double), ("load_to", C.c_double), ("steps", C.c_int64), ("halvings", C.c_int64),
+                + [("load_from", C.c_double), ("load_to", C.c_double), ("steps", C.c_int64), ("duration", C.c_double),
+                   ("halvings", C.c_int64),
                    ("curve", C.POINTER(C.c_double)), ("curve_rows", C.c_int64),
                    ("on_iteration", ITERATION), ("on_step", FRAME), ("user", C.c_void_p)])
 

@@ -171,6 +171,8 @@ typedef std::function<int32_t(double, span<double>, span<double>)> motion_fn;
 /* A shape: *distance [L] of x[dim] from its surface, < 0 inside, and there the outward normal[dim], of any
    length; in the frame of the obstacle (x, distance, normal) */
 typedef std::function<int32_t(span<const double>, double &, span<double>)> distance_fn;
+/* Comes on the threads of the body, for several blocks at once; no jump may leave it. (block) */
+typedef std::function<int32_t(const peri_stress_block &)> stress_fn;
 /* Writes the motion of a rigid support at `time`. > 0: likewise. (time, motion) */
 typedef std::function<int32_t(double, span<double>)> rigid_fn;
 /* A bond i < j broke by its criterion at `time` [T] and this stretch [-]. Called after the step, in ascending
@@ -256,6 +258,7 @@ struct read_fn_holder {
     }
 };
 } /* namespace detail */
+typedef peri_stress_block stress_block;
 typedef peri_bond_row bond_row;
 
 /* peri_body_desc, filled with the defaults. */
@@ -302,7 +305,25 @@ struct body_desc_log_user {
 /* peri_material_desc, filled with the defaults. */
 struct material_desc : peri_material_desc {
     explicit material_desc(int32_t law_) : peri_material_desc() { peri_material_desc_init(this, law_); }
+    /* correspondence: yours. Default NULL Comes on the threads of the body, for several blocks at once; no jump
+       may leave it. (block) */
+    std::function<int32_t(const peri_stress_block &)> stress;
 };
+
+namespace detail {
+struct material_desc_stress_user {
+    int dim;
+    std::function<int32_t(const peri_stress_block &)> stress;
+    static int32_t stress_c(void *user_, const peri_stress_block *block_) {
+        material_desc_stress_user &self = *static_cast<material_desc_stress_user *>(user_);
+        return guarded([&]() -> int32_t { return self.stress(*block_); });
+    }
+    static void fill(peri_material_desc &to, material_desc_stress_user *self) {
+        to.stress_user = self;
+        if (self->stress) to.stress = stress_c;
+    }
+};
+} /* namespace detail */
 
 /* peri_softening_desc, filled with the defaults. */
 struct softening_desc : peri_softening_desc {
@@ -583,7 +604,13 @@ public:
     /* ---- materials ---- */
     /* Adds a material, before peri_build; at most 120. Returns its id, or an error. */
     int32_t add_material(const material_desc &desc_) {
-        const int32_t result_ = peri_add_material(handle_, &desc_);
+        peri_material_desc desc_raw = desc_;
+        if (desc_.stress) {
+            std::shared_ptr<detail::material_desc_stress_user> stress_user_context_(new detail::material_desc_stress_user{dimension(), desc_.stress});
+            detail::material_desc_stress_user::fill(desc_raw, stress_user_context_.get());
+            keep_->keep(stress_user_context_);
+        }
+        const int32_t result_ = peri_add_material(handle_, &desc_raw);
         check(result_);
         return result_;
     }
@@ -591,7 +618,13 @@ public:
        that of one of them, not bond-based unless both are. Default: harmonic mean of the micromoduli, the
        criteria of both. */
     int32_t set_interface(int32_t i_, int32_t j_, const material_desc &desc_) {
-        const int32_t result_ = peri_set_interface(handle_, i_, j_, &desc_);
+        peri_material_desc desc_raw = desc_;
+        if (desc_.stress) {
+            std::shared_ptr<detail::material_desc_stress_user> stress_user_context_(new detail::material_desc_stress_user{dimension(), desc_.stress});
+            detail::material_desc_stress_user::fill(desc_raw, stress_user_context_.get());
+            keep_->keep(stress_user_context_);
+        }
+        const int32_t result_ = peri_set_interface(handle_, i_, j_, &desc_raw);
         check(result_);
         return result_;
     }

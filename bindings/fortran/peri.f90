@@ -414,6 +414,27 @@ module peri_c
         type(c_ptr) :: text = c_null_ptr
     end type
 
+    ! Points whose stress is asked for; matrices by rows, out: to be written.
+    type, bind(c) :: peri_stress_block
+        integer(c_int64_t) :: count = 0
+        ! [count]
+        type(c_ptr) :: points = c_null_ptr
+        ! [count][dim][dim] H = F - 1
+        type(c_ptr) :: gradient = c_null_ptr
+        ! [T] since the history was committed
+        real(c_double) :: time_step = 0
+        ! [count][history] as committed; out: as it becomes
+        type(c_ptr) :: history = c_null_ptr
+        ! [count][dim][dim] out: P, first Piola-Kirchhoff; linear: Cauchy
+        type(c_ptr) :: stress = c_null_ptr
+        ! [count][dim^2][dim^2] out: dP/dH, symmetric; NULL: not wanted
+        type(c_ptr) :: tangent = c_null_ptr
+        ! [count] out: stored [M L^-1 T^-2]. 0
+        type(c_ptr) :: energy = c_null_ptr
+        ! [count] out: lost in time_step, likewise. 0
+        type(c_ptr) :: dissipation = c_null_ptr
+    end type
+
     ! Bonds of one point to others[]: arrays of `count`. All that is written is 0 at first.
     type, bind(c) :: peri_bond_row
         integer(c_int32_t) :: point = 0
@@ -523,6 +544,19 @@ module peri_c
         real(c_double) :: rate_power = 0
         ! [T] > 0
         real(c_double) :: delay = 0
+        ! LPS: stress in shear at which it flows. 0 (default): never
+        real(c_double) :: yield_shear = 0
+        ! LPS, viscous: 0..PERI_RELAXATIONS. Default 0
+        integer(c_int32_t) :: relaxations = 0
+        ! numbers per point for `stress`, 0..PERI_HISTORY. Default 0
+        integer(c_int32_t) :: history = 0
+        ! (0, 1] of the stiffness in shear, and
+        real(c_double) :: relaxation_part(4) = 0
+        ! [T] > 0 in which it relaxes
+        real(c_double) :: relaxation_time(4) = 0
+        ! c_funloc of a peri_stress_fn. correspondence: yours. Default NULL
+        type(c_funptr) :: stress = c_null_funptr
+        type(c_ptr) :: stress_user = c_null_ptr
     end type
 
     type, bind(c) :: peri_softening_desc
@@ -761,6 +795,8 @@ module peri_c
         real(c_double) :: load_to = 0
         ! load steps >= 1. Default 1
         integer(c_int64_t) :: steps = 0
+        ! [T] >= 0 of all steps: what flows, does. Default 0
+        real(c_double) :: duration = 0
         ! most halvings of a failing step, 0..60. Default 8
         integer(c_int64_t) :: halvings = 0
         ! [curve_rows][2 + 2*dim]: load factor, mean displacement [L], peri_get_reaction, broken bonds
@@ -1037,6 +1073,14 @@ module peri_c
             real(c_double), intent(in) :: x(*)
             real(c_double), intent(inout) :: distance
             real(c_double), intent(inout) :: normal(*)
+            integer(c_int32_t) :: result_
+        end function
+
+        ! Comes on the threads of the body, for several blocks at once; no jump may leave it.
+        function peri_stress_fn(user, block) bind(c) result(result_)
+            import
+            type(c_ptr), value :: user
+            type(peri_stress_block), intent(in) :: block
             integer(c_int32_t) :: result_
         end function
 

@@ -205,6 +205,21 @@ struct peri_error
 end
 
 """
+Points whose stress is asked for; matrices by rows, out: to be written.
+"""
+struct peri_stress_block
+    count::Int64
+    points::Ptr{Int32} # [count]
+    gradient::Ptr{Float64} # [count][dim][dim] H = F - 1
+    time_step::Float64 # [T] since the history was committed
+    history::Ptr{Float64} # [count][history] as committed; out: as it becomes
+    stress::Ptr{Float64} # [count][dim][dim] out: P, first Piola-Kirchhoff; linear: Cauchy
+    tangent::Ptr{Float64} # [count][dim^2][dim^2] out: dP/dH, symmetric; NULL: not wanted
+    energy::Ptr{Float64} # [count] out: stored [M L^-1 T^-2]. 0
+    dissipation::Ptr{Float64} # [count] out: lost in time_step, likewise. 0
+end
+
+"""
 Bonds of one point to others[]: arrays of `count`. All that is written is 0 at first.
 """
 struct peri_bond_row
@@ -269,6 +284,13 @@ mutable struct peri_material_desc
     rate::Float64 # [T^-1] > 0
     rate_power::Float64 # [-] 0..10. 0 (default): 1
     delay::Float64 # [T] > 0
+    yield_shear::Float64 # LPS: stress in shear at which it flows. 0 (default): never
+    relaxations::Int32 # LPS, viscous: 0..PERI_RELAXATIONS. Default 0
+    history::Int32 # numbers per point for `stress`, 0..PERI_HISTORY. Default 0
+    relaxation_part::NTuple{4,Float64} # (0, 1] of the stiffness in shear, and
+    relaxation_time::NTuple{4,Float64} # [T] > 0 in which it relaxes
+    stress::Ptr{Cvoid} # correspondence: yours. Default NULL
+    stress_user::Ptr{Cvoid}
     peri_material_desc() = new()
 end
 
@@ -421,6 +443,7 @@ mutable struct peri_solve_desc
     load_from::Float64 # factor to begin at. NaN (default): peri_load_factor
     load_to::Float64 # factor at the end. Default 1
     steps::Int64 # load steps >= 1. Default 1
+    duration::Float64 # [T] >= 0 of all steps: what flows, does. Default 0
     halvings::Int64 # most halvings of a failing step, 0..60. Default 8
     curve::Ptr{Float64} # [curve_rows][2 + 2*dim]: load factor, mean displacement [L], peri_get_reaction, broken bonds
     curve_rows::Int64 # rows that fit; more are counted in the report
@@ -680,6 +703,7 @@ function body_desc()
     return Desc(raw)
 end
 
+callbacks(::Type{peri_material_desc}) = (:stress, )
 """peri_material_desc with its defaults."""
 function material_desc(law)
     raw = peri_material_desc()
@@ -820,6 +844,13 @@ function log_fn_log(user::Ptr{Cvoid}, level::Int32, text::Ptr{UInt8})
     return nothing
 end
 pointer_of_log_fn_log() = @cfunction(log_fn_log, Cvoid, (Ptr{Cvoid}, Int32, Ptr{UInt8},))
+
+function stress_fn_stress(user::Ptr{Cvoid}, block::Ptr{peri_stress_block})
+    context = unsafe_pointer_to_objref(user)::Context
+    result = guarded(() -> context.calls[:stress](block))
+    return result
+end
+pointer_of_stress_fn_stress() = @cfunction(stress_fn_stress, Int32, (Ptr{Cvoid}, Ptr{peri_stress_block},))
 
 function distance_fn_distance(user::Ptr{Cvoid}, x::Ptr{Float64}, distance::Ptr{Float64}, normal::Ptr{Float64})
     context = unsafe_pointer_to_objref(user)::Context
@@ -968,7 +999,11 @@ end
 Adds a material, before peri_build; at most 120. Returns its id, or an error.
 """
 function add_material(body::Body, desc::Desc{peri_material_desc})
-    result = GC.@preserve body desc ccall((:peri_add_material, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_material_desc}), body.handle, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
+    context_stress_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
+    setfield!(getfield(desc, :raw), :stress_user, pointer_from_objref(context_stress_user))
+    setfield!(getfield(desc, :raw), :stress, desc.stress === nothing ? C_NULL : pointer_of_stress_fn_stress())
+    push!(body.keep, context_stress_user)
+    result = GC.@preserve body desc context_stress_user ccall((:peri_add_material, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_material_desc}), body.handle, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -978,7 +1013,11 @@ Bonds between i and j break, and of bond-based i and j act, as if of `desc`, bef
 not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
 """
 function set_interface(body::Body, i, j, desc::Desc{peri_material_desc})
-    result = GC.@preserve body desc ccall((:peri_set_interface, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{peri_material_desc}), body.handle, i, j, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
+    context_stress_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
+    setfield!(getfield(desc, :raw), :stress_user, pointer_from_objref(context_stress_user))
+    setfield!(getfield(desc, :raw), :stress, desc.stress === nothing ? C_NULL : pointer_of_stress_fn_stress())
+    push!(body.keep, context_stress_user)
+    result = GC.@preserve body desc context_stress_user ccall((:peri_set_interface, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{peri_material_desc}), body.handle, i, j, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -2129,9 +2168,13 @@ function choose(desc::Desc{peri_choose_desc}, body::Desc{peri_body_desc}, materi
     setfield!(getfield(body, :raw), :log_user, pointer_from_objref(context_log_user))
     setfield!(getfield(body, :raw), :log, body.log === nothing ? C_NULL : pointer_of_log_fn_log())
     push!(keep, context_log_user)
+    context_stress_user = Context(copy(getfield(material, :calls)), nothing, desc.dim)
+    setfield!(getfield(material, :raw), :stress_user, pointer_from_objref(context_stress_user))
+    setfield!(getfield(material, :raw), :stress, material.stress === nothing ? C_NULL : pointer_of_stress_fn_stress())
+    push!(keep, context_stress_user)
     report = Ref{peri_choose_report}()
     record = Ref{peri_error}(blank(0, ""))
-    result = GC.@preserve desc body context_influence_user context_log_user material ccall((:peri_choose, LIB), Int32, (Ptr{peri_choose_desc}, Ptr{peri_body_desc}, Ptr{peri_material_desc}, Ref{peri_choose_report}, Ref{peri_error}), Ptr{peri_choose_desc}(pointer_from_objref(getfield(desc, :raw))), Ptr{peri_body_desc}(pointer_from_objref(getfield(body, :raw))), Ptr{peri_material_desc}(pointer_from_objref(getfield(material, :raw))), report, record)
+    result = GC.@preserve desc body context_influence_user context_log_user material context_stress_user ccall((:peri_choose, LIB), Int32, (Ptr{peri_choose_desc}, Ptr{peri_body_desc}, Ptr{peri_material_desc}, Ref{peri_choose_report}, Ref{peri_error}), Ptr{peri_choose_desc}(pointer_from_objref(getfield(desc, :raw))), Ptr{peri_body_desc}(pointer_from_objref(getfield(body, :raw))), Ptr{peri_material_desc}(pointer_from_objref(getfield(material, :raw))), report, record)
     check(result, record[])
     return report[]
 end

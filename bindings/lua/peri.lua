@@ -23,6 +23,7 @@ typedef int32_t (*peri_pair_fn)(void *user, int32_t i, int32_t j, const double *
 typedef int32_t (*peri_load_fn)(void *user, double time, int64_t count, const int32_t *points, double *value);
 typedef int32_t (*peri_motion_fn)(void *user, double time, double *place, double *turn);
 typedef int32_t (*peri_distance_fn)(void *user, const double *x, double *distance, double *normal);
+typedef int32_t (*peri_stress_fn)(void *user, const peri_stress_block *block);
 typedef int32_t (*peri_rigid_fn)(void *user, double time, double *motion);
 typedef int32_t (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, double stretch);
 typedef int32_t (*peri_bond_law_fn)(void *user, const peri_bond_row *row);
@@ -38,6 +39,17 @@ typedef struct peri_error {
     const char *field;
     const char *text;
 } peri_error;
+typedef struct peri_stress_block {
+    int64_t count;
+    const int32_t *points;
+    const double *gradient;
+    double time_step;
+    double *history;
+    double *stress;
+    double *tangent;
+    double *energy;
+    double *dissipation;
+} peri_stress_block;
 typedef struct peri_bond_row {
     int32_t point;
     int32_t count;
@@ -97,6 +109,13 @@ typedef struct peri_material_desc {
     double rate;
     double rate_power;
     double delay;
+    double yield_shear;
+    int32_t relaxations;
+    int32_t history;
+    double relaxation_part[4];
+    double relaxation_time[4];
+    peri_stress_fn stress;
+    void *stress_user;
 } peri_material_desc;
 typedef struct peri_softening_desc {
     uint64_t cookie;
@@ -221,6 +240,7 @@ typedef struct peri_solve_desc {
     double load_from;
     double load_to;
     int64_t steps;
+    double duration;
     int64_t halvings;
     double *curve;
     int64_t curve_rows;
@@ -780,11 +800,12 @@ function peri.body_desc()
 end
 
 -- peri_material_desc, filled with the defaults: law, criterion, young, bulk, poisson, density, fracture_energy, critical_stretch,
--- stabilization, strength, cohesion, friction_angle, compression, rate, rate_power, delay.
+-- stabilization, strength, cohesion, friction_angle, compression, rate, rate_power, delay, yield_shear, relaxations, history,
+-- relaxation_part, relaxation_time, stress.
 function peri.material_desc(law)
     local raw = ffi.new("peri_material_desc[1]")
     C.peri_material_desc_init(raw, law)
-    return wrap("peri_material_desc", raw, {})
+    return wrap("peri_material_desc", raw, { stress = true })
 end
 
 -- peri_softening_desc, filled with the defaults: shape, unloading, strength, fracture_energy, compression, count, table.
@@ -829,7 +850,8 @@ function peri.evaluate_desc()
 end
 
 -- peri_solve_desc, filled with the defaults: method, preconditioner, loose, fracture, control, curve_load, criticality, tolerance,
--- energy_tolerance, iterations, newton, breaks, load_from, load_to, steps, halvings, curve, curve_rows, on_iteration, on_step.
+-- energy_tolerance, iterations, newton, breaks, load_from, load_to, steps, duration, halvings, curve, curve_rows, on_iteration,
+-- on_step.
 function peri.solve_desc()
     local raw = ffi.new("peri_solve_desc[1]")
     C.peri_solve_desc_init(raw)
@@ -963,18 +985,32 @@ end
 
 -- Adds a material, before peri_build; at most 120. Returns its id, or an error.
 function Body:add_material(desc)
-    local desc_c
-    desc_c = plain(desc, "peri_material_desc")
+    local keep = self.keep
+    local desc_c, desc_f
+    desc_c, desc_f = plain(desc, "peri_material_desc")
+    if desc_f.stress then
+        local call = desc_f.stress
+        keep[#keep + 1] = ffi.cast("peri_stress_fn", guard(function(_, block) return call(block) end))
+        desc_c[0].stress = keep[#keep]
+    end
     local result = C.peri_add_material(self.handle, desc_c)
+    desc_c[0].stress = nil
     return check(result, nil, self.handle)
 end
 
 -- Bonds between i and j break, and of bond-based i and j act, as if of `desc`, before peri_build; its law is that of one of them,
 -- not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
 function Body:set_interface(i, j, desc)
-    local desc_c
-    desc_c = plain(desc, "peri_material_desc")
+    local keep = self.keep
+    local desc_c, desc_f
+    desc_c, desc_f = plain(desc, "peri_material_desc")
+    if desc_f.stress then
+        local call = desc_f.stress
+        keep[#keep + 1] = ffi.cast("peri_stress_fn", guard(function(_, block) return call(block) end))
+        desc_c[0].stress = keep[#keep]
+    end
     local result = C.peri_set_interface(self.handle, i, j, desc_c)
+    desc_c[0].stress = nil
     return check(result, nil, self.handle)
 end
 
@@ -2104,13 +2140,19 @@ function peri.choose(desc, body, material)
         keep[#keep + 1] = ffi.cast("peri_log_fn", function(...) guard(function(_, level, text) return call(level, text(text)) end)(...) end)
         body_c[0].log = keep[#keep]
     end
-    local material_c
-    material_c = plain(material, "peri_material_desc")
+    local material_c, material_f
+    material_c, material_f = plain(material, "peri_material_desc")
+    if material_f.stress then
+        local call = material_f.stress
+        keep[#keep + 1] = ffi.cast("peri_stress_fn", guard(function(_, block) return call(block) end))
+        material_c[0].stress = keep[#keep]
+    end
     local report = ffi.new("peri_choose_report")
     local record = blank(0, "")
     local result = C.peri_choose(desc_c, body_c, material_c, report, record)
     body_c[0].influence_fn = nil
     body_c[0].log = nil
+    material_c[0].stress = nil
     check(result, record)
     return report
 end

@@ -57,6 +57,7 @@ static int32_t peri__lay_out_estimate(peri__estimate *s) {
     m->material = s->material;
     s->volume[0] = s->volume[1] = volume;
     peri__note_law(m, &m->laws[0], material->criterion);
+    peri__note_inelastic(m, 0, material);
     s->corrected = b->desc.correction == PERI_CORRECTION_MOMENT || (m->pairwise && b->desc.correction != PERI_CORRECTION_NONE);
 
     memset(&s->cloud, 0, sizeof s->cloud);
@@ -182,6 +183,7 @@ static void peri__mark_state(peri__estimate *s, void *there) {
     peri_body *b = &s->body;
     peri__array arrays[PERI_ARRAYS];
     b->model = &s->model;
+    s->model.bonds = s->bonds;
     b->u = b->v = b->f = there;
     peri__list_arrays(b, arrays);
     for (int k = 0; k < PERI_ARRAYS; ++k) {

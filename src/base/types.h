@@ -118,6 +118,8 @@ typedef struct peri__setup {
     int32_t      ibond_width;
 } peri__setup;
 
+#include "past.h" /* what inelastic materials keep of their past */
+
 typedef struct peri__law { /* the elasticity of a material, inner units                                                   */
     int32_t kind;              /* peri_law                                                                               */
     int32_t gather, gauge, pairwise; /* what its points gather; g = |xi|^gauge; 1: no constants, c of the pair. See law.h */
@@ -228,6 +230,8 @@ typedef struct peri__model {
     peri__pair *pairs;    /* [materials][materials]                                                                      */
     uint8_t   *law_of;    /* [materials][materials] 1 + which of body->bond_laws bonds follow, 0: none; NULL without such laws, */
     int32_t    bond_states; /* of which bonds keep that many numbers, in body->history                                   */
+    int32_t   inelastic;  /* bits of peri__inelastic: what materials in use are                                          */
+    peri__past_model past;
 } peri__model;
 
 typedef union peri__reals {
@@ -337,6 +341,7 @@ typedef struct peri__operands {
     const void        *p;       /* real [dim][stride]: a change of the displacements                                     */
     void              *q;       /* real [dim][stride]: the change that the tangent makes of the force density            */
     void              *change;  /* as response: of p and Q                                                               */
+    peri__past_pass    past;
 } peri__operands;
 
 typedef struct peri__tangent { /* a change of the displacements, and what the tangent makes of it                        */
@@ -346,6 +351,8 @@ typedef struct peri__tangent { /* a change of the displacements, and what the ta
     void       *change; /* as body->response: that of p and Q; NULL without constants                                    */
     const void *u;      /* real [dim][stride] with margins: the displacement there; NULL, like the next: those of the body */
     void       *response; int32_t secant; /* as body->response: of u; see peri__operands                                  */
+    double     *moduli;   /* of raw points, at u; NULL where there are none                                              */
+    double      step;     /* time since the history that bodies keep                                                     */
 } peri__tangent;
 
 typedef struct peri__krylov { /* vectors of conjugate gradients, real [dim][stride], forces times volumes                 */
@@ -367,59 +374,7 @@ typedef struct peri__fragment { /* connected points: fragments.c                
     int32_t first, points, parent; /* as of peri_fragment                                                                */
 } peri__fragment;
 
-typedef struct peri__ledger { /* inner units of energy; doubles alone                                                     */
-    double external, obstacle, damping, fracture, initial;
-    double before; /* kinetic + elastic before the first unaccounted change, while PERI__STALE_LEDGER                    */
-} peri__ledger;
-
-/* What is derived from the state and no longer belongs to it: see stale.c. Where masks or constants are stale the force is, too. */
-typedef enum peri__stale {
-    PERI__STALE_MASKS = 1,     /* body->masks: bonds have been cut or mended since                                 */
-    PERI__STALE_CONSTANTS = 2, /* body->constant, gather_row_sum, row_sum, largest_row_sum, central: likewise, where laws are state-based */
-    PERI__STALE_FORCE = 4,     /* body->f and all that comes with it: push, response, reactions, places of obstacles     */
-    PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
-    PERI__STALE_BALANCE = 16,  /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
-    PERI__STALE_SHARP = 32,    /* body->sharp: bonds of which it was made have been cut or mended since; or never asked for */
-    PERI__STALE_STRETCH = 64   /* now.stiffer: displacements were changed since, not by a run                            */
-} peri__stale;
-
-/* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. A list, so
-   that no member is missing in a checkpoint:
-     cut, broken  directed bonds
-     time         [T], the caller's unit: a run ends at its duration to the last bit
-     fragments, fragment_dead   how many are known, 0: none; `cut` + `broken` when they were
-     loaded       1: loads have acted, by a solve or a run
-     load_factor  of constant loads and supports; the time of callbacks where `still`
-     still        1: the last motion was a static one
-     torn         1: a run is under way; where no call is, a callback left it by a jump
-     stiffer      what the deformation makes of the square of the highest frequency: stretched.c
-     stale        bits of peri__stale */
-#define PERI_PROGRESS_LIST(X)                                                                                          \
-    X(int64_t, cut)                                                                                                    \
-    X(int64_t, broken)                                                                                                 \
-    X(int64_t, steps)                                                                                                  \
-    X(int64_t, fragments)                                                                                              \
-    X(int64_t, fragment_dead)                                                                                          \
-    X(double, time)                                                                                                    \
-    X(int32_t, loaded)                                                                                                 \
-    X(double, load_factor)                                                                                             \
-    X(int32_t, still)                                                                                                  \
-    X(int32_t, torn)                                                                                                   \
-    X(double, stiffer)                                                                                                 \
-    X(uint32_t, stale)
-#define PERI_PROGRESS_MEMBER_(type, name) type name;
-typedef struct peri__progress {
-    PERI_PROGRESS_LIST(PERI_PROGRESS_MEMBER_)
-    peri__ledger ledger;
-} peri__progress;
-
-/* Who is at work on a body: peri__enter and peri__leave of status.c. */
-typedef enum peri__running {
-    PERI__IDLE,
-    PERI__IN_FRAME,    /* on_frame or on_step: the state stays; bonds and what acts may change                           */
-    PERI__IN_CALLBACK, /* any other callback, or a call that makes some: nothing may change                              */
-    PERI__IN_LOG       /* likewise, and the log is silent                                                                */
-} peri__running;
+#include "progress.h" /* how far a body has come */
 
 struct peri__ops { /* kernels of one precision, dimension and instruction set; all are peri__block_fn, on a peri__operands unless said */
     void (*fill_records)(void *, int64_t, int64_t, peri__sums *);    /* all of a record; before force or gather on the list */
@@ -520,6 +475,7 @@ struct peri_body {
     void     *eigenstrain, *strength, *stiffness; /* bond [stride] with margins: fields of material; NULL, like the next two, where none */
     float *bond_strength; double *density; /* by peri__bond_slot, a factor; [points] rho                                 */
     double    least_strength, row_sum_factor; /* of these, 1 without: a bound of all bonds'; what model->row_sum is times */
+    peri__past past;
     peri__contact *contact;  /* NULL where none is declared                                                              */
     peri__derived derived[peri__count_field]; /* by field                                                                */
 

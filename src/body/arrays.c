@@ -49,7 +49,7 @@ typedef struct peri__array {
     peri__purpose purpose;
     peri__role    role;
 } peri__array;
-#define PERI_ARRAYS 45       /* of a body, taken where a scene has use for them                                           */
+#define PERI_ARRAYS 52       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
 #define PERI_MODEL_ARRAYS 21 /* with all others                                                                           */
 
@@ -118,6 +118,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
     const int64_t n = m->points, vector = m->stride * m->dim, flags = n * m->words, bonds = peri__bond_slots(m);
     const int64_t constants = peri__constant_planes(m);
     const int32_t states = !m->pairwise, breaks = !m->pairwise && m->breakable;
+    const int32_t flows = m->inelastic & PERI__FLOWS;
     const size_t real = peri__real(b), bond = peri__bond_real(b);
 #define PERI_ARRAY_(member, number, bytes, want, purpose, role) { #member, offsetof(peri_body, member), number, bytes, want, purpose, role }
     const peri__array arrays[PERI_ARRAYS] = {
@@ -142,7 +143,8 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE, PERI__SCRATCH),
-        PERI_ARRAY_(closing, vector, real, m->breakable && b->desc.break_timing == PERI_BREAK_WITHIN_STEP, PERI__DAMAGE, PERI__RESTING),
+        PERI_ARRAY_(closing, vector, real, m->breakable && (m->inelastic || b->desc.break_timing == PERI_BREAK_WITHIN_STEP), PERI__DAMAGE,
+                    PERI__RESTING),
         PERI_ARRAY_(work, bonds, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(pull, bonds * m->dim, real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
         PERI_ARRAY_(worked, peri__vector_reals(m), real, (m->seen_by & PERI__BY_WORK) != 0, PERI__DAMAGE, PERI__HISTORY),
@@ -161,6 +163,13 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(inverse_alive, flags, sizeof(uint32_t), (m->seen_by & PERI__BY_STRESS) != 0, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(least, n, sizeof(double), (m->seen_by & PERI__AND_LEAST) != 0, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(overtime, bonds, sizeof(double), (m->seen_by & PERI__AND_PAST) != 0, PERI__DAMAGE, PERI__HISTORY),
+        PERI_ARRAY_(past.start, n + 1, sizeof(int64_t), flows, PERI__LAWS, PERI__SCENE),
+        PERI_ARRAY_(past.mirror, m->bonds, sizeof(int32_t), flows, PERI__LAWS, PERI__SCENE),
+        PERI_ARRAY_(past.flow, m->bonds, sizeof(double), flows, PERI__STATE, PERI__SCRATCH),
+        PERI_ARRAY_(past.change, m->bonds, sizeof(double), flows, PERI__STATE, PERI__SCRATCH),
+        PERI_ARRAY_(past.bond, m->bonds * m->past.bond, sizeof(double), flows, PERI__STATE, PERI__HISTORY),
+        PERI_ARRAY_(past.point, n * m->past.point, sizeof(double), m->past.point > 0, PERI__STATE, PERI__HISTORY),
+        PERI_ARRAY_(past.trial, n * m->past.point, sizeof(double), m->past.point > 0, PERI__STATE, PERI__SCRATCH),
         PERI_ARRAY_(side_start, n + 1, sizeof(int64_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side, b->side_count, sizeof(int32_t), 0, PERI__DAMAGE, PERI__SCENE),
         PERI_ARRAY_(side_time, b->side_count, sizeof(double), 0, PERI__DAMAGE, PERI__HISTORY),

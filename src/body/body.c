@@ -193,6 +193,7 @@ static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
         if (used[i]) status = peri__check_contrast(b, m, i);
         if (status < 0) return status;
         if (used[i]) peri__note_law(m, &m->laws[i], b->materials[i].criterion);
+        if (used[i]) peri__note_inelastic(m, i, &b->materials[i]);
         if (used[i] && peri__is_soft(b, &m->laws[i], 0.5 * m->spacing / m->horizon))
             peri__log(b, 1, "Oterkus: at this Poisson ratio the spring of whole families is held back: shear is softer than asked for");
         status = peri__constants(b, &b->materials[i], m->stress, m->length, 0.5 * m->spacing / m->horizon, &own[i]);
@@ -441,6 +442,7 @@ static int32_t peri__new_state(peri_body *b) {
     b->f = peri__new_vector(b, &b->memory);
     if (!b->u || !b->v || !b->f || (m->breakable && !peri__need_alive(b)) || !peri__need_arrays(b))
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
+    peri__find_mirrors(b);
     int32_t status = peri__update_classes(b);
     if (status < 0 || m->pairwise) return status;
     b->now.stale |= PERI__STALE_CONSTANTS;

@@ -18,6 +18,7 @@ static int32_t peri__begin_run(peri_body *b) {
     b->stop = 0;
     b->break_said = 0;
     b->law_bad = -1;
+    b->past.settling = 0;
     b->now.torn = 1;
     return peri__enter(b, PERI__IN_CALLBACK);
 }

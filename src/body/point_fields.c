@@ -46,11 +46,12 @@ static void *peri__new_point_field(const peri_body *b, double value) {
     return made;
 }
 
-/* Bonds to centroids, those with a law of their own, and criteria of stress, confinement, rate and time know of no fields. */
+/* Bonds to centroids, those with a law of their own, what is inelastic, and criteria of stress, confinement, rate and time know of no fields. */
 static int32_t peri__check_fieldable(peri_body *b) {
     const uint32_t others = PERI__BY_STRESS | PERI__AND_MORE;
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     if ((uint32_t)b->model->seen_by & others) return peri__fail(b, PERI_ERROR_CRITERION, "criterion", -1, 0.0);
+    if (b->model->inelastic) return peri__fail(b, PERI_ERROR_LAW, "law", -1, 0.0);
     return b->model->law_of ? peri__fail(b, PERI_ERROR_LAW, "peri_set_bond_law", -1, 0.0) : PERI_OK;
 }
 

@@ -64,6 +64,7 @@ static int32_t peri__make_force(peri_body *b) {
     if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) {
         operands.working = m->seen_by & PERI__BY_WORK;
+        operands.past.commit = b->past.settling;
         peri__bond_forces(b, &operands);
         status = peri__heed_laws(b);
         if (status == PERI_OK) status = peri__touch_now(b);
@@ -87,6 +88,16 @@ static int32_t peri__ensure(peri_body *b, uint32_t what) {
         b->now.ledger.initial += peri__whole_energy(b) - b->now.ledger.before;
     b->now.stale &= ~what;
     return PERI_OK;
+}
+
+/* Before a run or a solve: what the caller's change of the motion, or of the bonds, makes of inelastic materials, in no time; its energy is
+   put in by the caller. */
+static int32_t peri__settle_past(peri_body *b) {
+    if (!b->model->inelastic || !(b->now.stale & PERI__STALE_FORCE)) return PERI_OK;
+    b->past.settling = 1;
+    const int32_t status = peri__ensure(b, PERI__STALE_FORCE);
+    b->past.settling = 0;
+    return status;
 }
 
 /* For those who read forces: within a step they are those under way. */

@@ -102,14 +102,14 @@ static void peri__note_laws(const peri_body *b) {
     if (bad >= 0 && b->law_bad < 0) ((peri_body *)b)->law_bad = bad;
 }
 
-/* Has a law of bonds failed since this was last asked? */
+/* Has a law of bonds, or a stress of the caller, failed since this was last asked? */
 static int32_t peri__heed_laws(peri_body *b) {
     const int64_t bad = b->law_bad;
     b->law_bad = -1;
-    return bad < 0 ? PERI_OK : peri__fail(b, PERI_ERROR_CALLBACK, "peri_bond_law_fn", bad, 0.0);
+    return bad < 0 ? peri__heed_stress(b) : peri__fail(b, PERI_ERROR_CALLBACK, "peri_bond_law_fn", bad, 0.0);
 }
 
-/* Adds the force of all bonds to step->f, by step->u; b: whose threads do it. */
+/* Adds the elastic force of all bonds to step->f, by step->u, raw points with the stresses of the caller; b: whose threads do it. */
 static void peri__sum_bonds(const peri_body *b, peri__operands *operands, peri__sums *sums) {
     const peri__model *m = b->model;
     if (operands->bond_laws) {
@@ -121,19 +121,43 @@ static void peri__sum_bonds(const peri_body *b, peri__operands *operands, peri__
     if (m->record_reals) peri__for_points(b, m->points, 2, b->ops->fill_records, operands, NULL);
     if (m->gathers || operands->node) {
         peri__for_points(b, m->points, m->width, b->ops->gather, operands, NULL);
+        if (operands->past.raw && operands->p) peri__own_changes(b, operands, operands->response);
+        else if (operands->past.raw) operands->past.taken = peri__own_stresses(b, operands);
         if (m->record_reals) peri__for_points(b, m->points, 1, b->ops->fill_responses, operands, NULL);
     }
     if (operands->node && operands->breaking) operands->node_most = peri__most_node_energy(operands);
     peri__for_points(b, m->points, m->width, b->ops->force, operands, sums);
 }
 
+/* The same with all that is not elastic, a time step->step after the history, which takes it where step->past.commit. */
+static void peri__sum_forces(peri_body *b, peri__operands *operands, peri__sums *sums) {
+    const peri__model *m = b->model;
+    double taken = 0.0;
+    if (m->inelastic & PERI__FLOWS) taken = peri__make_flow(b, operands->u, operands->step, operands->past.commit, NULL).b;
+    operands->past.raw = m->inelastic & PERI__OWN_STRESS ? m->past.raw : NULL;
+    peri__sum_bonds(b, operands, sums);
+    if (m->inelastic & PERI__FLOWS) peri__add_flow(b, operands->u, operands->f);
+    if (operands->past.commit && b->desc.ledger && !b->past.settling) b->now.ledger.damping += taken + operands->past.taken;
+}
+
 /* Adds the force of all bonds to f, by the present displacement, and notes or breaks those that meet their criterion; counts the work on
    them where step->working. */
 static void peri__bond_forces(peri_body *b, peri__operands *operands) {
     const peri__model *m = b->model;
-    peri__sum_bonds(b, operands, b->sums);
+    peri__sum_forces(b, operands, b->sums);
     if (operands->working) memcpy((char *)b->worked + (size_t)m->margin * peri__real(b),
                                   b->u, (size_t)(m->stride * m->dim) * peri__real(b));
+}
+
+/* What inelastic points store over the energy of their elasticity. */
+static double peri__inelastic_energy(peri_body *b, const void *u, double *density) {
+    double energy = 0.0;
+    if (b->model->inelastic & PERI__FLOWS) {
+        energy = peri__make_flow(b, u, 0.0, 0, density).a;
+        if (u != b->u) (void)peri__make_flow(b, b->u, 0.0, 0, NULL);
+    }
+    if (b->model->inelastic & PERI__OWN_STRESS) energy += peri__own_energy(b, u, density);
+    return energy;
 }
 
 /* Energy of the intact bonds under the displacements u, laid out as b->u; per point to density[points] where it is not NULL. */
@@ -146,7 +170,8 @@ static double peri__energy_under(peri_body *b, const void *u, double *density) {
     peri__block_fn energy = operands.bond_laws ? b->ops->law_energy : b->ops->energy;
     peri__for_points(b, b->model->points, 4 * b->model->width, energy, &operands, b->sums);
     if (operands.bond_laws) peri__note_laws(b);
-    return peri__total(b->sums, b->model->points).a;
+    const double elastic = peri__total(b->sums, b->model->points).a;
+    return b->model->inelastic ? elastic + peri__inelastic_energy(b, u, density) : elastic;
 }
 
 static double peri__elastic_energy(peri_body *b, double *density) { return peri__energy_under(b, b->u, density); }

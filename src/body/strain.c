@@ -111,11 +111,30 @@ static void peri__cauchy(const peri_body *b, double p[3][3], const peri__deforma
         for (int c = a; c < dim; ++c) out[peri__packed(dim, a, c)] = 0.5 * (sigma[a][c] + sigma[c][a]);
 }
 
+/* P as the caller has it; NaN where the caller fails. */
+static void peri__own_piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
+    peri__operands operands;
+    const peri__own own = { b, &operands, NULL, NULL, NULL };
+    peri__own_run run;
+    peri__sums sums = { 0.0, 0.0, 0, -1 };
+    memset(&operands, 0, sizeof operands);
+    run.first = i;
+    run.count = 1;
+    for (int a = 0; a < b->dim; ++a) memcpy(&run.gradient[a * b->dim], f->h[a], (size_t)b->dim * sizeof(double));
+    peri__ask_stress(&own, &run, NULL, &sums);
+    for (int a = 0; a < b->dim; ++a)
+        for (int d = 0; d < b->dim; ++d) p[a][d] = sums.bad < 0 ? run.stress[a * b->dim + d] / b->model->stress : (double)NAN;
+}
+
 /* P of the strain where the law has a gradient; of others as Hooke's law has it. */
 static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
     peri__law room;
     const peri__law *law = peri__law_at(b, i, &room);
     double s[3][3], h[3][3];
+    if (b->model->past.raw[b->model->material[i]]) {
+        peri__own_piola(b, i, f, p);
+        return;
+    }
     memcpy(h, f->h, sizeof h);
     peri__elastic_strain_of(b, i, f, s);
     peri__stress(law, b->dim, b->desc.geometry == PERI_GEOMETRY_LINEAR, h, s, p);
@@ -153,6 +172,7 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
         e *= bond;
         for (int d = 0; d < m->dim; ++d) length += peri__square(xi[d] + (linear ? 0.0 : eta[d]));
         length = sqrt(length) + DBL_MIN;
+        if (b->past.flow) e -= b->past.flow[b->past.start[i] + k];
         central = pressure_factor * peri__law_gauge(law, bond) + peri__spring(b, i, row->ids[k], bond) * e;
         for (int d = 0; d < m->dim; ++d) {
             t[d] = central * (xi[d] + (linear ? 0.0 : eta[d])) / length + stabilization * eta[d];
@@ -192,7 +212,8 @@ static void peri__stress_at(const peri_body *b, int64_t i, const peri__row *row,
     peri__deformation f;
     double p[3][3];
     peri__deform(b, i, row, &f);
-    peri__piola(b, i, &f, p);
+    if (b->past.flow && peri__flowing(b, i)) peri__collapsed_stress(b, i, row, &f, p);
+    else peri__piola(b, i, &f, p);
     peri__cauchy(b, p, &f, out);
 }
 
@@ -217,5 +238,6 @@ static void peri__gradients_block(void *context, int64_t begin, int64_t end, per
 static void peri__read_gradients(peri_body *b, peri__point_fn at, int32_t components, double *out) {
     peri__gradients gradients = { b, at, components, out };
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
+    if (b->model->inelastic & PERI__FLOWS) (void)peri__make_flow(b, b->u, 0.0, 0, NULL);
     peri__for_points(b, b->model->points, 8 * b->model->width, peri__gradients_block, &gradients, NULL);
 }

@@ -47,7 +47,7 @@ static void peri__renew_inverse(peri_body *b, int64_t i, double *inverse) {
 }
 
 /* The stress of point i, of the sum of w eta xi V in its place. In plane strain that across the plane is as Hooke's law has it. */
-static void peri__note_stress(peri_body *b, int64_t i) {
+static void peri__note_point_stress(peri_body *b, int64_t i) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int32_t dim = m->dim;
@@ -115,7 +115,7 @@ static void peri__align_block(void *context, int64_t begin, int64_t end, peri__s
 static void peri__stress_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri_body *b = (peri_body *)context;
     for (int64_t i = begin; i < end; ++i) {
-        peri__note_stress(b, i);
+        peri__note_point_stress(b, i);
         b->nearness[i] = peri__nearness_of(b, i);
         sums->a = fmax(sums->a, b->nearness[i]);
     }

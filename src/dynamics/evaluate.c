@@ -191,13 +191,13 @@ static int32_t peri__evaluate_there(peri_body *b, const peri_evaluate_desc *e, c
         operands.f = f;
         if (!m->pairwise) operands.response = (char *)b->change_response + (size_t)m->margin * peri__bond_real(b);
         operands.node = NULL;
-        peri__sum_bonds(b, &operands, NULL);
+        peri__sum_forces(b, &operands, NULL);
         status = peri__heed_laws(b);
         if (status < 0) return status;
     }
     peri__give_array(b, e, f, 1.0, e->force);
     if (report && e->energy) report->energy = peri__energy_under(b, u, NULL) * m->energy;
-    return PERI_OK;
+    return peri__heed_stress(b);
 }
 
 /* ---- the body moves there ------------------------------------------------------------------------------------------- */
@@ -234,7 +234,8 @@ static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, pe
     operands.step = e->time_step / b->model->time;
     if (!(e->time_step > 0.0)) operands.closing = NULL;
     const int broke = peri__forces_and_breaks(b, &operands);
-    const int32_t status = e->external ? peri__touch_now(b) : PERI_OK;
+    int32_t status = peri__heed_stress(b);
+    if (status == PERI_OK && e->external) status = peri__touch_now(b);
     if (b->desc.ledger) b->now.ledger.before -= b->now.ledger.fracture - fracture;
     peri__give_array(b, e, b->f, 1.0, e->force);
     if (!b->closing) memset(b->f, 0, peri__vector_bytes(b)); /* f is out of date as soon as the caller has it */

@@ -112,10 +112,14 @@ static int peri__forces_and_breaks(peri_body *b, peri__operands *operands) {
     operands->working = m->seen_by & PERI__BY_WORK;
     operands->keeping = b->model->law_of ? 2 : 0;
     if (operands->breaking) peri__note_stresses(b, operands);
+    operands->past.commit = m->inelastic != 0;
+    if (m->inelastic && operands->breaking) peri__keep_force(b, operands);
     peri__bond_forces(b, operands);
     if (!operands->breaking) return 0;
     const peri__sums total = peri__total(b->sums, m->points);
-    if (!m->pairwise && total.n > 0) {
+    if (m->inelastic) {
+        peri__break_inelastic(b, operands, total.n);
+    } else if (!m->pairwise && total.n > 0) {
         peri__break_states(b, operands);
     } else {
         b->now.ledger.fracture += total.a;
@@ -154,6 +158,11 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     }
     operands.step = dt;
     const int broke = peri__forces_and_breaks(b, &operands);
+    status = peri__heed_stress(b);
+    if (status < 0) {
+        peri__changed(b, PERI__ACTION);
+        return status;
+    }
     if (broke && b->closing) peri__close_step(b);
     if (b->contact) {
         listed = peri__ready_contact(b);
@@ -270,6 +279,7 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
     peri__plan plan = { 0.0, 0.0, 0.0, b->now.time + r->duration, 0, r->steps, 0 };
     plan.dt = r->time_step > 0.0 ? r->time_step / m->time : r->safety * peri__stable(b);
     int32_t status = peri__plan_steps(b, r, r->duration, &plan);
+    if (status == PERI_OK) status = peri__settle_past(b);
     if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE | PERI__STALE_LEDGER);
     if (status == PERI_OK) status = peri__heed_callbacks(b);
     if (status == PERI_OK) status = peri__fit_steps(b, r, &plan); /* what free obstacles are near is known by now */

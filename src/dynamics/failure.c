@@ -160,6 +160,50 @@ static void peri__break_states(peri_body *b, const peri__operands *at) {
     peri__find_largest_row_sum(b);
 }
 
+/* ---- inelastic bodies ---------------------------------------------------------------------------------------------
+
+   What bonds that flow give is in none of the above. Bonds break where the step ends, in one; then the force is summed again. */
+
+/* Keeps f, that of loads alone as yet, where the impulses of others go. */
+static void peri__keep_force(peri_body *b, peri__operands *operands) {
+    memcpy(b->closing, b->f, peri__vector_bytes(b));
+    operands->closing = NULL;
+}
+
+/* Takes out the bonds in `dying`, at both ends, and brings constants up to date. */
+static void peri__part_all(peri_body *b) {
+    const peri__model *m = b->model;
+    peri__row row;
+    for (int64_t i = 0; i < m->points; ++i) {
+        if (!peri__is_dying(b, i)) continue;
+        peri__read_row(b, i, &row);
+        for (int64_t k = 0; k < row.count; ++k) {
+            const int64_t j = row.ids[k], back = peri__find_bond(m, j, i);
+            if (!(b->dying[i * m->words + k / 32] >> (k % 32) & 1)) continue;
+            b->now.broken += peri__is_alive(b, i, k) + peri__is_alive(b, j, back);
+            b->alive[i * m->words + k / 32] &= ~((uint32_t)1 << (k % 32));
+            b->alive[j * m->words + back / 32] &= ~((uint32_t)1 << (back % 32));
+        }
+    }
+    b->now.stale |= PERI__STALE_MASKS | PERI__STALE_CONSTANTS;
+    (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
+}
+
+/* Breaks the `count` (directed) bonds in `dying`, and forgets the force that was kept. */
+static void peri__break_inelastic(peri_body *b, const peri__operands *at, int64_t count) {
+    peri__operands operands = *at;
+    if (count > 0) {
+        const double energy = peri__elastic_energy(b, NULL);
+        peri__part_all(b);
+        b->now.ledger.fracture += energy - peri__elastic_energy(b, NULL);
+        memcpy(b->f, b->closing, peri__vector_bytes(b));
+        operands.breaking = 0;
+        operands.step = 0.0;
+        peri__bond_forces(b, &operands);
+    }
+    memset(b->closing, 0, peri__vector_bytes(b));
+}
+
 static void peri__close_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri_body *b = (const peri_body *)context;
     const peri__model *m = b->model;

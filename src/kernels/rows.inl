@@ -533,6 +533,14 @@ PERI_INLINE void PERI_FN(put_pressure)(const peri__operands *s, int64_t i, peri_
     ((peri_b *)s->response)[i] = pressure_factor == 0 ? 0 : (peri_b)(pressure_factor * theta);
 }
 
+/* H of a point whose stress is not the library's goes where Q is. */
+static void PERI_FN(put_raw)(const peri__operands *s, int64_t i, void *to, peri_r h[PERI_D][PERI_D]) {
+    peri_b *response = (peri_b *)to + i;
+    response[0] = 0;
+    for (int a = 0; a < PERI_D; ++a)
+        for (int d = 0; d < PERI_D; ++d) response[(1 + a * PERI_D + d) * s->model->stride] = (peri_b)h[a][d];
+}
+
 /* Q = P K^-1 - k H of n = sum w eta xi V. */
 static void PERI_FN(put_tensor)(const peri__operands *s, int64_t i, peri_r n[PERI_D][PERI_D]) {
     const peri__model *m = s->model;
@@ -541,6 +549,10 @@ static void PERI_FN(put_tensor)(const peri__operands *s, int64_t i, peri_r n[PER
     peri_b *response = (peri_b *)s->response + i;
     peri_r h[PERI_D][PERI_D], e[PERI_D][PERI_D], p[PERI_D][PERI_D];
     PERI_FN(gradient)(s, i, n, h);
+    if (s->past.raw && s->past.raw[m->material[i]]) {
+        PERI_FN(put_raw)(s, i, s->response, h);
+        return;
+    }
     PERI_FN(strain)(PERI_D, s->linear, h, e);
     if (s->eigenstrain) PERI_FN(make_elastic)(s, i, e);
     PERI_FN(stress)(law, PERI_D, s->linear, h, e, p);

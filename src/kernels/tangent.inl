@@ -72,6 +72,10 @@ static void PERI_FN(change_tensor)(const peri__operands *s, int64_t i, const per
     PERI_FN(share_out)(m, i, dn);
     PERI_FN(gradient)(s, i, n, h);
     PERI_FN(gradient)(s, i, dn, dh);
+    if (s->past.raw && s->past.raw[m->material[i]]) {
+        PERI_FN(put_raw)(s, i, s->change, dh);
+        return;
+    }
     PERI_FN(strain)(PERI_D, 0, h, e);
     if (s->eigenstrain) PERI_FN(make_elastic)(s, i, e);
     PERI_FN(stress_change)(law, PERI_D, 0, h, e, dh, dp);

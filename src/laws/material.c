@@ -226,6 +226,49 @@ static int32_t peri__check_criterion(peri_body *b, const peri_material_desc *m) 
     return PERI_OK;
 }
 
+/* What a material is beyond the elasticity of its law: bits of peri__inelastic. */
+static int32_t peri__inelastic_of(const peri_material_desc *m) {
+    return (m->yield_shear > 0.0 || m->relaxations > 0 ? PERI__FLOWS : 0) | (m->stress ? PERI__OWN_STRESS : 0);
+}
+
+/* Notes what material k, which is used, asks of the body for that. */
+static void peri__note_inelastic(peri__model *m, int32_t k, const peri_material_desc *material) {
+    const int32_t inelastic = peri__inelastic_of(material), past = material->yield_shear > 0.0 ? 2 : 1 + material->relaxations;
+    m->inelastic |= inelastic;
+    m->past.raw[k] = (inelastic & PERI__OWN_STRESS) != 0;
+    if (inelastic & PERI__FLOWS && past > m->past.bond) m->past.bond = past;
+    if (inelastic & PERI__OWN_STRESS && material->history > m->past.point) m->past.point = material->history;
+}
+
+/* Times at which parts of the stiffness in shear relax. */
+static int32_t peri__check_relaxations(peri_body *b, const peri_material_desc *m) {
+    double whole = 0.0;
+    if (m->relaxations < 0 || m->relaxations > PERI_RELAXATIONS) return peri__fail(b, PERI_ERROR_RANGE, "relaxations", -1, m->relaxations);
+    for (int k = 0; k < m->relaxations; ++k) {
+        const double part = m->relaxation_part[k], time = m->relaxation_time[k];
+        if (!(part > 0.0 && part <= 1.0)) return peri__fail(b, PERI_ERROR_RANGE, "relaxation_part", k, part);
+        if (!(time > 0.0 && peri__finite(time))) return peri__fail(b, PERI_ERROR_RANGE, "relaxation_time", k, time);
+        whole += part;
+    }
+    return whole <= 1.0 + 1e-12 ? PERI_OK : peri__fail(b, PERI_ERROR_RANGE, "relaxation_part", -1, whole);
+}
+
+static int32_t peri__check_inelastic(peri_body *b, const peri_material_desc *m) {
+    const int32_t inelastic = peri__inelastic_of(m);
+    PERI_NEED_NUMBER(b, m->yield_shear >= 0.0, m->yield_shear);
+    const int32_t status = peri__check_relaxations(b, m);
+    if (status < 0) return status;
+    if (m->history < 0 || m->history > PERI_HISTORY) return peri__fail(b, PERI_ERROR_RANGE, "history", -1, m->history);
+    if (m->history > 0 && !m->stress) return peri__fail(b, PERI_ERROR_ARGUMENT, "stress", -1, 0.0);
+    if (m->yield_shear > 0.0 && m->relaxations > 0) return peri__fail(b, PERI_ERROR_MATERIAL, "relaxations", -1, m->relaxations);
+    if (inelastic & PERI__FLOWS && m->law != PERI_LAW_LPS)
+        return peri__fail(b, PERI_ERROR_LAW, m->relaxations > 0 ? "relaxations" : "yield_shear", -1, m->law);
+    if (m->stress && !peri__has_gradient(m->law)) return peri__fail(b, PERI_ERROR_LAW, "stress", -1, m->law);
+    if (inelastic && peri__seen_by(m->criterion) != PERI__BY_STRETCH)
+        return peri__fail(b, PERI_ERROR_CRITERION, "criterion", -1, m->criterion);
+    return PERI_OK;
+}
+
 /* What only some laws can have. */
 static int32_t peri__check_law(peri_body *b, const peri_material_desc *m) {
     int32_t space = b->desc.space, bonds = m->law == PERI_LAW_BOND_BASED;
@@ -241,7 +284,7 @@ static int32_t peri__check_law(peri_body *b, const peri_material_desc *m) {
     if (!bonds) PERI_NEED_NUMBER(b, m->poisson > -1.0 && m->poisson < 0.5, m->poisson);
     if (bonds && m->poisson == m->poisson && fabs(m->poisson - peri__bond_poisson(space)) > 1e-9)
         return peri__fail(b, PERI_ERROR_POISSON, "poisson", -1, peri__bond_poisson(space));
-    return PERI_OK;
+    return peri__check_inelastic(b, m);
 }
 
 static int32_t peri__check_material(peri_body *b, const peri_material_desc *m, int need_density) {

@@ -77,7 +77,11 @@ static uint64_t peri__hash_material(uint64_t h, const peri_material_desc *d) {
     const double numbers[16] = { d->law, d->criterion, d->young, d->bulk, d->poisson, d->density, d->fracture_energy, d->critical_stretch,
                                  d->stabilization, d->strength, d->cohesion, d->friction_angle, d->compression, d->rate, d->rate_power,
                                  d->delay };
-    return peri__hash_numbers(h, numbers, 16);
+    const double inelastic[4] = { d->yield_shear, d->relaxations, d->history, d->stress != NULL };
+    h = peri__hash_numbers(h, numbers, 16);
+    if (!peri__inelastic_of(d)) return h;
+    h = peri__hash_numbers(peri__hash_numbers(h, inelastic, 4), d->relaxation_part, d->relaxations);
+    return peri__hash_numbers(h, d->relaxation_time, d->relaxations);
 }
 
 static uint64_t peri__hash_materials(const peri_body *b) {

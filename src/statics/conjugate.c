@@ -12,7 +12,7 @@
 static int peri__is_linear(const peri_body *b) {
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) return 0;
-    return b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->contact && !b->model->law_of;
+    return b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->contact && !b->model->law_of && !b->model->inelastic;
 }
 
 static double peri__rounding(const peri_body *b) { return b->b32 ? 2.0 * FLT_EPSILON : 2.0 * DBL_EPSILON; }
@@ -35,6 +35,7 @@ static void peri__free_solver(peri__solver *s) {
     void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->rate, s->from, s->load };
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, &b->scratch, vectors[k]);
     peri__delete(&b->scratch, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
+    peri__delete(&b->scratch, s->t.moduli, peri__moduli_reals(m), sizeof(double));
     peri__delete(&b->scratch, s->t.change, peri__response_reals(m), peri__bond_real(b));
     peri__delete(&b->scratch, s->constrained, m->points, 1);
     peri__delete(&b->scratch, s->part_of, m->points, sizeof *s->part_of);

@@ -32,6 +32,7 @@ static int32_t peri__take_solver(peri__solver *s) {
         s->load = peri__take_vector(s);
         ok = ok && s->from && s->load;
     }
+    if (peri__moduli_reals(m) > 0) ok = ok && (s->t.moduli = (double *)peri__take(s, peri__moduli_reals(m), sizeof(double))) != NULL;
     if (!m->pairwise) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__bond_real(b))) != NULL;
     s->blocks = peri__take(s, PERI_PACKED(m->dim) * m->stride, peri__real(b));
     s->constrained = (uint8_t *)peri__take(s, m->points, 1);
@@ -78,6 +79,8 @@ static double peri__static_forces(peri__solver *s) {
     for (int32_t d = 0; d < m->dim; ++d)
         for (int64_t i = 0; i < m->points; ++i)
             if (!(s->constrained[i] >> d & 1)) square += peri__square(m->volume[i] * peri__get_real(b->f, b->f32, d * m->stride + i));
+    operands.step = s->t.step;
+    operands.past.moduli = s->t.moduli;
     peri__bond_forces(b, &operands);
     status = peri__heed_laws(b);
     if (status == PERI_OK) status = peri__touch_now(b);
@@ -346,7 +349,8 @@ static int32_t peri__newton(peri__solver *s) {
         int32_t status;
         if (loads < 0.0) return (int32_t)loads;
         double residual = peri__static_residual(s, loads), told = s->report.residual;
-        int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_GEOMETRY_LINEAR && !b->model->law_of && peri__at_rest(b);
+        const int special = b->model->law_of || b->model->inelastic; /* the force at rest is not that of the elastic body */
+        int gap = peri__gap(s), at_rest = b->desc.geometry != PERI_GEOMETRY_LINEAR && !special && peri__at_rest(b);
         peri__tell_residual(s, residual);
         peri__note_floor(s);
         if (!gap && (peri__is_settled(s, residual, loads) || s->energy_done))

@@ -234,6 +234,7 @@ PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
     PERI_NEED_BUILT(b);
     PERI_NEED(b, matrix, "matrix");
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
+    if (b->model->inelastic) return peri__fail(b, PERI_ERROR_LAW, "peri_matrix_create", -1, 0.0);
     return peri__assemble(b, &b->memory, matrix);
 }
 

@@ -51,8 +51,11 @@ static int32_t peri__check_statics(peri_body *b, const peri_solve_desc *st) {
         const int64_t curve = peri__find(b, PERI_KIND_LOAD, st->curve_load, "curve_load");
         if (curve < 0) return (int32_t)curve;
     }
+    PERI_NEED_NUMBER(b, st->duration >= 0.0, st->duration);
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     if (b->model->law_of && st->control == PERI_CONTROL_FRACTURE) return peri__fail(b, PERI_ERROR_LAW, "control", -1, st->control);
+    if (b->model->inelastic && st->method == PERI_METHOD_BICGSTAB) return peri__fail(b, PERI_ERROR_LAW, "method", -1, st->method);
+    if (b->model->inelastic && st->control != PERI_CONTROL_LOAD) return peri__fail(b, PERI_ERROR_LAW, "control", -1, st->control);
     if (b->contact && st->method == PERI_METHOD_BICGSTAB) return peri__fail(b, PERI_ERROR_LAW, "method", -1, st->method);
     return PERI_OK;
 }
@@ -68,15 +71,16 @@ static int32_t peri__static_step(peri__solver *s, double factor) {
     double broken = s->disturbed ? peri__static_energy(b) : 0.0; /* elastic energy after bonds broke, or on_step changed the body */
     for (int64_t round = 0, rounds = 0; status == PERI_OK; ++round) {
         if (s->from) memcpy(s->from, b->u, peri__vector_bytes(b));
+        const double damping = b->now.ledger.damping;
         status = peri__equilibrium(s, round == 0 ? PERI__ANEW : s->rough > 0.0 ? PERI__AFTER_BREAK : PERI__AS_PREPARED);
         if (status != PERI_OK) break;
-        double external = b->now.ledger.external, energy = 0.0, most = 0.0, lost;
+        double external = b->now.ledger.external, energy = 0.0, most = 0.0, flowed = b->now.ledger.damping - damping, lost;
         peri__count_work(s, s->from);
         const int64_t broke = peri__keep_static(s, &lost);
         status = peri__heed_laws(b);
         if (status < 0) break;
         if (peri__may_break(s) || s->disturbed) energy = peri__static_energy(b);
-        if (round > 0 || s->disturbed) b->now.ledger.damping += b->now.ledger.external - external - (energy - broken) - lost;
+        if (round > 0 || s->disturbed) b->now.ledger.damping += b->now.ledger.external - external - (energy - broken) - lost - flowed;
         s->disturbed = 0;
         broken = energy;
         if (peri__may_break(s)) most = peri__most_excess(b);
@@ -114,6 +118,7 @@ static int32_t peri__load_step(peri__solver *s, double from, double to) {
         int64_t broken = s->report.broken;
         double next = at + part < 1.0 ? at + part : 1.0;
         if (s->before) memcpy(s->before, b->u, peri__vector_bytes(b));
+        s->t.step = (next - at) * s->settings->duration / (double)s->settings->steps / b->model->time;
         status = peri__static_step(s, next < 1.0 ? from + next * (to - from) : to);
         if (status == PERI_OK) {
             status = peri__show_settled(s);
@@ -137,6 +142,7 @@ static int32_t peri__load_steps(peri__solver *s) {
     peri_body *b = s->body;
     const peri_solve_desc *st = s->settings;
     int32_t status = peri__take_solver(s);
+    if (status == PERI_OK) status = peri__settle_past(b);
     if (status < 0) return status;
     double from = s->load_from;
     (void)peri__ensure(b, PERI__STALE_LEDGER);

@@ -92,11 +92,16 @@ static int32_t peri__equilibrium(peri__solver *s, peri__afresh afresh) {
     s->energy0 = 0.0;
     peri__note_strained(s);
     status = s->settings->method == PERI_METHOD_RELAXATION ? peri__relax(s) : peri__newton(s);
-    if (status == PERI_OK && b->model->seen_by & PERI__BY_WORK) {
+    if (status == PERI_OK && (b->model->seen_by & PERI__BY_WORK || b->model->inelastic)) {
         peri__operands operands = peri__operands_of(b);
-        operands.working = 1;
+        operands.working = (b->model->seen_by & PERI__BY_WORK) != 0;
+        operands.past.commit = b->model->inelastic != 0;
+        operands.step = s->t.step;
         operands.f = s->k.q; /* b->f stays that of the equilibrium */
         peri__bond_forces(b, &operands);
+        b->now.time += s->t.step * b->model->time;
+        s->t.step = 0.0; /* what breaks takes no time */
+        status = peri__heed_stress(b);
     }
     return status;
 }

@@ -12,6 +12,7 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
     const peri__model *m = b->model;
     peri__operands operands = peri__operands_of(b);
     void *change = t->change ? (char *)t->change + (size_t)m->margin * peri__bond_real(b) : NULL;
+    const int32_t inelastic = at_rest ? 0 : m->inelastic;
     if (t->u) operands.u = t->u;
     if (operands.bond_laws && !at_rest) {
         operands.p = t->p;
@@ -22,6 +23,10 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
         return;
     }
     operands.bond_laws = NULL;
+    const void *u = operands.u;
+    operands.past.moduli = t->moduli;
+    if (inelastic & PERI__OWN_STRESS) operands.past.raw = m->past.raw;
+    operands.p = t->p;
     if (t->response) operands.response = (char *)t->response + (size_t)m->margin * peri__bond_real(b);
     if (at_rest || b->desc.geometry == PERI_GEOMETRY_LINEAR) {
         operands.u = t->p; /* the same bonds with other displacements */
@@ -32,13 +37,15 @@ static void peri__apply_tangent(const peri__tangent *t, int at_rest) {
         peri__take_fields(b, &operands, 0);
         memset(t->q, 0, (size_t)(m->stride * m->dim) * peri__real(b));
         peri__sum_bonds(b, &operands, NULL);
+        if (inelastic & PERI__FLOWS) peri__add_flow_change(b, u, t->p, t->step, t->q);
         return;
     }
-    operands.p = t->p;
     operands.q = t->q;
     operands.change = change;
     if (m->gathers) peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_gather, &operands, NULL);
+    if (operands.past.raw) peri__own_changes(b, &operands, change);
     peri__for_points(b, m->points, 2 * m->width, b->ops->tangent_force, &operands, NULL);
+    if (inelastic & PERI__FLOWS) peri__add_flow_change(b, u, t->p, t->step, t->q);
 }
 
 /* K^-1 of a correspondence point times v; returns v.K^-1 v. */
@@ -243,25 +250,57 @@ static int32_t peri__multiply(peri_body *b, peri__product *product) {
     return PERI_OK;
 }
 
+static int32_t peri__multiply_there(peri_body *b, peri__product *product, const double *displacement);
+
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
     peri__product product;
     PERI_NEED_CHANGEABLE(b);
     int32_t status = peri__check_product(b, &product, in, out, count);
     if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE); /* the response is then that of u */
+    if (status == PERI_OK && b->model->inelastic) return peri__multiply_there(b, &product, NULL);
     return status == PERI_OK ? peri__multiply(b, &product) : status;
 }
 
-/* The displacement to u, and what laws respond with to it. */
-static void peri__respond_at(peri_body *b, const double *displacement, void *u, void *response) {
+/* The displacement (NULL: that of the body) to u, and what laws respond with to it; moduli, where there are some, and flow, too. */
+static int32_t peri__respond_at(peri_body *b, const double *displacement, void *u, void *response, double *moduli) {
     const peri__model *m = b->model;
     peri__operands operands = peri__operands_of(b);
-    for (int64_t i = 0; i < m->points; ++i)
+    if (!displacement) memcpy(u, b->u, peri__vector_bytes(b));
+    for (int64_t i = 0; displacement && i < m->points; ++i)
         for (int32_t d = 0; d < m->dim; ++d) peri__put_real(u, b->f32, d * m->stride + i, displacement[i * m->dim + d] / m->length);
     operands.u = u;
     operands.node = NULL;
+    operands.past.moduli = moduli;
+    if (moduli) operands.past.raw = m->past.raw;
     if (response) operands.response = (char *)response + (size_t)m->margin * peri__bond_real(b);
     if (m->record_reals) peri__for_points(b, m->points, 2, b->ops->fill_records, &operands, NULL);
     if (m->gathers) peri__for_points(b, m->points, m->width, b->ops->gather, &operands, NULL);
+    if (moduli) (void)peri__own_stresses(b, &operands);
+    if (m->inelastic & PERI__FLOWS) (void)peri__make_flow(b, u, 0.0, 0, NULL);
+    return peri__heed_stress(b);
+}
+
+static int32_t peri__multiply_there(peri_body *b, peri__product *product, const double *displacement) {
+    const int64_t reals = peri__response_reals(b->model), entries = peri__moduli_reals(b->model);
+    int32_t status = PERI_OK;
+    void *u = peri__new_vector(b, &b->scratch), *response = NULL;
+    double *moduli = NULL;
+    if (!b->model->pairwise) response = peri__new(&b->scratch, reals, peri__bond_real(b));
+    if (entries > 0) moduli = (double *)peri__new(&b->scratch, entries, sizeof *moduli);
+    if (!u || (!response && !b->model->pairwise) || (!moduli && entries > 0))
+        status = peri__fail(b, PERI_ERROR_MEMORY, "displacement", -1, 0.0);
+    if (status == PERI_OK) status = peri__respond_at(b, displacement, u, response, moduli);
+    if (status == PERI_OK) {
+        product->t.u = u;
+        product->t.response = response;
+        product->t.moduli = moduli;
+        status = peri__multiply(b, product);
+    }
+    if (b->model->inelastic & PERI__FLOWS) (void)peri__make_flow(b, b->u, 0.0, 0, NULL);
+    peri__delete_vector(b, &b->scratch, u);
+    peri__delete(&b->scratch, response, reals, peri__bond_real(b));
+    peri__delete(&b->scratch, moduli, entries, sizeof *moduli);
+    return status;
 }
 
 PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displacement, const double *in, double *out, int64_t count) {
@@ -272,18 +311,6 @@ PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displace
     if (status == PERI_OK) status = peri__check_state(b, b->u, displacement, count, b->model->length, "displacement");
     if (status < 0) return status;
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
-    if (b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->model->law_of) return peri__multiply(b, &product);
-    const int64_t reals = peri__response_reals(b->model);
-    void *u = peri__new_vector(b, &b->scratch), *response = NULL;
-    if (!b->model->pairwise) response = peri__new(&b->scratch, reals, peri__bond_real(b));
-    if (!u || (!response && !b->model->pairwise)) status = peri__fail(b, PERI_ERROR_MEMORY, "displacement", -1, 0.0);
-    if (status == PERI_OK) {
-        peri__respond_at(b, displacement, u, response);
-        product.t.u = u;
-        product.t.response = response;
-        status = peri__multiply(b, &product);
-    }
-    peri__delete_vector(b, &b->scratch, u);
-    peri__delete(&b->scratch, response, reals, peri__bond_real(b));
-    return status;
+    if (b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->model->law_of && !b->model->inelastic) return peri__multiply(b, &product);
+    return peri__multiply_there(b, &product, displacement);
 }

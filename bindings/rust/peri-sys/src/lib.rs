@@ -453,6 +453,8 @@ pub type peri_motion_fn = Option<unsafe extern "C" fn(user: *mut c_void, time: f
 /// A shape: \*distance \[L\] of x\[dim\] from its surface, \< 0 inside, and there the outward normal\[dim\], of any length; in the
 /// frame of the obstacle
 pub type peri_distance_fn = Option<unsafe extern "C" fn(user: *mut c_void, x: *const f64, distance: *mut f64, normal: *mut f64) -> i32>;
+/// Comes on the threads of the body, for several blocks at once; no jump may leave it.
+pub type peri_stress_fn = Option<unsafe extern "C" fn(user: *mut c_void, block: *const peri_stress_block) -> i32>;
 /// Writes the motion of a rigid support at \`time\`. \> 0: likewise.
 pub type peri_rigid_fn = Option<unsafe extern "C" fn(user: *mut c_void, time: f64, motion: *mut f64) -> i32>;
 /// A bond i \< j broke by its criterion at \`time\` \[T\] and this stretch \[-\]. Called after the step, in ascending (i, j). \> 0
@@ -486,6 +488,29 @@ pub struct peri_error {
     pub field: *const c_char,
     /// constant text: peri\_status\_text(code)
     pub text: *const c_char,
+}
+
+/// Points whose stress is asked for; matrices by rows, out: to be written.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct peri_stress_block {
+    pub count: i64,
+    /// \[count\]
+    pub points: *const i32,
+    /// \[count\]\[dim\]\[dim\] H = F - 1
+    pub gradient: *const f64,
+    /// \[T\] since the history was committed
+    pub time_step: f64,
+    /// \[count\]\[history\] as committed; out: as it becomes
+    pub history: *mut f64,
+    /// \[count\]\[dim\]\[dim\] out: P, first Piola-Kirchhoff; linear: Cauchy
+    pub stress: *mut f64,
+    /// \[count\]\[dim^2\]\[dim^2\] out: dP/dH, symmetric; NULL: not wanted
+    pub tangent: *mut f64,
+    /// \[count\] out: stored \[M L^-1 T^-2\]. 0
+    pub energy: *mut f64,
+    /// \[count\] out: lost in time\_step, likewise. 0
+    pub dissipation: *mut f64,
 }
 
 /// Bonds of one point to others\[\]: arrays of \`count\`. All that is written is 0 at first.
@@ -603,6 +628,19 @@ pub struct peri_material_desc {
     pub rate_power: f64,
     /// \[T\] \> 0
     pub delay: f64,
+    /// LPS: stress in shear at which it flows. 0 (default): never
+    pub yield_shear: f64,
+    /// LPS, viscous: 0..PERI\_RELAXATIONS. Default 0
+    pub relaxations: i32,
+    /// numbers per point for \`stress\`, 0..PERI\_HISTORY. Default 0
+    pub history: i32,
+    /// (0, 1\] of the stiffness in shear, and
+    pub relaxation_part: [f64; 4],
+    /// \[T\] \> 0 in which it relaxes
+    pub relaxation_time: [f64; 4],
+    /// correspondence: yours. Default NULL
+    pub stress: peri_stress_fn,
+    pub stress_user: *mut c_void,
 }
 
 #[repr(C)]
@@ -858,6 +896,8 @@ pub struct peri_solve_desc {
     pub load_to: f64,
     /// load steps \>= 1. Default 1
     pub steps: i64,
+    /// \[T\] \>= 0 of all steps: what flows, does. Default 0
+    pub duration: f64,
     /// most halvings of a failing step, 0..60. Default 8
     pub halvings: i64,
     /// \[curve\_rows\]\[2 + 2\*dim\]: load factor, mean displacement \[L\], peri\_get\_reaction, broken bonds

@@ -528,6 +528,8 @@ pub const PRESET_ENGINEERING: i32 = sys::PERI_PRESET_ENGINEERING;
 /// deformation 1 %, stress 2 %, waves and fracture 3 %
 pub const PRESET_REFERENCE: i32 = sys::PERI_PRESET_REFERENCE;
 
+/// Points whose stress is asked for; matrices by rows, out: to be written.
+pub type StressBlock = sys::peri_stress_block;
 /// Bonds of one point to others\[\]: arrays of \`count\`. All that is written is 0 at first.
 pub type BondRow = sys::peri_bond_row;
 
@@ -711,6 +713,18 @@ pub struct MaterialDesc {
     pub rate_power: f64,
     /// \[T\] \> 0
     pub delay: f64,
+    /// LPS: stress in shear at which it flows. 0 (default): never
+    pub yield_shear: f64,
+    /// LPS, viscous: 0..PERI\_RELAXATIONS. Default 0
+    pub relaxations: i32,
+    /// numbers per point for \`stress\`, 0..PERI\_HISTORY. Default 0
+    pub history: i32,
+    /// (0, 1\] of the stiffness in shear, and
+    pub relaxation_part: [f64; 4],
+    /// \[T\] \> 0 in which it relaxes
+    pub relaxation_time: [f64; 4],
+    /// correspondence: yours. Default NULL (block)
+    pub stress: Option<Box<dyn Fn(&sys::peri_stress_block) -> i32 + Send + Sync>>,
 }
 
 impl MaterialDesc {
@@ -734,6 +748,12 @@ impl MaterialDesc {
             rate: raw.rate,
             rate_power: raw.rate_power,
             delay: raw.delay,
+            yield_shear: raw.yield_shear,
+            relaxations: raw.relaxations,
+            history: raw.history,
+            relaxation_part: raw.relaxation_part,
+            relaxation_time: raw.relaxation_time,
+            stress: None,
         }
     }
     fn start(law: i32) -> sys::peri_material_desc {
@@ -762,6 +782,11 @@ impl MaterialDesc {
         raw.rate = self.rate;
         raw.rate_power = self.rate_power;
         raw.delay = self.delay;
+        raw.yield_shear = self.yield_shear;
+        raw.relaxations = self.relaxations;
+        raw.history = self.history;
+        raw.relaxation_part = self.relaxation_part;
+        raw.relaxation_time = self.relaxation_time;
         raw
     }
     fn take(&mut self, raw: &sys::peri_material_desc) {
@@ -781,6 +806,28 @@ impl MaterialDesc {
         self.rate = raw.rate;
         self.rate_power = raw.rate_power;
         self.delay = raw.delay;
+        self.yield_shear = raw.yield_shear;
+        self.relaxations = raw.relaxations;
+        self.history = raw.history;
+        self.relaxation_part = raw.relaxation_part;
+        self.relaxation_time = raw.relaxation_time;
+    }
+}
+
+struct MaterialDescStressUser {
+    stress: Option<Box<dyn Fn(&sys::peri_stress_block) -> i32 + Send + Sync>>,
+}
+
+impl MaterialDescStressUser {
+    unsafe extern "C" fn stress_c(user: *mut c_void, block: *const sys::peri_stress_block) -> i32 {
+        let this = unsafe { &*(user as *const MaterialDescStressUser) };
+        guarded(|| unsafe { if let Some(f) = this.stress.as_ref() { f(&*block) } else { -1 } })
+    }
+    fn fill(&self, raw: &mut sys::peri_material_desc, user: *mut c_void) {
+        raw.stress_user = user;
+        if self.stress.is_some() {
+            raw.stress = Some(Self::stress_c);
+        }
     }
 }
 
@@ -1147,6 +1194,8 @@ pub struct SolveDesc<'a> {
     pub load_to: f64,
     /// load steps \>= 1. Default 1
     pub steps: i64,
+    /// \[T\] \>= 0 of all steps: what flows, does. Default 0
+    pub duration: f64,
     /// most halvings of a failing step, 0..60. Default 8
     pub halvings: i64,
     /// \[curve\_rows\]\[2 + 2\*dim\]: load factor, mean displacement \[L\], peri\_get\_reaction, broken bonds
@@ -1177,6 +1226,7 @@ impl<'a> SolveDesc<'a> {
             load_from: raw.load_from,
             load_to: raw.load_to,
             steps: raw.steps,
+            duration: raw.duration,
             halvings: raw.halvings,
             curve: &mut [],
             on_iteration: None,
@@ -1208,6 +1258,7 @@ impl<'a> SolveDesc<'a> {
         raw.load_from = self.load_from;
         raw.load_to = self.load_to;
         raw.steps = self.steps;
+        raw.duration = self.duration;
         raw.halvings = self.halvings;
         raw.curve = self.curve.as_mut_ptr();
         raw.curve_rows = self.curve.len() as i64 / (2 + 2*dim);
@@ -1598,16 +1649,22 @@ impl Body {
         Ok(result)
     }
     /// Adds a material, before peri\_build; at most 120. Returns its id, or an error.
-    pub fn add_material(&self, desc: &MaterialDesc) -> Result<i32> {
-        let desc_raw = desc.raw();
+    pub fn add_material(&self, desc: MaterialDesc) -> Result<i32> {
+        let mut desc_raw = desc.raw();
+        let stress_user_holder = Arc::new(MaterialDescStressUser { stress: desc.stress });
+        stress_user_holder.fill(&mut desc_raw, Arc::as_ptr(&stress_user_holder) as *mut c_void);
+        keep(&self.keep, stress_user_holder);
         let result = unsafe { sys::peri_add_material(self.handle, &desc_raw) };
         self.check(i64::from(result))?;
         Ok(result)
     }
     /// Bonds between i and j break, and of bond-based i and j act, as if of \`desc\`, before peri\_build; its law is that of one of
     /// them, not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
-    pub fn set_interface(&self, i: i32, j: i32, desc: &MaterialDesc) -> Result<i32> {
-        let desc_raw = desc.raw();
+    pub fn set_interface(&self, i: i32, j: i32, desc: MaterialDesc) -> Result<i32> {
+        let mut desc_raw = desc.raw();
+        let stress_user_holder = Arc::new(MaterialDescStressUser { stress: desc.stress });
+        stress_user_holder.fill(&mut desc_raw, Arc::as_ptr(&stress_user_holder) as *mut c_void);
+        keep(&self.keep, stress_user_holder);
         let result = unsafe { sys::peri_set_interface(self.handle, i, j, &desc_raw) };
         self.check(i64::from(result))?;
         Ok(result)
