@@ -265,7 +265,8 @@ static void new_fields(void) {
                 REFUSED(b, peri_get_field(b, field, out, need - 1), PERI_ERROR_CAPACITY, "capacity");
                 CHECK(peri_get_error(b, &e) == PERI_OK && e.value == (double)need && out[0] == 77);
                 REFUSED(b, peri_get_field(b, field, NULL, need), PERI_ERROR_ARGUMENT, "out");
-                if (field != PERI_FIELD_DENSITY && (field < PERI_FIELD_EIGENSTRAIN || field > PERI_FIELD_STIFFNESS)) /* W: test_point_fields */
+                const int fixed = field != PERI_FIELD_DENSITY && (field < PERI_FIELD_EIGENSTRAIN || field > PERI_FIELD_STIFFNESS);
+                if (fixed) /* the others: test_point_fields */
                     REFUSED(b, peri_set_field(b, field, u, need), PERI_ERROR_FIELD, "field");
                 REFUSED(b, peri_view_field(b, field, NULL), PERI_ERROR_ARGUMENT, "view");
                 out[need] = 77;

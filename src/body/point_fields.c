@@ -46,7 +46,8 @@ static void *peri__new_point_field(const peri_body *b, double value) {
     return made;
 }
 
-/* Bonds to centroids, those with a law of their own, what is inelastic, and criteria of stress, confinement, rate and time know of no fields. */
+/* Bonds to centroids, those with a law of their own, what is inelastic, and criteria of stress, confinement, rate and time know of no
+   fields. */
 static int32_t peri__check_fieldable(peri_body *b) {
     const uint32_t others = PERI__BY_STRESS | PERI__AND_MORE;
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);

@@ -195,7 +195,8 @@ static void peri__fit_table(peri__bond_law *law, const peri__reference *r, int32
     double high = most, low = 0.0, above = peri__tabled_strength(law, r, dim, most, area) - strength, below = -strength;
     law->brittle = above <= 0.0;
     for (int k = 0; !law->brittle && k < 60; ++k) { /* the false position, halved where one end stays (Illinois) */
-        const double first = low + (high - low) * below / (below - above), rest = peri__tabled_strength(law, r, dim, first, area) - strength;
+        const double first = low + (high - low) * below / (below - above);
+        const double rest = peri__tabled_strength(law, r, dim, first, area) - strength;
         if (fabs(rest) < 1e-4 * strength || high - low < 1e-9 * most) break;
         if (rest > 0.0) {
             high = first;
