@@ -66,7 +66,6 @@ int main(void) {
     c.right = must(body, peri_find_point(body, lip[1]));
     c.csv = fopen("out/concrete.csv", "w");
     if (c.csv == NULL) return 1;
-    if (c.csv == NULL) return 1;
     fprintf(c.csv, "opening [um],load [N]\n");
     peri_solve_desc_init(&solve);
     solve.steps = STEPS;

@@ -310,7 +310,19 @@ def exceptions_pass_through():
         body.add_box([0, 0], [1.2, 0.1], 0.1)  # a row: it warns
         body.build()
 
+    def inner(law, model=None, **fields):
+        body = peri.Body(space="plane_stress", horizon=0.31, threads=1)
+        material = body.add_material(model, young=1, density=1, **fields)
+        if law:
+            body.set_bond_law(material, material, 0, law)
+        body.add_box([0, 0], [1.2, 0.2], 0.1)
+        body.build()
+        body.displacement = np.stack([1e-3 * body.position[:, 0], np.zeros(24)], axis=1)
+        body.advance(steps=1)
+
     kinds = {
+        "bond_law": lambda: inner(fail, "bond_based"),
+        "stress": lambda: inner(None, "correspondence", poisson=0.3, stress=fail),
         "allocate": lambda: peri.Body(space="solid", horizon=1, allocate=fail, release=lambda pointer, size: None),
         "release": released,
         "parallel_for": lambda: built(length=400, parallel_for=fail),  # what is small is not shared out

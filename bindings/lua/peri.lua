@@ -12,6 +12,30 @@ ffi.cdef [[
 typedef struct peri_body peri_body;
 typedef struct peri_matrix peri_matrix;
 typedef struct peri_cracks peri_cracks;
+typedef struct peri_error peri_error;
+typedef struct peri_stress_block peri_stress_block;
+typedef struct peri_bond_row peri_bond_row;
+typedef struct peri_body_desc peri_body_desc;
+typedef struct peri_material_desc peri_material_desc;
+typedef struct peri_softening_desc peri_softening_desc;
+typedef struct peri_fragment peri_fragment;
+typedef struct peri_obstacle_desc peri_obstacle_desc;
+typedef struct peri_obstacle_state peri_obstacle_state;
+typedef struct peri_contact_desc peri_contact_desc;
+typedef struct peri_advance_desc peri_advance_desc;
+typedef struct peri_evaluate_desc peri_evaluate_desc;
+typedef struct peri_evaluate_report peri_evaluate_report;
+typedef struct peri_solve_desc peri_solve_desc;
+typedef struct peri_solve_report peri_solve_report;
+typedef struct peri_view peri_view;
+typedef struct peri_energy peri_energy;
+typedef struct peri_cracks_desc peri_cracks_desc;
+typedef struct peri_crack_tip peri_crack_tip;
+typedef struct peri_memory peri_memory;
+typedef struct peri_plan_desc peri_plan_desc;
+typedef struct peri_plan_report peri_plan_report;
+typedef struct peri_choose_desc peri_choose_desc;
+typedef struct peri_choose_report peri_choose_report;
 typedef void * (*peri_allocate_fn)(void *user, uint64_t bytes);
 typedef void (*peri_release_fn)(void *user, void *pointer, uint64_t bytes);
 typedef void (*peri_task_fn)(void *context, int64_t k);
@@ -31,15 +55,15 @@ typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 typedef int32_t (*peri_read_fn)(void *user, void *bytes, int64_t count);
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
 typedef int32_t (*peri_iteration_fn)(void *user, int64_t iteration, double residual);
-typedef struct peri_error {
+struct peri_error {
     int32_t code;
     int32_t reserved;
     int64_t index;
     double value;
     const char *field;
     const char *text;
-} peri_error;
-typedef struct peri_stress_block {
+};
+struct peri_stress_block {
     int64_t count;
     const int32_t *points;
     const double *gradient;
@@ -49,8 +73,8 @@ typedef struct peri_stress_block {
     double *tangent;
     double *energy;
     double *dissipation;
-} peri_stress_block;
-typedef struct peri_bond_row {
+};
+struct peri_bond_row {
     int32_t point;
     int32_t count;
     const int32_t *others;
@@ -62,8 +86,8 @@ typedef struct peri_bond_row {
     double *energy;
     double *lost;
     int32_t *broken;
-} peri_bond_row;
-typedef struct peri_body_desc {
+};
+struct peri_body_desc {
     uint64_t cookie;
     int32_t space;
     int32_t precision;
@@ -90,8 +114,8 @@ typedef struct peri_body_desc {
     void *parallel_user;
     peri_log_fn log;
     void *log_user;
-} peri_body_desc;
-typedef struct peri_material_desc {
+};
+struct peri_material_desc {
     uint64_t cookie;
     int32_t law;
     int32_t criterion;
@@ -116,8 +140,8 @@ typedef struct peri_material_desc {
     double relaxation_time[4];
     peri_stress_fn stress;
     void *stress_user;
-} peri_material_desc;
-typedef struct peri_softening_desc {
+};
+struct peri_softening_desc {
     uint64_t cookie;
     int32_t shape;
     int32_t unloading;
@@ -126,8 +150,8 @@ typedef struct peri_softening_desc {
     double compression;
     int64_t count;
     const double *table;
-} peri_softening_desc;
-typedef struct peri_fragment {
+};
+struct peri_fragment {
     int32_t first;
     int32_t points;
     int32_t parent;
@@ -139,8 +163,8 @@ typedef struct peri_fragment {
     double inertia[6];
     double lo[3];
     double hi[3];
-} peri_fragment;
-typedef struct peri_obstacle_desc {
+};
+struct peri_obstacle_desc {
     uint64_t cookie;
     int32_t shape;
     int32_t reserved;
@@ -168,8 +192,8 @@ typedef struct peri_obstacle_desc {
     double gravity[3];
     peri_motion_fn motion;
     void *user;
-} peri_obstacle_desc;
-typedef struct peri_obstacle_state {
+};
+struct peri_obstacle_state {
     double place[3];
     double turn[4];
     double velocity[3];
@@ -178,16 +202,16 @@ typedef struct peri_obstacle_state {
     double kinetic;
     double stored;
     double lost;
-} peri_obstacle_state;
-typedef struct peri_contact_desc {
+};
+struct peri_contact_desc {
     uint64_t cookie;
     double stiffness;
     double distance;
     double friction;
     double friction_speed;
     double restitution;
-} peri_contact_desc;
-typedef struct peri_advance_desc {
+};
+struct peri_advance_desc {
     uint64_t cookie;
     int32_t integrator;
     int32_t force_step;
@@ -200,8 +224,8 @@ typedef struct peri_advance_desc {
     int64_t frame_steps;
     peri_frame_fn on_frame;
     void *user;
-} peri_advance_desc;
-typedef struct peri_evaluate_desc {
+};
+struct peri_evaluate_desc {
     uint64_t cookie;
     int32_t type;
     int32_t nodal;
@@ -218,12 +242,12 @@ typedef struct peri_evaluate_desc {
     double load_factor;
     void *force;
     void *impulse;
-} peri_evaluate_desc;
-typedef struct peri_evaluate_report {
+};
+struct peri_evaluate_report {
     int64_t broken;
     double energy;
-} peri_evaluate_report;
-typedef struct peri_solve_desc {
+};
+struct peri_solve_desc {
     uint64_t cookie;
     int32_t method;
     int32_t preconditioner;
@@ -247,8 +271,8 @@ typedef struct peri_solve_desc {
     peri_iteration_fn on_iteration;
     peri_frame_fn on_step;
     void *user;
-} peri_solve_desc;
-typedef struct peri_solve_report {
+};
+struct peri_solve_report {
     int64_t iterations;
     int64_t passes;
     int64_t newton;
@@ -263,8 +287,8 @@ typedef struct peri_solve_report {
     int32_t reserved;
     double residual;
     double load_factor;
-} peri_solve_report;
-typedef struct peri_view {
+};
+struct peri_view {
     const void *data;
     int64_t count;
     int64_t point_stride;
@@ -273,8 +297,8 @@ typedef struct peri_view {
     int32_t type;
     double scale;
     double offset[3];
-} peri_view;
-typedef struct peri_energy {
+};
+struct peri_energy {
     double kinetic;
     double elastic;
     double contact;
@@ -284,20 +308,20 @@ typedef struct peri_energy {
     double fracture;
     double initial;
     double error;
-} peri_energy;
-typedef struct peri_cracks_desc {
+};
+struct peri_cracks_desc {
     uint64_t cookie;
     int32_t initial;
     int32_t current;
     double shortest;
-} peri_cracks_desc;
-typedef struct peri_crack_tip {
+};
+struct peri_crack_tip {
     double place[3];
     double direction[3];
     double speed;
     int64_t path;
-} peri_crack_tip;
-typedef struct peri_memory {
+};
+struct peri_memory {
     int64_t points;
     int64_t families;
     int64_t damage;
@@ -307,8 +331,8 @@ typedef struct peri_memory {
     int64_t fields;
     int64_t total;
     int64_t shared;
-} peri_memory;
-typedef struct peri_plan_desc {
+};
+struct peri_plan_desc {
     uint64_t cookie;
     const peri_body_desc *body;
     const peri_material_desc *material;
@@ -318,8 +342,8 @@ typedef struct peri_plan_desc {
     double lo[3];
     double hi[3];
     double spacing;
-} peri_plan_desc;
-typedef struct peri_plan_report {
+};
+struct peri_plan_report {
     int64_t points;
     int64_t entries;
     int64_t width;
@@ -328,8 +352,8 @@ typedef struct peri_plan_report {
     int64_t peak;
     double stable_step;
     double seconds;
-} peri_plan_report;
-typedef struct peri_choose_desc {
+};
+struct peri_choose_desc {
     uint64_t cookie;
     int32_t preset;
     int32_t quantity;
@@ -339,14 +363,14 @@ typedef struct peri_choose_desc {
     double feature;
     double lo[3];
     double hi[3];
-} peri_choose_desc;
-typedef struct peri_choose_report {
+};
+struct peri_choose_report {
     double spacing;
     double across;
     double error;
     const char *text;
     peri_plan_report cost;
-} peri_choose_report;
+};
 int32_t peri_version(void);
 const char * peri_status_text(int32_t status);
 int64_t peri_format_error(const peri_error *error, char *buffer, int64_t capacity);

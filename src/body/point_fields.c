@@ -20,7 +20,7 @@ static const peri__point_field peri__point_fields[3] = {
     { PERI_FIELD_STIFFNESS, offsetof(peri_body, stiffness), 1e-6, 1e6, PERI__STIFFNESS },
 };
 
-static double peri__without(int32_t field) { return field == PERI_FIELD_EIGENSTRAIN ? 0.0 : 1.0; }
+static double peri__absent_value(int32_t field) { return field == PERI_FIELD_EIGENSTRAIN ? 0.0 : 1.0; }
 
 static int64_t peri__point_field_reals(const peri__model *m) { return m->stride + 2 * m->margin; }
 
@@ -68,7 +68,7 @@ static int32_t peri__check_point_field(peri_body *b, int32_t field, const double
 
 static int32_t peri__set_point_field(peri_body *b, const peri__point_field *f, const double *in) {
     const peri__model *m = b->model;
-    const double without = peri__without(f->field);
+    const double without = peri__absent_value(f->field);
     void *array = peri__pointer_at(b, f->place);
     int64_t changed = 0;
     const int32_t status = peri__check_point_field(b, f->field, in, f->least, f->most);

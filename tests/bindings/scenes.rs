@@ -82,7 +82,7 @@ fn glass(s: Scene) -> peri::Result<()> {
     m.young = 72e9;
     m.density = 2440.0;
     m.fracture_energy = 3.8;
-    pane.add_box(pane.add_material(&m)?, &[0.0, 0.0], &[0.1, 0.04], 0.5e-3)?;
+    pane.add_box(pane.add_material(m)?, &[0.0, 0.0], &[0.1, 0.04], 0.5e-3)?;
     pane.build()?;
     pane.cut_segment(peri::CUT_INITIAL, &[0.0, 0.02], &[0.05, 0.02])?;
     let top = pane.select_box("top", &[0.0, 0.0395], &[0.1, 0.04])?;
@@ -102,7 +102,7 @@ fn ball(s: Scene) -> peri::Result<()> {
     m.poisson = 0.2;
     m.density = 2400.0;
     m.critical_stretch = 3e-3;
-    block.add_box(block.add_material(&m)?, &[0.0, 0.0, 0.0], &[0.1, 0.1, 0.04], 0.01)?;
+    block.add_box(block.add_material(m)?, &[0.0, 0.0, 0.0], &[0.1, 0.1, 0.04], 0.01)?;
     block.build()?;
     block.cut_rectangle(peri::CUT_INITIAL, &[0.07, -0.01, -0.01], &[0.0, 0.12, 0.0], &[0.0, 0.0, 0.06])?;
     let mut o = ObstacleDesc::new(peri::SHAPE_BALL);
@@ -155,7 +155,7 @@ fn cantilever(s: Scene) -> peri::Result<()> {
     m.young = 1e9;
     m.poisson = 0.3;
     m.density = 1000.0;
-    beam.add_box(beam.add_material(&m)?, &[0.0, 0.0], &[1.0, 0.25], 0.05)?;
+    beam.add_box(beam.add_material(m)?, &[0.0, 0.0], &[1.0, 0.25], 0.05)?;
     beam.build()?;
     let held = beam.select_box("held", &[0.0, 0.0], &[0.15, 0.25])?;
     let tip = beam.select_box("tip", &[0.95, 0.0], &[1.0, 0.25])?;
@@ -188,7 +188,7 @@ fn strip() -> peri::Result<Body> {
     let mut m = MaterialDesc::new(peri::LAW_BOND_BASED);
     m.young = 1e9;
     m.density = 1000.0;
-    body.add_box(body.add_material(&m)?, &[0.0, 0.0], &[1.0, 0.25], 0.05)?;
+    body.add_box(body.add_material(m)?, &[0.0, 0.0], &[1.0, 0.25], 0.05)?;
     body.build()?;
     Ok(body)
 }

@@ -463,7 +463,7 @@ static const extreme rows[] = {
     {"both limits", "peri.h: not both", refused, 1, 0, 2, PERI_ERROR_MATERIAL, NULL, REFUSED},
     {"work on bonds without its energy", "peri.h: lacks its fracture energy", refused, 0, 0, PERI_CRITERION_BOND_ENERGY,
      PERI_ERROR_CRITERION, NULL, REFUSED},
-    {"a criterion that is none", "peri.h: not a value of this enum", refused, 0, 0, PERI_CRITERION_NODE_ENERGY + 1, PERI_ERROR_CHOICE,
+    {"a criterion that is none", "peri.h: not a value of this enum", refused, 0, 0, PERI_CRITERION_DELAYED_STRETCH + 1, PERI_ERROR_CHOICE,
      "criterion", REFUSED},
     {"two points, critical stretch", "s > s0", threshold, 0, 0, PERI_CRITERION_STRETCH, PERI_OK, NULL, EXACT},
     {"two points, work on the bond", "X s^2 (1/V + 1/W)/2 > w0", threshold, 1e-3, 0, PERI_CRITERION_BOND_ENERGY, PERI_OK, NULL, EXACT},

@@ -172,13 +172,13 @@ class Lua:
 
     def cdef(self):
         m, out = self.m, []
-        for o in m.api["opaque"]:
+        for o in m.api["opaque"] + m.api["structs"]:
             out.append("typedef struct %s %s;" % (o["name"], o["name"]))
         for c in m.api["callbacks"]:
             out.append("typedef %s (*%s)(%s);" % (c["returns"], c["name"], ", ".join(self.c(p) for p in c["params"])))
         for s in m.api["structs"]:
-            out.append("typedef struct %s {" % s["name"])
-            out += ["    %s;" % self.c(f) for f in s["fields"]] + ["} %s;" % s["name"]]
+            out.append("struct %s {" % s["name"])
+            out += ["    %s;" % self.c(f) for f in s["fields"]] + ["};"]
         for f in m.functions:
             out.append("%s %s(%s);" % (f["returns"], f["name"], ", ".join(self.c(p) for p in f["params"]) or "void"))
         return "\n".join(out) + "\n"

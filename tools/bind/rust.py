@@ -252,6 +252,8 @@ class Rust:
                     factor = f["entries"][len(f["counted"]) + 1:] or "1"
                     out.append("        raw.%s = self.%s.len() as i64 / %s;" % (word(f["counted"]), own, factor if " " not in factor else factor))
         out += ["        raw", "    }"]
+        if arrays and not any(re.search(r"\bdim\b", line) for line in out[2:]):
+            out[1] = out[1].replace(", dim: i64", ", _dim: i64")
         if any(f["kind"] == "value" for f in fields) and s["name"] in self.changed():
             out += ["    fn take(&mut self, raw: &sys::%s) {" % s["name"]]
             out += ["        self.%s = raw.%s;" % (word(f["name"]), word(f["name"])) for f in fields if f["kind"] == "value"] + ["    }"]

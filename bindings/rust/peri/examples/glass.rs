@@ -11,7 +11,7 @@ fn main() -> peri::Result<()> {
     glass.fracture_energy = 3.8;
 
     let pane = peri::Body::new(d)?;
-    pane.add_box(pane.add_material(&glass)?, &[0.0, 0.0], &[0.1, 0.04], 0.5e-3)?;
+    pane.add_box(pane.add_material(glass)?, &[0.0, 0.0], &[0.1, 0.04], 0.5e-3)?;
     pane.build()?;
     pane.cut_segment(peri::CUT_INITIAL, &[0.0, 0.02], &[0.05, 0.02])?;
     let top = pane.select_box("top", &[0.0, 0.0395], &[0.1, 0.04])?;

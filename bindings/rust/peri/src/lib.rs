@@ -867,7 +867,7 @@ impl<'a> SofteningDesc<'a> {
         }
     }
     #[allow(unused_mut)]
-    fn raw(&self, dim: i64) -> sys::peri_softening_desc {
+    fn raw(&self, _dim: i64) -> sys::peri_softening_desc {
         let mut raw = Self::start(self.shape);
         raw.shape = self.shape;
         raw.unloading = self.unloading;
