@@ -93,7 +93,7 @@ uninstall:
 
 # The library as others compile it, for tests/checks.sh: again the kernels apart, so that an edit elsewhere leaves them alone. OTHER of a
 # target is its compiler and flags. gcc's -Og takes the least of compiling and running together under sanitizers (clang has none such), and
-# a trap half the time of a message: SANITIZE="-g1 -Og -fsanitize=address,undefined" says what was undefined. -ffast-math is tried with gcc
+# a trap half the time of a message: SANITIZE="-g1 -Og -fsanitize=address,undefined" says what was undefined. -ffast-math is tried by make validate with gcc
 # where there is one, on the vectors of 16 bytes that other machines have; the core's arithmetic is as written by the same pragma, and what
 # it would fold is folded without optimisation, too. OWN_ of a directory: the kernels that are compiled so; the others are those of the
 # library. make validate compiles all, and the core as the kernels (tests/run.sh); and with the checks of sums of pointers and of sizes of

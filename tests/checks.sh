@@ -20,7 +20,6 @@ else
 fi
 # the same bits, whatever the vectors: of the library here, for others
 . tests/bits.sh
-queue fast_math "make --no-print-directory CC='$CC' build/fast/peri.o"
 # the tokens of peri_impl.c, of peri.h with PERI_IMPLEMENTATION and of the single file are the same (dist): one build stands for all; $CC
 # made build/libperi.a with $STRICT, too. Here the text with all vectors is read by the strict compiler, in make validate compiled
 queue dist "sh tests/check_dist.sh --quick"
@@ -76,9 +75,6 @@ done
 queue example_length 'for e in examples/*.c; do
     lines=$(wc -l < $e); [ $lines -lt 80 ] || { echo "$e: $lines lines"; exit 1; }; done'
 
-queue_programs $(for name in $longest $shorter; do [ "$name" = extremes ] || echo "$name"; done)
-run_queue
-
 # ---- under sanitizers, what is quick enough. The tests themselves as they are: the library sees what they give it; two that ask whether
 # ---- they are sanitized are compiled so. make validate does so with all, and leaves out nothing
 left_out() { # left_out NAME: the cases that take longest, and whose calls others make
@@ -102,9 +98,18 @@ left_out() { # left_out NAME: the cases that take longest, and whose calls other
     test_solvers) echo -equals_a_dense_factorisation -stiffness_is_its_product ;;
     esac
 }
-# -ffast-math: the same bits, whatever the vectors; those of clang are compared in make validate
-fast=build/fast/peri.o
-queue fast_math_bits "$(bits_of $fast)"
+# What runs under sanitizers does not run again without, but for the cases that are left out there; make validate runs all.
+for name in $longest $shorter; do
+    case " $sanitized " in
+    *" $name "*)
+        rest=$(left_out "$name" | sed 's/-/+/; s/ -/ +/g')
+        if [ -z "$can_sanitize" ] || [ "$name" = test_random ]; then queue_programs "$name"
+        elif [ -n "$rest" ]; then queue_program "$name" "build/tests/$name $rest"
+        fi ;;
+    *) [ "$name" = extremes ] || queue_programs "$name" ;;
+    esac
+done
+run_queue
 if [ -n "$can_sanitize" ]; then
     for name in $sanitized; do
         [ "$name" != test_random ] || continue # random programs do the same in small
@@ -114,10 +119,6 @@ if [ -n "$can_sanitize" ]; then
             build/san/$name $(left_out $name)"
     done
 fi
-
-# ---- -ffast-math: NaN is refused
-queue_program fast_math_callbacks "$CC build/extremes/*.o $fast -o build/checks/fast_math_callbacks $OPENMP -lm && \
-    build/checks/fast_math_callbacks --some write"
 
 if command -v python3 > /dev/null; then
     queue_program test_ctypes "$CC $STRICT -O2 -I. tests/ctypes_scene.c build/libperi.a -o build/checks/ctypes_scene $OPENMP -lm && \

@@ -16,7 +16,7 @@
 #include <time.h>
 
 static int test_passed, test_failed, test_bad, test_long;
-static const char *test_filter, *test_left_out[8];
+static const char *test_filter, *test_left_out[8], *test_kept[8];
 
 #define CHECK(condition)                                                                                               \
     do {                                                                                                               \
@@ -62,9 +62,13 @@ static inline int64_t test_must(const peri_body *body, int64_t result, const cha
 static inline void test_run(void (*function)(void), const char *name) {
     const clock_t start = clock();
     int k;
+    int kept = !test_kept[0];
     if (test_filter && !strstr(name, test_filter)) return;
-    for (k = 0; k < 8; ++k)
+    for (k = 0; k < 8; ++k) {
         if (test_left_out[k] && strcmp(name, test_left_out[k]) == 0) return;
+        if (test_kept[k] && strcmp(name, test_kept[k]) == 0) kept = 1;
+    }
+    if (!kept) return;
     test_bad = 0;
     function();
     if (test_bad) test_failed++;
@@ -74,10 +78,11 @@ static inline void test_run(void (*function)(void), const char *name) {
 }
 
 static inline void test_begin(int argc, char **argv) {
-    int k, out = 0;
+    int k, out = 0, kept = 0;
     for (k = 1; k < argc; ++k) {
         if (strcmp(argv[k], "--long") == 0) test_long = 1;
         else if (argv[k][0] == '-' && out < 8) test_left_out[out++] = argv[k] + 1;
+        else if (argv[k][0] == '+' && kept < 8) test_kept[kept++] = argv[k] + 1;
         else test_filter = argv[k];
     }
 }

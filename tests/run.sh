@@ -129,6 +129,8 @@ else
     check fast_math make --no-print-directory -j2 CC="$CC" "OWN_fast=$kernels" FAST_CORE= build/fast/peri.o
     rm -f build/fast/core.o # that of make test is another
     check fast_math_bits bits build/fast/peri.o
+    program fast_math_callbacks sh -c "$CC build/extremes/*.o build/fast/peri.o -o build/checks/fast_math_callbacks $OPENMP -lm && \
+        build/checks/fast_math_callbacks --some write" # NaN is refused
     if command -v clang > /dev/null; then
         check strict_single_file clang $STRICT -O0 -DPERI_KERNELS=3 -DPERI_IMPLEMENTATION -x c -c build/dist/peri.h -o build/checks/single.o
         check strict_clang make --no-print-directory -j2 "OWN_clang=$kernels" build/clang/peri.o

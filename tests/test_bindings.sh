@@ -75,7 +75,7 @@ if has gfortran; then
         gfortran -ffree-line-length-none -O0 -I $dir $dir/sizes.f90 $dir/peri_f90.o build/libperi.a -o $dir/sizes_f90 $OPENMP -lm &&
         $dir/scenes_f90 > $dir/fortran.text && $dir/sizes_f90 | cmp -s - $dir/sizes.text && same fortran || bad "fortran"
 fi
-if has go && has gcc; then
+if [ "$1" = --long ] && has go && has gcc; then
     [ -z "$(gofmt -l bindings/go)" ] || bad "gofmt"
     (cd bindings/go && GOFLAGS=-mod=mod GOCACHE=$root/build/go CC=gcc go build -o "$root/$dir/glass_go" .) && $dir/glass_go > $dir/go.text &&
         grep -qx "$glass" $dir/go.text && grep -qx "$(grep '^glass.kinetic ' $dir/c.text)" $dir/go.text && grep -qx "glass.frames 6" $dir/go.text ||
