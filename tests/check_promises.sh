@@ -34,7 +34,7 @@ objects() {
 # peri_choose"; PERI_NO_STDIO leaves out what needs FILE. Names of GNU libgomp, of the compiler and of the library aside.
 symbols() {
     command -v nm > /dev/null || { echo "skip symbols: no nm on this machine"; return; }
-    maths="atan2 ceil cos exp fabs floor fmax fmin frexp ldexp log log10 log1p pow sin sincos sqrt sqrtf"
+    maths="atan2 ceil cos exp expm1 fabs floor fmax fmin frexp hypot ldexp log log10 log1p pow sin sincos sqrt sqrtf tan"
     memory="free malloc memcmp memcpy memmove memset qsort strcmp strcpy strlen strstr"
     for name in $maths $memory; do echo "$name"; done | sort > $out/always
     for name in fopen fclose fread fwrite clock; do echo "$name"; done | sort - $out/always > $out/allowed

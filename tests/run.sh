@@ -122,6 +122,7 @@ else
     run_queue
     check dist sh tests/check_dist.sh
     check builds sh tests/check_builds.sh
+    check hygiene sh tests/check_hygiene.sh
     check bindings sh tests/test_bindings.sh --long
     check python_install sh tests/check_python_install.sh
     check lessons make --no-print-directory CC="$CC" lessons

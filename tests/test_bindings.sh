@@ -5,7 +5,7 @@
 # other targets; a field and a function that are added to a copy of peri.h come to all of them. What a machine lacks is skipped by name.
 # SOURCE OF TRUTH: tests/binding_scenes.c, and the C compiler for layouts.
 #   test_bindings.sh          after make lib
-#   test_bindings.sh --long   also the examples, cargo, clang++, C++20, sanitizers
+#   test_bindings.sh --long   also Rust, Fortran and Go, the examples, cargo, clang++, C++20, sanitizers
 cd "$(dirname "$0")/.." || exit 1
 root=$PWD
 dir=build/checks/bindings
@@ -58,7 +58,7 @@ if has luajit; then
     (PERI=$root/build/libperi.so LUA_PATH="$root/bindings/lua/?.lua" && export PERI LUA_PATH && luajit tests/bindings/scenes.lua > $dir/lua.text &&
         luajit $dir/sizes.lua | cmp -s - $dir/sizes.text) && same lua || bad "lua"
 fi
-if has rustc; then
+if [ "$1" = --long ] && has rustc; then
     out="--out-dir $dir --edition 2021"
     link=$(case $OPENMP in *fopenmp*) echo "-l gomp" ;; esac)
     rustc --crate-type rlib --crate-name peri_sys bindings/rust/peri-sys/src/lib.rs $out -D warnings &&
@@ -68,7 +68,7 @@ if has rustc; then
         rustc --crate-name sizes_rs $dir/sizes.rs --extern peri_sys=$dir/libperi_sys.rlib $out &&
         $dir/scenes_rs > $dir/rust.text && $dir/sizes_rs | cmp -s - $dir/sizes.text && same rust || bad "rust"
 fi
-if has gfortran; then
+if [ "$1" = --long ] && has gfortran; then
     gfortran -std=f2008 -Wall -Wextra -Werror -O0 -J $dir -c bindings/fortran/peri.f90 -o $dir/peri_f90.o &&
         gfortran -std=f2008 -Wall -Wextra -Werror -O0 -J $dir tests/bindings/scenes.f90 $dir/peri_f90.o build/libperi.a -o $dir/scenes_f90 \
             $OPENMP -lm &&

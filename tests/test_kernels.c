@@ -485,7 +485,7 @@ int main(int argc, char **argv) {
     RUN(oterkus);
     RUN(correspondence);
     RUN(masks_follow);
-    RUN(clouds);
+    LONG_RUN(clouds); /* random scenes, fields and strengths have clouds of all laws, too */
     RUN(instruction_sets);
     RUN(mixed_precision);
     RUN(both_ends_break);

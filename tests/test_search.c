@@ -297,6 +297,7 @@ static void renumbered(void) {
     };
     static double force[2][3 * N_MAX], damage[2][N_MAX];
     size_t k;
+    seed = 5; /* whatever ran before: centroids of slivers lose digits */
     for (k = 0; k < sizeof scenes / sizeof scenes[0]; ++k) {
         const scene *s = &scenes[k];
         const double rounding = s->precision == PERI_PRECISION_SINGLE ? 2e-5 : 1e-11;
