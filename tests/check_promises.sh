@@ -130,7 +130,7 @@ flat() {
             if (substr(one, 1, RSTART - 1) !~ /^ *(void|int32_t|int64_t|double|const char \*) *peri_[a-z0-9_]+$/) { print "returns: " one; bad = 1 }
             args = split(list, arg, ",")
             for (k = 1; k <= args; ++k)
-                if (arg[k] !~ /\*|^ *(void|(int32_t|int64_t|uint64_t|double|peri_[a-z]+_fn) [a-z0-9_]+) *$/) { print one ": " arg[k]; bad = 1 }
+                if (arg[k] !~ /\*|^ *(void|(int32_t|int64_t|uint64_t|double|peri_[a-z_]+_fn) [a-z0-9_]+) *$/) { print one ": " arg[k]; bad = 1 }
         }
         if (count < 90) { print "only " count " functions"; bad = 1 }
         exit bad
