@@ -44,7 +44,7 @@ RESULTS = os.path.join(HOME, "results.txt")
 KILLED_LEAST, QUICK_LEAST = 0.95, 0.90  # of those that are not equivalent: by all tests, and by `make test` alone
 # cases that measure time, which fail on a busy machine: they must fail twice, and pass in between without the mutant
 TIMED = {"test_plan/measuring_builds_and_frees_a_small_body", "test_choose/laws_and_times", "test_choose/wrong_goals"}
-LINKED = ["Makefile", "peri.h", "tests", "examples", "tools", "bench", "docs", "cmake"]
+LINKED = ["Makefile", "peri.h", "tests", "examples", "tools", "bench", "docs", "cmake", "bindings", "extras"]
 
 
 MACRO = """
