@@ -36,7 +36,8 @@
      Callback returns 0: go on, or no; > 0: stop, or yes; < 0: it failed, which ends the call with
               PERI_ERROR_CALLBACK. It may read the body that called it.
      Threads  one at a time per body; different bodies, clones included, at once. Results have the
-              same bits for any number. Callbacks but laws of bonds come on the thread of the call.
+              same bits for any number. Callbacks come on the thread of the call, but for laws of
+              bonds and stresses.
    The library never prints, exits, asserts, or keeps global state. Equations are cited from
    [T] the thesis, [L] the lecture, [P] PDMATLAB2D, [C] the convergence study: docs/theory.md. */
 
@@ -378,8 +379,8 @@ typedef enum peri_law {
     PERI_LAW_CORRESPONDENCE = 1004 /* T = w P K^-1 xi, stabilised [C] 18-21 */
 } peri_law;
 
-#define PERI_RELAXATIONS 4
-#define PERI_HISTORY     64
+#define PERI_RELAXATIONS 4  /* most parts that relax */
+#define PERI_HISTORY     64 /* most numbers per point */
 
 /* When a stretched bond breaks; between two materials: when either's criterion is met. */
 typedef enum peri_criterion {
@@ -408,11 +409,11 @@ typedef struct peri_material_desc {
     double strength;         /* [M L^-1 T^-2] > 0 of the criteria of stress; Mohr-Coulomb: or 0 */
     double cohesion;         /* [M L^-1 T^-2] > 0 of Mohr-Coulomb */
     double friction_angle;   /* [-] [0, pi/2) likewise */
-    double compression;      /* [-] 0..1e3 */
-    double rate;             /* [T^-1] > 0 */
+    double compression;      /* alpha [-] 0..1e3, of the confined stretch. 0 (default): none */
+    double rate;             /* [T^-1] > 0 of the rate stretch, and */
     double rate_power;       /* [-] 0..10. 0 (default): 1 */
-    double delay;            /* [T] > 0 */
-    double yield_shear;      /* LPS: stress in shear at which it flows. 0 (default): never */
+    double delay;            /* [T] > 0 of the delayed stretch */
+    double yield_shear;      /* LPS: [M L^-1 T^-2] in shear, at which it flows. Default 0: never */
     int32_t relaxations;     /* LPS, viscous: 0..PERI_RELAXATIONS. Default 0 */
     int32_t history;         /* numbers per point for `stress`, 0..PERI_HISTORY. Default 0 */
     double relaxation_part[4]; /* (0, 1] of the stiffness in shear, and */

@@ -298,6 +298,14 @@ static void tears(void) {
     MUST(b, peri_get_momentum(b, momentum, NULL));
     CHECK(fabs(momentum[0]) + fabs(momentum[1]) < 1e-12);
     CHECK(peri_find_fragments(b, NULL, 0) >= 2);
+    double *first = get(b, PERI_FIELD_DISPLACEMENT), *second; /* and after peri_reset as a new body */
+    MUST(b, peri_reset(b));
+    put(b, PERI_FIELD_VELOCITY, x);
+    for (int k = 0; k < 10; ++k) (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 10, 0.1 * H, 0);
+    second = get(b, PERI_FIELD_DISPLACEMENT);
+    CHECK(memcmp(first, second, (size_t)(2 * peri_point_count(b)) * sizeof *first) == 0);
+    free(first);
+    free(second);
     free(x);
     peri_body_destroy(b);
 }

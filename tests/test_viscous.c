@@ -47,6 +47,18 @@ static void sheared_at_once(void) {
         shear_at_once(b, gamma);
         CHECK_NEAR(shear_stress(b), mu * gamma, 1e-6, 0);
         MUST(b, peri_body_clone(b, &copy, NULL));
+        { /* whoever reads between the motion and the run leaves no trace: the jump was elastic */
+            peri_body *read = two_parts(space[k], PERI_PRECISION_DOUBLE);
+            shear other;
+            double force[3];
+            hold_shear(read, &other, still, 1);
+            shear_at_once(read, gamma);
+            MUST(read, peri_get_reaction(read, peri_id(read, PERI_KIND_LOAD, 1), force));
+            (void)go(read, PERI_INTEGRATOR_VELOCITY_VERLET, 10, 0.07, 0);
+            CHECK_NEAR(shear_stress(read), mu * gamma * kept(0.7), 1e-6, 0);
+            free(other.x);
+            peri_body_destroy(read);
+        }
         (void)go(b, PERI_INTEGRATOR_VELOCITY_VERLET, 10, 0.07, 0);
         CHECK_NEAR(shear_stress(b), mu * gamma * kept(0.7), 1e-6, 0);
         peri_solve_desc_init(&solve);

@@ -536,15 +536,15 @@ module peri_c
         real(c_double) :: cohesion = 0
         ! [-] [0, pi/2) likewise
         real(c_double) :: friction_angle = 0
-        ! [-] 0..1e3
+        ! alpha [-] 0..1e3, of the confined stretch. 0 (default): none
         real(c_double) :: compression = 0
-        ! [T^-1] > 0
+        ! [T^-1] > 0 of the rate stretch, and
         real(c_double) :: rate = 0
         ! [-] 0..10. 0 (default): 1
         real(c_double) :: rate_power = 0
-        ! [T] > 0
+        ! [T] > 0 of the delayed stretch
         real(c_double) :: delay = 0
-        ! LPS: stress in shear at which it flows. 0 (default): never
+        ! LPS: [M L^-1 T^-2] in shear, at which it flows. Default 0: never
         real(c_double) :: yield_shear = 0
         ! LPS, viscous: 0..PERI_RELAXATIONS. Default 0
         integer(c_int32_t) :: relaxations = 0

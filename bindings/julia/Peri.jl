@@ -280,11 +280,11 @@ mutable struct peri_material_desc
     strength::Float64 # [M L^-1 T^-2] > 0 of the criteria of stress; Mohr-Coulomb: or 0
     cohesion::Float64 # [M L^-1 T^-2] > 0 of Mohr-Coulomb
     friction_angle::Float64 # [-] [0, pi/2) likewise
-    compression::Float64 # [-] 0..1e3
-    rate::Float64 # [T^-1] > 0
+    compression::Float64 # alpha [-] 0..1e3, of the confined stretch. 0 (default): none
+    rate::Float64 # [T^-1] > 0 of the rate stretch, and
     rate_power::Float64 # [-] 0..10. 0 (default): 1
-    delay::Float64 # [T] > 0
-    yield_shear::Float64 # LPS: stress in shear at which it flows. 0 (default): never
+    delay::Float64 # [T] > 0 of the delayed stretch
+    yield_shear::Float64 # LPS: [M L^-1 T^-2] in shear, at which it flows. Default 0: never
     relaxations::Int32 # LPS, viscous: 0..PERI_RELAXATIONS. Default 0
     history::Int32 # numbers per point for `stress`, 0..PERI_HISTORY. Default 0
     relaxation_part::NTuple{4,Float64} # (0, 1] of the stiffness in shear, and

@@ -16,7 +16,8 @@ typedef enum peri__stale {
     PERI__STALE_LEDGER = 8,    /* ledger.initial lacks a change by the caller: that from ledger.before to now            */
     PERI__STALE_BALANCE = 16,  /* the equilibrium that peri_solve has found: what acts, or the bonds, are others         */
     PERI__STALE_SHARP = 32,    /* body->sharp: bonds of which it was made have been cut or mended since; or never asked for */
-    PERI__STALE_STRETCH = 64   /* now.stiffer: displacements were changed since, not by a run                            */
+    PERI__STALE_STRETCH = 64,  /* now.stiffer: displacements were changed since, not by a run                            */
+    PERI__STALE_PAST = 128     /* of inelastic bodies: what a change by the caller makes of them in no time              */
 } peri__stale;
 
 /* How far a body has come: what a clone takes over as it is and peri_reset begins anew. The arrays of the state are in arrays.c. A list, so

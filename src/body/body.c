@@ -299,6 +299,7 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     peri__gauss(cloud->gauss_x, cloud->gauss_w);
 
     status = peri__fill_pairs(b, m);
+    if (status == PERI_OK && m->inelastic && m->seen_by) status = peri__fail(b, PERI_ERROR_CRITERION, "criterion", -1, 0.0);
     cloud->edge = 0.5 * m->spacing / m->horizon;
     if (status == PERI_OK) status = peri__fill_families(b, m, cloud, sums);
     if (status == PERI_OK && m->pairwise && !(m->row_sum > 1e-30 && m->row_sum < 1e30))

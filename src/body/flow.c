@@ -76,7 +76,7 @@ static void peri__flow_deform(const peri__flow *f, int64_t i, const peri__row *r
 /* The family of a flowing point: m, q, and where its bonds begin in the arrays. */
 typedef struct peri__flow_point {
     int64_t   first;
-    double    m, q;
+    double    m, live, q; /* live: m of the bonds that are left                                                          */
     peri__row row;
 } peri__flow_point;
 
@@ -86,6 +86,12 @@ static void peri__flow_read(const peri__flow *f, int64_t i, peri__flow_point *po
     point->first = b->past.start[i];
     point->m = b->model->dim / peri__get_constant(b, i, PERI__THETA_FACTOR);
     point->q = peri__get_constant(b, i, PERI__SPRING);
+    point->live = point->m;
+    if (b->desc.moments == PERI_MOMENTS_LIVE) return;
+    point->live = DBL_MIN;
+    for (int64_t k = 0; k < point->row.count; ++k)
+        if (peri__is_alive(b, i, k))
+            point->live += peri__weight_of(b->model, i, point->row.weight, k) * peri__square(peri__get_real(point->row.bond, b->b32, k));
 }
 
 /* sum w |xi| a V over the live bonds */
@@ -100,7 +106,7 @@ static double peri__flow_dilation(const peri__flow *f, int64_t i, const peri__fl
 
 /* Takes that part out: a -= |xi| sum/m. */
 static void peri__flow_project(const peri__flow *f, int64_t i, const peri__flow_point *point, double *a, int64_t step) {
-    const double part = peri__flow_dilation(f, i, point, a, step) / point->m;
+    const double part = peri__flow_dilation(f, i, point, a, step) / point->live;
     for (int64_t k = 0; k < point->row.count; ++k)
         if (peri__is_alive(f->body, i, k)) a[k * step] -= peri__get_real(point->row.bond, f->body->b32, k) * part;
 }
@@ -131,7 +137,7 @@ static void peri__flow_plastic(const peri__flow *f, int64_t i, peri__flow_point 
     const peri_body *b = f->body;
     const int64_t reals = b->model->past.bond;
     double *c = b->past.flow + point->first, *past = b->past.bond + point->first * reals, square = 0.0;
-    const double part = peri__flow_dilation(f, i, point, past + 1, reals) / point->m, radius = peri__flow_radius(b, i, point);
+    const double part = peri__flow_dilation(f, i, point, past + 1, reals) / point->live, radius = peri__flow_radius(b, i, point);
     for (int64_t k = 0; k < point->row.count; ++k) {
         const double old = past[k * reals + 1] - part * peri__get_real(point->row.bond, b->b32, k);
         if (peri__is_alive(b, i, k)) square += peri__weight_of(b->model, i, point->row.weight, k) * peri__square(c[k] - old);
@@ -276,7 +282,7 @@ static void peri__flow_change_plastic(const peri__flow *f, int64_t i, peri__flow
     const peri_body *b = f->body;
     const int64_t reals = b->model->past.bond;
     const double *past = b->past.bond + point->first * reals, radius = peri__flow_radius(b, i, point);
-    const double part = peri__flow_dilation(f, i, point, past + 1, reals) / point->m;
+    const double part = peri__flow_dilation(f, i, point, past + 1, reals) / point->live;
     double *x = b->past.flow + point->first, square = 0.0, along = 0.0;
     peri__flow_deviate(f, i, point, 0, x);
     for (int64_t k = 0; k < point->row.count; ++k) {

@@ -43,6 +43,7 @@ static void peri__changed(peri_body *b, peri__change what) {
     if ((what == PERI__CUTS || what == PERI__BONDS) && b->contact) b->contact->dead = -1;
     b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
     if (what == PERI__MOTION) b->now.stale |= PERI__STALE_STRETCH;
+    if ((what == PERI__MOTION || what == PERI__CUTS) && b->model->inelastic) b->now.stale |= PERI__STALE_PAST;
 }
 
 /* The forces of contact at no step. In equilibria nothing slips and nothing approaches. */
@@ -93,10 +94,12 @@ static int32_t peri__ensure(peri_body *b, uint32_t what) {
 /* Before a run or a solve: what the caller's change of the motion, or of the bonds, makes of inelastic materials, in no time; its energy is
    put in by the caller. */
 static int32_t peri__settle_past(peri_body *b) {
-    if (!b->model->inelastic || !(b->now.stale & PERI__STALE_FORCE)) return PERI_OK;
+    if (!(b->now.stale & PERI__STALE_PAST)) return PERI_OK;
+    b->now.stale |= PERI__STALE_FORCE; /* whoever has read it in the meantime */
     b->past.settling = 1;
     const int32_t status = peri__ensure(b, PERI__STALE_FORCE);
     b->past.settling = 0;
+    if (status == PERI_OK) b->now.stale &= ~(uint32_t)PERI__STALE_PAST;
     return status;
 }
 

@@ -159,6 +159,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     operands.step = dt;
     const int broke = peri__forces_and_breaks(b, &operands);
     status = peri__heed_stress(b);
+    if (status == PERI_OK) status = peri__heed_laws(b);
     if (status < 0) {
         peri__changed(b, PERI__ACTION);
         return status;
@@ -225,7 +226,8 @@ static int32_t peri__show_frame(peri_body *b, const peri_advance_desc *r) {
     peri__leave(b, former);
     int32_t status = peri__heed(b, said, "peri_frame_fn");
     if (status != PERI_OK) return status;
-    status = peri__ensure(b, PERI__STALE_FORCE);
+    status = peri__settle_past(b);
+    if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE);
     (void)peri__ensure(b, PERI__STALE_LEDGER);
     return status;
 }

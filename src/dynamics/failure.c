@@ -185,6 +185,7 @@ static void peri__part_all(peri_body *b) {
             b->alive[j * m->words + back / 32] &= ~((uint32_t)1 << (back % 32));
         }
     }
+    memset(b->dying, 0, (size_t)(m->points * m->words) * sizeof *b->dying); /* peri_reset may mend them */
     b->now.stale |= PERI__STALE_MASKS | PERI__STALE_CONSTANTS;
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
 }

@@ -470,10 +470,10 @@ PERI_ISA_TARGET PERI_INLINE PERI_VECTOR PERI_ISA_FN(half_pull)(const PERI_ISA_FN
 PERI_ISA_TARGET static uint32_t PERI_ISA_FN(fielded)(const peri__operands *o, int64_t g, peri_r f[PERI_D][PERI_GROUP]) {
     PERI_NO_CONTRACTION
     const peri__model *m = o->model;
-    const peri_b *tensor = (const peri_b *)o->response + m->stride + g * PERI_GROUP;
-    const peri_b *k = (const peri_b *)o->constant + PERI__STABILIZATION * m->stride + g * PERI_GROUP;
-    const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY), one = PERI_V(set1)(1), middle = PERI_V(set1)((peri_b)0.5);
     const int linear = o->linear, tensors = m->gathers & PERI__GRADIENT;
+    const peri_b *tensor = tensors ? (const peri_b *)o->response + m->stride + g * PERI_GROUP : NULL;
+    const peri_b *k = tensors ? (const peri_b *)o->constant + PERI__STABILIZATION * m->stride + g * PERI_GROUP : NULL;
+    const PERI_VECTOR tiny = PERI_V(set1)((peri_b)PERI_TINY), one = PERI_V(set1)(1), middle = PERI_V(set1)((peri_b)0.5);
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_ISA_FN(group) s;
     PERI_ISA_FN(bond) bond;

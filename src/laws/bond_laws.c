@@ -64,7 +64,7 @@ static int32_t peri__follow_table(const peri__bond_law *law, const peri_bond_row
         const int further = s > kept && s > law->first;
         const peri__bond_point p = peri__table_at(law, s, further ? s : kept);
         double slope = p.tangent, area;
-        if (further) (void)peri__curve_at(law, s, &slope, &area);
+        if (s > law->first && s > kept * (1.0 + 1e-5)) (void)peri__curve_at(law, s, &slope, &area); /* the rounding of s is no growth */
         row->force[n] = p.force;
         if (row->tangent) row->tangent[n] = slope;
         if (row->energy) row->energy[n] = p.energy;

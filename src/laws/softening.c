@@ -217,6 +217,7 @@ static int32_t peri__fit_bond_laws(peri_body *b) {
     if (b->bond_law_count == 0) return PERI_OK;
     if (!m->pairwise) return peri__fail(b, PERI_ERROR_LAW, "peri_set_bond_law", -1, m->law);
     if (m->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
+    if (m->seen_by) return peri__fail(b, PERI_ERROR_CRITERION, "criterion", -1, 0.0); /* rows of laws look at the stretch alone */
     m->law_of = (uint8_t *)peri__new(&m->memory, (int64_t)n * n, 1);
     peri__reference *reference = (peri__reference *)peri__new(&b->scratch, 1, sizeof *reference);
     for (int64_t k = 0; m->law_of && reference && k < b->bond_law_count; ++k) {

@@ -620,15 +620,15 @@ pub struct peri_material_desc {
     pub cohesion: f64,
     /// \[-\] \[0, pi/2) likewise
     pub friction_angle: f64,
-    /// \[-\] 0..1e3
+    /// alpha \[-\] 0..1e3, of the confined stretch. 0 (default): none
     pub compression: f64,
-    /// \[T^-1\] \> 0
+    /// \[T^-1\] \> 0 of the rate stretch, and
     pub rate: f64,
     /// \[-\] 0..10. 0 (default): 1
     pub rate_power: f64,
-    /// \[T\] \> 0
+    /// \[T\] \> 0 of the delayed stretch
     pub delay: f64,
-    /// LPS: stress in shear at which it flows. 0 (default): never
+    /// LPS: \[M L^-1 T^-2\] in shear, at which it flows. Default 0: never
     pub yield_shear: f64,
     /// LPS, viscous: 0..PERI\_RELAXATIONS. Default 0
     pub relaxations: i32,
