@@ -52,6 +52,22 @@ static inline peri_body *specimen_make(const specimen *s) {
     return b;
 }
 
+/* What peri_add_material says of a description in a body without points; a refusal names the field and the entry. */
+static inline int32_t material_status(int32_t space, const peri_material_desc *m, const char *field, int64_t index) {
+    peri_body_desc d;
+    peri_body *b = NULL;
+    peri_error error;
+    peri_body_desc_init(&d);
+    d.space = space;
+    d.horizon = 3;
+    (void)MUST(NULL, peri_body_create(&d, &b, NULL));
+    const int32_t status = peri_add_material(b, m);
+    (void)MUST(b, peri_get_error(b, &error));
+    CHECK(status >= 0 || (strcmp(error.field, field) == 0 && error.index == index));
+    peri_body_destroy(b);
+    return status;
+}
+
 /* The plan of its box; measure: as in peri_plan_desc. */
 static inline peri_plan_report specimen_plan(const specimen *s, int32_t measure) {
     peri_plan_desc p;

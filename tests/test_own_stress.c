@@ -448,43 +448,28 @@ static void failures_are_told(void) {
     peri_body_destroy(b);
 }
 
-static int32_t add_status(const peri_material_desc *m, const char *field) {
-    peri_body_desc d;
-    peri_body *b = NULL;
-    peri_error error;
-    peri_body_desc_init(&d);
-    d.space = PERI_SPACE_PLANE_STRESS;
-    d.horizon = 3;
-    (void)peri_body_create(&d, &b, NULL);
-    const int32_t status = peri_add_material(b, m);
-    MUST(b, peri_get_error(b, &error));
-    CHECK(status >= 0 || strcmp(error.field, field) == 0);
-    peri_body_destroy(b);
-    return status;
-}
-
 static void refusals(void) {
     hooke w;
     const specimen s = correspondence(PERI_SPACE_PLANE_STRESS, 8, 8, 1, &w, PERI_GEOMETRY_NONLINEAR);
     peri_material_desc m = s.material;
     m.stress = counting;
-    CHECK(add_status(&m, "") >= 0);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &m, "", -1) >= 0);
     m.history = -1;
-    CHECK(add_status(&m, "history") == PERI_ERROR_RANGE);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &m, "history", -1) == PERI_ERROR_RANGE);
     m.history = PERI_HISTORY + 1;
-    CHECK(add_status(&m, "history") == PERI_ERROR_RANGE);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &m, "history", -1) == PERI_ERROR_RANGE);
     m.history = 2;
     m.stress = NULL;
-    CHECK(add_status(&m, "stress") == PERI_ERROR_ARGUMENT);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &m, "stress", -1) == PERI_ERROR_ARGUMENT);
     m.history = 0;
     m.stress = counting;
     m.fracture_energy = 1;
     m.criterion = PERI_CRITERION_NODE_ENERGY;
-    CHECK(add_status(&m, "criterion") == PERI_ERROR_CRITERION);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &m, "criterion", -1) == PERI_ERROR_CRITERION);
     m.criterion = PERI_CRITERION_STRETCH;
     m.stabilization = 0;
     m.law = PERI_LAW_LPS;
-    CHECK(add_status(&m, "stress") == PERI_ERROR_LAW);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &m, "stress", -1) == PERI_ERROR_LAW);
     peri_body *b = own(s, counting, NULL, 1);
     peri_matrix *matrix = NULL;
     peri_solve_desc solve;

@@ -240,42 +240,27 @@ static void force_is_the_derivative(void) {
     }
 }
 
-static int32_t add_status(const peri_material_desc *m, const char *field, int64_t index) {
-    peri_body_desc d;
-    peri_body *b = NULL;
-    peri_error error;
-    peri_body_desc_init(&d);
-    d.space = PERI_SPACE_PLANE_STRESS;
-    d.horizon = 3;
-    (void)peri_body_create(&d, &b, NULL);
-    const int32_t status = peri_add_material(b, m);
-    MUST(b, peri_get_error(b, &error));
-    CHECK(status >= 0 || (strcmp(error.field, field) == 0 && error.index == index));
-    peri_body_destroy(b);
-    return status;
-}
-
 static void refusals(void) {
     specimen s = shear_specimen(PERI_SPACE_PLANE_STRESS);
     relaxes(&s, 0.7, 1);
     relaxes(&s, 0.3, 1);
-    CHECK(add_status(&s.material, "", -1) >= 0);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &s.material, "", -1) >= 0);
     s.material.relaxation_part[1] = 0.31;
-    CHECK(add_status(&s.material, "relaxation_part", -1) == PERI_ERROR_RANGE);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &s.material, "relaxation_part", -1) == PERI_ERROR_RANGE);
     s.material.relaxation_part[1] = 0;
-    CHECK(add_status(&s.material, "relaxation_part", 1) == PERI_ERROR_RANGE);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &s.material, "relaxation_part", 1) == PERI_ERROR_RANGE);
     s.material.relaxation_part[1] = 0.1;
     s.material.relaxation_time[1] = 0;
-    CHECK(add_status(&s.material, "relaxation_time", 1) == PERI_ERROR_RANGE);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &s.material, "relaxation_time", 1) == PERI_ERROR_RANGE);
     s.material.relaxation_time[1] = 1;
     s.material.relaxations = PERI_RELAXATIONS + 1;
-    CHECK(add_status(&s.material, "relaxations", -1) == PERI_ERROR_RANGE);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &s.material, "relaxations", -1) == PERI_ERROR_RANGE);
     s.material.relaxations = 2;
     s.material.yield_shear = 1;
-    CHECK(add_status(&s.material, "relaxations", -1) == PERI_ERROR_MATERIAL);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &s.material, "relaxations", -1) == PERI_ERROR_MATERIAL);
     s.material.yield_shear = 0;
     s.material.law = PERI_LAW_OTERKUS;
-    CHECK(add_status(&s.material, "relaxations", -1) == PERI_ERROR_LAW);
+    CHECK(material_status(PERI_SPACE_PLANE_STRESS, &s.material, "relaxations", -1) == PERI_ERROR_LAW);
 }
 
 int main(int argc, char **argv) {

@@ -197,7 +197,7 @@ static int32_t peri__evaluate_there(peri_body *b, const peri_evaluate_desc *e, c
     }
     peri__give_array(b, e, f, 1.0, e->force);
     if (report && e->energy) report->energy = peri__energy_under(b, u, NULL) * m->energy;
-    return peri__heed_stress(b);
+    return peri__heed_laws(b);
 }
 
 /* ---- the body moves there ------------------------------------------------------------------------------------------- */
@@ -234,8 +234,7 @@ static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, pe
     operands.step = e->time_step / b->model->time;
     if (!(e->time_step > 0.0)) operands.closing = NULL;
     const int broke = peri__forces_and_breaks(b, &operands);
-    int32_t status = peri__heed_stress(b);
-    if (status == PERI_OK) status = peri__heed_laws(b);
+    int32_t status = peri__heed_laws(b);
     if (status == PERI_OK && e->external) status = peri__touch_now(b);
     if (b->desc.ledger) b->now.ledger.before -= b->now.ledger.fracture - fracture;
     peri__give_array(b, e, b->f, 1.0, e->force);

@@ -158,8 +158,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     }
     operands.step = dt;
     const int broke = peri__forces_and_breaks(b, &operands);
-    status = peri__heed_stress(b);
-    if (status == PERI_OK) status = peri__heed_laws(b);
+    status = peri__heed_laws(b);
     if (status < 0) {
         peri__changed(b, PERI__ACTION);
         return status;

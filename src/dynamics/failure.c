@@ -181,8 +181,7 @@ static void peri__part_all(peri_body *b) {
             const int64_t j = row.ids[k], back = peri__find_bond(m, j, i);
             if (!(b->dying[i * m->words + k / 32] >> (k % 32) & 1)) continue;
             b->now.broken += peri__is_alive(b, i, k) + peri__is_alive(b, j, back);
-            b->alive[i * m->words + k / 32] &= ~((uint32_t)1 << (k % 32));
-            b->alive[j * m->words + back / 32] &= ~((uint32_t)1 << (back % 32));
+            peri__take_out(b, i, k, j, back);
         }
     }
     memset(b->dying, 0, (size_t)(m->points * m->words) * sizeof *b->dying); /* peri_reset may mend them */

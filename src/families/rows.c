@@ -140,6 +140,13 @@ PERI_INLINE int peri__is_alive(const peri_body *b, int64_t i, int64_t k) {
     return !b->alive || (b->alive[i * b->model->words + k / 32] >> (k % 32) & 1);
 }
 
+/* Takes out bond k of row i, which is bond `back` of row j. */
+static void peri__take_out(const peri_body *b, int64_t i, int64_t k, int64_t j, int64_t back) {
+    const int64_t words = b->model->words;
+    b->alive[i * words + k / 32] &= ~((uint32_t)1 << (k % 32));
+    b->alive[j * words + back / 32] &= ~((uint32_t)1 << (back % 32));
+}
+
 PERI_INLINE void peri__bond_of(const peri__model *m, int f32, int64_t i, int64_t j, double *xi) {
     xi[0] = peri__get_real(m->x, f32, j) - peri__get_real(m->x, f32, i);
     xi[1] = peri__get_real(m->x, f32, m->stride + j) - peri__get_real(m->x, f32, m->stride + i);

@@ -82,26 +82,23 @@ static void peri__refresh_near(peri_body *b, int64_t losing, uint32_t stale) {
 }
 
 /* Of the bonds whose excess passes `limit` breaks those of `criticality` of the largest, `most`, or more; returns their number. The ledger
-   is up to the caller. */
+   is up to the caller, and that what criteria ask of points is of the present displacements. */
 static int64_t peri__break_static(peri__solver *s, double most, double limit) {
     peri_body *b = s->body;
     const peri__model *m = b->model;
     const double least = s->settings->criticality * most * (1.0 - PERI_EQUAL(b));
     const uint32_t stale = b->now.stale;
     int64_t count = 0, losing = 0;
-    peri__note_stresses(b, NULL);
     if (b->before) memcpy(b->before, b->alive, (size_t)(m->points * m->words) * sizeof *b->alive);
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
         peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
-            int64_t j = row.ids[k], back;
+            const int64_t j = row.ids[k];
             if (j < i || !peri__is_alive(b, i, k)) continue;
             double excess = peri__excess(b, &row, i, k);
             if (!(excess > limit && excess >= least)) continue;
-            back = peri__find_bond(m, j, i);
-            b->alive[i * m->words + k / 32] &= ~((uint32_t)1 << (k % 32));
-            b->alive[j * m->words + back / 32] &= ~((uint32_t)1 << (back % 32));
+            peri__take_out(b, i, k, j, peri__find_bond(m, j, i));
             count++;
             if (!b->near_dying) continue;
             peri__mark(b, i, 1, &losing);

@@ -227,6 +227,7 @@ static int32_t peri__event(peri__path *path, double level) {
     peri__solver *s = path->s;
     peri_body *b = s->body;
     const double least = level * s->settings->criticality * (1.0 - 2.0 * PERI_EQUAL(b));
+    peri__note_stresses(b, NULL); /* the level was found on the way here */
     (void)peri__break_static(s, level, least < 1.0 ? least : 1.0);
     path->after = peri__static_energy(b);
     path->open = 1;

@@ -99,7 +99,7 @@ static int32_t peri__equilibrium(peri__solver *s, peri__afresh afresh) {
         operands.step = s->t.step;
         operands.f = s->k.q; /* b->f stays that of the equilibrium */
         peri__bond_forces(b, &operands);
-        status = peri__heed_stress(b);
+        status = peri__heed_laws(b);
     }
     if (status == PERI_OK) {
         b->now.time += s->t.step * b->model->time;

@@ -277,7 +277,7 @@ static int32_t peri__respond_at(peri_body *b, const double *displacement, void *
     if (m->gathers) peri__for_points(b, m->points, m->width, b->ops->gather, &operands, NULL);
     if (moduli) (void)peri__own_stresses(b, &operands);
     if (m->inelastic & PERI__FLOWS) (void)peri__make_flow(b, u, 0.0, 0, NULL);
-    return peri__heed_stress(b);
+    return peri__heed_laws(b);
 }
 
 static int32_t peri__multiply_there(peri_body *b, peri__product *product, const double *displacement) {
