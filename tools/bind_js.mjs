@@ -18,17 +18,12 @@ const functions = new Map(api.functions.map(f => [f.name, f])),
 const HOOKS = /^peri_(allocate|release|parallel_for|task)_fn$/; // for C: nothing that JavaScript could do there
 
 // Lengths that depend on more than the text beside the argument says.
-const ENTRIES = {
-    "peri_motion_fn.turn": "dim==2?1:4",
-    "peri_rigid_fn.motion": "dim+turns",
-    "peri_distance_fn.distance": "1",
-    ...Object.fromEntries(
-        ["displacement", "velocity", "force", "impulse"].map(n => [
-            "peri_evaluate_desc." + n,
-            "(points-1)*(point_stride||dim)+(dim-1)*(component_stride||1)+1",
-        ]),
-    ),
-};
+const ENTRIES = Object.fromEntries(
+    ["displacement", "velocity", "force", "impulse"].map(n => [
+        "peri_evaluate_desc." + n,
+        "(points-1)*(point_stride||dim)+(dim-1)*(component_stride||1)+1",
+    ]),
+);
 const entries = (owner, p) => {
     const said = ENTRIES[`${owner}.${p.name}`] ?? p.entries;
     return said === undefined ? undefined : `s => ${said.replace(/[a-z_]\w*/g, "s.$&")}`;
