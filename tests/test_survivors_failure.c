@@ -126,10 +126,67 @@ static void fracture_is_paid_for(void) {
     }
 }
 
+/* Work and limit of a bond both go with the part of its partner that is inside the horizon: broken or not is a matter of its stretch and
+   length alone. LPS at nu = 1/3 in plane stress has no part of the dilatation: in a whole family an even stretch s does the work K s^2 xi^2
+   on a bond, and sum K s^2 xi^2 V/2 = 2 bulk s^2. A limit between the lengths sqrt(8) and 3 parts the bonds half inside, and no shorter. */
+static void partial_bonds_take_the_same_energy(void) {
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_LPS, 1.0 / 3, 1, 3, 20, 20, 1);
+    const double bulk = 0.75, m = PI * 81 / 2; /* E/(2 - 2 nu); int xi^2 dA */
+    double w0, u[2 * 400];
+    int32_t i, j;
+    int inside = 0;
+    s.desc.quadrature = PERI_QUADRATURE_PARTIAL;
+    s.material.criterion = PERI_CRITERION_BOND_ENERGY;
+    s.material.fracture_energy = 1e-3;
+    peri_body *b = specimen_make(&s);
+    MUST(b, peri_get_critical_energy(b, peri_id(b, PERI_KIND_MATERIAL, 1), &w0));
+    const double stretch = sqrt(w0 * m / (4 * bulk * 8.5));
+    double *x = get(b, PERI_FIELD_POSITION);
+    peri_evaluate_desc e;
+    peri_evaluate_desc_init(&e);
+    for (i = 0; i < 2 * 400; ++i) u[i] = stretch * x[i];
+    e.displacement = u;
+    e.fracture = 1;
+    MUST(b, peri_evaluate(b, &e, NULL));
+    for (i = 0; i < 400; ++i)
+        for (j = i + 1; j < 400; ++j) {
+            const double length = hypot(x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]);
+            const int outside = fabs(x[2 * i] - 10) > 5 || fabs(x[2 * i + 1] - 10) > 5 || fabs(x[2 * j] - 10) > 5 || fabs(x[2 * j + 1] - 10) > 5;
+            if (outside || length > 3.1) continue;
+            CHECK(peri_bond_is_intact(b, i, j) == (length < 2.9));
+            inside += length > 2.9;
+        }
+    CHECK(inside == 2 * 7 * 10);
+    free(x);
+    peri_body_destroy(b);
+}
+
+/* A bond that was made stronger, and named from either end, holds where all others of its length break. */
+static void strong_bonds_hold_from_both_ends(void) {
+    static const int32_t pairs[2][2] = {{3, 4}, {9, 8}};
+    const double factors[2] = {3, 3};
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0.25, 1, 1.2, 14, 1, 1);
+    double u[2 * 14];
+    int i;
+    s.material.critical_stretch = 0.01;
+    peri_body *b = specimen_make(&s);
+    CHECK(MUST(b, peri_set_strength_pairs(b, 2, &pairs[0][0], factors)) == 2);
+    peri_evaluate_desc e;
+    peri_evaluate_desc_init(&e);
+    for (i = 0; i < 14; ++i) u[2 * i] = 0.02 * i, u[2 * i + 1] = 0;
+    e.displacement = u;
+    e.fracture = 1;
+    MUST(b, peri_evaluate(b, &e, NULL));
+    for (i = 0; i < 13; ++i) CHECK(peri_bond_is_intact(b, i, i + 1) == (i == 3 || i == 8));
+    peri_body_destroy(b);
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(steps_keep_all_up_to_date);
     RUN(single_bonds_break_across_blocks);
     RUN(fracture_is_paid_for);
+    RUN(partial_bonds_take_the_same_energy);
+    RUN(strong_bonds_hold_from_both_ends);
     return test_end("test_survivors_failure");
 }
