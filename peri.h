@@ -923,6 +923,9 @@ typedef struct peri_solve_desc {
     int32_t fracture;               /* 1 (default): bonds break by their criterion; 0: none */
     int32_t control;                /* Default PERI_CONTROL_LOAD */
     int32_t curve_load;             /* load or support whose curve is recorded. Default 0: none */
+    int32_t keep;                   /* 1: what this solve prepares serves the next, until bonds or
+                                       supports change. Default 0: that is freed */
+    int32_t reserved;               /* 0 */
     double criticality;             /* [0, 1]: break those over this part of the largest excess.
                                        Default 0.98; 1: one by one */
     double tolerance;               /* [0, 1): |residual| over |loads| or |reactions|. 0
@@ -971,6 +974,13 @@ PERI_API void peri_solve_desc_init(peri_solve_desc *desc);
    breaks, how far it came; so does PERI_ENDED_SEVERED. */
 PERI_API int32_t peri_solve(peri_body *body, const peri_solve_desc *desc,
     peri_solve_report *report);
+
+/* peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho
+   [0, 1]: what is left of the highest modes per step; 1 keeps the energy. solve: tolerance,
+   fracture, limits, on_iteration; NULL: defaults. No obstacles or contact. A step that fails leaves
+   the last one. report may be NULL. */
+PERI_API int32_t peri_advance_implicit(peri_body *body, const peri_advance_desc *advance,
+    const peri_solve_desc *solve, double rho, peri_solve_report *report);
 
 /* out = K in [M L T^-2], the tangent at the present displacement times in[count], count =
    points*dim; without supports, obstacles and contact. out may be in. The first call takes memory

@@ -143,6 +143,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/statics/coarsen.c"   /* which nodes a coarser level has, its stiffness                               */
 #include "src/statics/multilevel.c" /* elasticity on these levels, as a preconditioner                             */
 #include "src/statics/conjugate.c" /* conjugate gradients                                                          */
+#include "src/statics/kept.c"      /* what a solve leaves to the next                                              */
 #include "src/statics/matrix.c"    /* the tangent assembled, BiCGSTAB                                              */
 #include "src/statics/equilibrium.c" /* Newton's method                                                            */
 #include "src/statics/relax.c"     /* adaptive dynamic relaxation                                                  */
@@ -150,6 +151,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/statics/step.c"      /* an equilibrium, its work, its row of the curve                               */
 #include "src/statics/path.c"      /* the load factor that the next bond to break asks for                         */
 #include "src/statics/statics.c"   /* load steps, quasi-static fracture                                            */
+#include "src/statics/implicit.c"  /* the same with inertia: steps in time                                         */
 #include "src/statics/surface.c"   /* tractions and pressures that pass the patch test                             */
 #endif
 

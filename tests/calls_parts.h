@@ -67,6 +67,35 @@ static void with_fields(void) {
     ASK(peri_set_strength_pairs(b, 1, two, &half)), ASK(peri_set_strength_if(b, 0.5, cut_none, NULL)), peri_body_destroy(b);
 }
 
+static const peri_advance_desc *steps_in_time(double step) {
+    static peri_advance_desc r;
+    peri_advance_desc_init(&r);
+    r.time_step = step;
+    r.steps = 2;
+    return &r;
+}
+static int32_t stop_iteration(void *user, int64_t iteration, double residual) { return (void)iteration, (void)residual, *(int *)user; }
+static void with_implicit_steps(void) {
+    const specimen s = plate_of(PERI_LAW_BOND_BASED);
+    peri_body *d = specimen_start(&s), *b = specimen_make(&s);
+    peri_advance_desc wrong = *steps_in_time(1);
+    peri_solve_desc st;
+    int said = 1;
+    ASK(peri_advance_implicit(NULL, &wrong, NULL, 1, NULL)), ASK(peri_advance_implicit(d, &wrong, NULL, 1, NULL));
+    ASK(peri_advance_implicit(b, NULL, NULL, 1, NULL)), ASK(peri_advance_implicit(b, &wrong, NULL, 2, NULL));
+    wrong.force_step = 3, ASK(peri_advance_implicit(b, &wrong, NULL, 1, NULL));
+    wrong.cookie = 0, ASK(peri_advance_implicit(b, &wrong, NULL, 1, NULL));
+    fail_in = 0, ASK(peri_advance_implicit(b, steps_in_time(1), NULL, 1, NULL)), fail_in = -1;
+    MUST(b, peri_add_velocity(b, PERI_ALL, one3)), MUST(b, peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
+    peri_solve_desc_init(&st), st.method = PERI_METHOD_BICGSTAB, ASK(peri_advance_implicit(b, steps_in_time(1), &st, 1, NULL));
+    peri_solve_desc_init(&st), st.on_iteration = stop_iteration, st.user = &said;
+    ASK(peri_advance_implicit(b, steps_in_time(1), &st, 1, NULL));
+    said = -1, ASK(peri_advance_implicit(b, steps_in_time(1), &st, 1, NULL));
+    st.on_iteration = NULL, st.newton = st.iterations = 1, st.tolerance = 1e-15;
+    ASK(peri_advance_implicit(b, steps_in_time(1), &st, 1, NULL));
+    peri_body_destroy(d), peri_body_destroy(b);
+}
+
 /* Forces at a displacement: too early, stopped by a load, and a rule that has no tangent. */
 static int32_t stop_load(void *user, double time, int64_t count, const int32_t *points, double *value) {
     return (void)user, (void)time, (void)count, (void)points, (void)value, 1;

@@ -104,6 +104,7 @@ static void try_statics(peri_body *b, int p, int dim) {
     }
     left_out(b, solved, no_statics);
     CHECK(report.iterations == 0);
+    left_out(b, peri_advance_implicit(b, NULL, &st, 1.0, &report), no_statics);
     left_out(b, peri_apply_traction(b, PERI_ALL, 1.0, normal, normal, NULL, NULL), no_statics);
     left_out(b, peri_apply_pressure(b, PERI_ALL, 1.0, NULL, NULL), no_statics);
     left_out(b, peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1.0, NULL, NULL), no_statics);

@@ -179,6 +179,7 @@ static void with_wrong_ids(void) {
         st.curve = numbers;
         st.curve_rows = 1;
         ASK(peri_solve(b, &st, NULL));
+        ASK(peri_advance_implicit(b, steps_in_time(1), &st, 1.0, NULL));
     }
     peri_body_destroy(b);
     peri_body_destroy(draft);
@@ -489,6 +490,7 @@ static void with_a_bad_tangent(void) {
     MUST(b, peri_prescribe_displacement(b, left, PERI_AXIS_XY, NULL, NULL, NULL));
     MUST(b, peri_apply_body_force(b, PERI_ALL, one3, NULL, NULL));
     ASK(peri_solve(b, &st, NULL));
+    ASK(peri_advance_implicit(b, steps_in_time(1e9), &st, 1.0, NULL));
     peri_body_destroy(b);
 }
 
@@ -515,7 +517,7 @@ static void gather(void) {
     without_a_body();
     with_wrong_ids();
     at_the_wrong_time();
-    with_fields(), with_evaluations();
+    with_fields(), with_evaluations(), with_implicit_steps();
     with_wrong_laws();
     with_wrong_arguments();
     with_failing_callbacks();

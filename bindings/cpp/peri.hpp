@@ -1235,6 +1235,21 @@ public:
         (void)solve(desc_, report_);
         return report_;
     }
+    /* peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho [0, 1]: what
+       is left of the highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits,
+       on_iteration; NULL: defaults. No obstacles or contact. A step that fails leaves the last one. report may
+       be NULL. */
+    int32_t advance_implicit(const advance_desc &advance_, const solve_desc &solve_, double rho_, peri_solve_report &report_) {
+        peri_advance_desc advance_raw = advance_;
+        detail::advance_desc_user user_context_ = {this, dimension(), advance_.on_frame};
+        if (advance_.on_frame) detail::advance_desc_user::fill(advance_raw, &user_context_);
+        peri_solve_desc solve_raw = solve_;
+        detail::solve_desc_user user_context_ = {this, dimension(), solve_.on_iteration, solve_.on_step};
+        if (solve_.on_iteration || solve_.on_step) detail::solve_desc_user::fill(solve_raw, &user_context_);
+        const int32_t result_ = peri_advance_implicit(handle_, &advance_raw, &solve_raw, rho_, &report_);
+        check(result_);
+        return result_;
+    }
     /* out = K in [M L T^-2], the tangent at the present displacement times in[count], count = points*dim;
        without supports, obstacles and contact. out may be in. The first call takes memory (peri_memory.state). */
     int32_t multiply_stiffness(span<const double> in_, span<double> out_) {

@@ -777,6 +777,10 @@ module peri_c
         integer(c_int32_t) :: control = 0
         ! load or support whose curve is recorded. Default 0: none
         integer(c_int32_t) :: curve_load = 0
+        ! 1: what this solve prepares serves the next, until bonds or supports change. Default 0: that is freed
+        integer(c_int32_t) :: keep = 0
+        ! 0
+        integer(c_int32_t) :: reserved = 0
         ! [0, 1]: break those over this part of the largest excess. Default 0.98; 1: one by one
         real(c_double) :: criticality = 0
         ! [0, 1): |residual| over |loads| or |reactions|. 0 (default): 1e-8, mixed 1e-5, single 1e-4
@@ -1825,6 +1829,15 @@ module peri_c
             type(peri_solve_report), intent(inout) :: report
             integer(c_int32_t) :: c_solve
         end function
+        function c_advance_implicit(body, advance, solve, rho, report) bind(c, name='peri_advance_implicit')
+            import
+            type(c_ptr), value :: body
+            type(peri_advance_desc), intent(in) :: advance
+            type(peri_solve_desc), intent(in) :: solve
+            real(c_double), value :: rho
+            type(c_ptr), value :: report
+            integer(c_int32_t) :: c_advance_implicit
+        end function
         function c_multiply_stiffness(body, in, out, count) bind(c, name='peri_multiply_stiffness')
             import
             type(c_ptr), value :: body
@@ -2157,6 +2170,7 @@ module peri
     private :: c_evaluate
     private :: c_solve_desc_init
     private :: c_solve
+    private :: c_advance_implicit
     private :: c_multiply_stiffness
     private :: c_multiply_stiffness_at
     private :: c_matrix_create
@@ -4768,6 +4782,38 @@ contains
         integer(c_int32_t) :: result_
         type(peri_error) :: record
         result_ = c_solve(body%handle, desc, report)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho [0, 1]: what is left of the
+    ! highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on_iteration; NULL: defaults. No
+    ! obstacles or contact. A step that fails leaves the last one. report may be NULL.
+    subroutine peri_advance_implicit(body, advance, solve, rho, report, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        type(peri_advance_desc), intent(in) :: advance
+        type(peri_solve_desc), intent(in) :: solve
+        real(c_double), intent(in) :: rho
+        type(peri_solve_report), intent(inout), optional, target :: report
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_ptr) :: report_at
+        type(peri_error) :: record
+        report_at = c_null_ptr
+        if (present(report)) report_at = c_loc(report)
+        result_ = c_advance_implicit(body%handle, advance, solve, rho, report_at)
         if (result_ < 0) then
             if (c_get_error(body%handle, record) < 0) record%code = 0
             if (record%code /= result_) then

@@ -434,6 +434,8 @@ mutable struct peri_solve_desc
     fracture::Int32 # 1 (default): bonds break by their criterion; 0: none
     control::Int32 # Default PERI_CONTROL_LOAD
     curve_load::Int32 # load or support whose curve is recorded. Default 0: none
+    keep::Int32 # 1: what this solve prepares serves the next, until bonds or supports change. Default 0: that is freed
+    reserved::Int32 # 0
     criticality::Float64 # [0, 1]: break those over this part of the largest excess. Default 0.98; 1: one by one
     tolerance::Float64 # [0, 1): |residual| over |loads| or |reactions|. 0 (default): 1e-8, mixed 1e-5, single 1e-4
     energy_tolerance::Float64 # > 0, of Newton: this fall of the residual's energy is enough, too. Default 0: never
@@ -1859,6 +1861,25 @@ function solve(body::Body, desc::Desc{peri_solve_desc})
     setfield!(getfield(desc, :raw), :on_step, desc.on_step === nothing ? C_NULL : pointer_of_frame_fn_on_step())
     report = Ref{peri_solve_report}()
     result = GC.@preserve body desc context_user ccall((:peri_solve, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_solve_desc}, Ref{peri_solve_report}), body.handle, Ptr{peri_solve_desc}(pointer_from_objref(getfield(desc, :raw))), report)
+    check(result, result < 0 ? last_error(body) : nothing)
+    return report[]
+end
+
+"""
+peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho [0, 1]: what is left of the highest
+modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on_iteration; NULL: defaults. No obstacles or contact. A
+step that fails leaves the last one. report may be NULL.
+"""
+function advance_implicit(body::Body, advance::Desc{peri_advance_desc}, solve::Desc{peri_solve_desc}, rho)
+    context_user = Context(copy(getfield(advance, :calls)), body, dimension(body))
+    setfield!(getfield(advance, :raw), :user, pointer_from_objref(context_user))
+    setfield!(getfield(advance, :raw), :on_frame, advance.on_frame === nothing ? C_NULL : pointer_of_frame_fn_on_frame())
+    context_user = Context(copy(getfield(solve, :calls)), body, dimension(body))
+    setfield!(getfield(solve, :raw), :user, pointer_from_objref(context_user))
+    setfield!(getfield(solve, :raw), :on_iteration, solve.on_iteration === nothing ? C_NULL : pointer_of_iteration_fn_on_iteration())
+    setfield!(getfield(solve, :raw), :on_step, solve.on_step === nothing ? C_NULL : pointer_of_frame_fn_on_step())
+    report = Ref{peri_solve_report}()
+    result = GC.@preserve body advance context_user solve context_user ccall((:peri_advance_implicit, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_advance_desc}, Ptr{peri_solve_desc}, Float64, Ref{peri_solve_report}), body.handle, Ptr{peri_advance_desc}(pointer_from_objref(getfield(advance, :raw))), Ptr{peri_solve_desc}(pointer_from_objref(getfield(solve, :raw))), rho, report)
     check(result, result < 0 ? last_error(body) : nothing)
     return report[]
 end

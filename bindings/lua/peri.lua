@@ -255,6 +255,8 @@ struct peri_solve_desc {
     int32_t fracture;
     int32_t control;
     int32_t curve_load;
+    int32_t keep;
+    int32_t reserved;
     double criticality;
     double tolerance;
     double energy_tolerance;
@@ -466,6 +468,7 @@ void peri_evaluate_desc_init(peri_evaluate_desc *desc);
 int32_t peri_evaluate(peri_body *body, const peri_evaluate_desc *desc, peri_evaluate_report *report);
 void peri_solve_desc_init(peri_solve_desc *desc);
 int32_t peri_solve(peri_body *body, const peri_solve_desc *desc, peri_solve_report *report);
+int32_t peri_advance_implicit(peri_body *body, const peri_advance_desc *advance, const peri_solve_desc *solve, double rho, peri_solve_report *report);
 int32_t peri_multiply_stiffness(peri_body *body, const double *in, double *out, int64_t count);
 int32_t peri_multiply_stiffness_at(peri_body *body, const double *displacement, const double *in, double *out, int64_t count);
 int32_t peri_matrix_create(peri_body *body, peri_matrix **matrix);
@@ -873,9 +876,9 @@ function peri.evaluate_desc()
     return wrap("peri_evaluate_desc", raw, {})
 end
 
--- peri_solve_desc, filled with the defaults: method, preconditioner, loose, fracture, control, curve_load, criticality, tolerance,
--- energy_tolerance, iterations, newton, breaks, load_from, load_to, steps, duration, halvings, curve, curve_rows, on_iteration,
--- on_step.
+-- peri_solve_desc, filled with the defaults: method, preconditioner, loose, fracture, control, curve_load, keep, criticality,
+-- tolerance, energy_tolerance, iterations, newton, breaks, load_from, load_to, steps, duration, halvings, curve, curve_rows,
+-- on_iteration, on_step.
 function peri.solve_desc()
     local raw = ffi.new("peri_solve_desc[1]")
     C.peri_solve_desc_init(raw)
@@ -1857,6 +1860,40 @@ function Body:solve(desc)
     local result = C.peri_solve(self.handle, desc_c, report)
     desc_c[0].on_iteration = nil
     desc_c[0].on_step = nil
+    free(here)
+    check(result, nil, self.handle)
+    return report
+end
+
+-- peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho [0, 1]: what is left of the highest
+-- modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on_iteration; NULL: defaults. No obstacles or contact. A
+-- step that fails leaves the last one. report may be NULL.
+function Body:advance_implicit(advance, solve, rho)
+    local here = {}
+    local advance_c, advance_f
+    advance_c, advance_f = plain(advance, "peri_advance_desc")
+    if advance_f.on_frame then
+        local call = advance_f.on_frame
+        here[#here + 1] = ffi.cast("peri_frame_fn", guard(function(_, _) return call(self) end))
+        advance_c[0].on_frame = here[#here]
+    end
+    local solve_c, solve_f
+    solve_c, solve_f = plain(solve, "peri_solve_desc")
+    if solve_f.on_iteration then
+        local call = solve_f.on_iteration
+        here[#here + 1] = ffi.cast("peri_iteration_fn", guard(function(_, iteration, residual) return call(tonumber(iteration), residual) end))
+        solve_c[0].on_iteration = here[#here]
+    end
+    if solve_f.on_step then
+        local call = solve_f.on_step
+        here[#here + 1] = ffi.cast("peri_frame_fn", guard(function(_, _) return call(self) end))
+        solve_c[0].on_step = here[#here]
+    end
+    local report = ffi.new("peri_solve_report")
+    local result = C.peri_advance_implicit(self.handle, advance_c, solve_c, rho, report)
+    advance_c[0].on_frame = nil
+    solve_c[0].on_iteration = nil
+    solve_c[0].on_step = nil
     free(here)
     check(result, nil, self.handle)
     return report

@@ -17,6 +17,15 @@ typedef struct peri__hold peri__hold; /* by an obstacle: statics/touch.c        
 #define PERI_SINGULAR 8 /* in constrained: the bonds of the point resist only in some of the free directions             */
 #define PERI_LOADED 16  /* in constrained: a load acts on the point                                                      */
 
+struct peri__kept { /* what a solve leaves to the next, in blocks of b->keeping                                          */
+    peri__multilevel *levels;
+    void             *blocks; /* as those of peri__solver, inverted where `ready`                                         */
+    uint8_t          *axes;   /* [points] that supports held,                                                             */
+    uint32_t         *alive;  /* [points][words] and the bonds, when these were made; NULL where all were whole            */
+    double            stiff, softest, pace, lost;
+    int32_t           preconditioner, ready; /* ready: all of it serves as it is: linear, and nothing was loose           */
+};
+
 typedef struct peri__solver { /* what a static solve takes, and gives back at its end                                     */
     peri_body          *body;
     const peri_solve_desc *settings;
@@ -28,6 +37,8 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     void               *before;   /* real [dim][stride] displacement at the last equilibrium; NULL where it is not needed */
     void               *rate;     /* real [dim][stride] change of the displacement with the load factor; NULL without fracture control */
     void               *from;     /* real [dim][stride] displacement before the last solve; NULL, like the next, without a ledger */
+    void               *place;    /* real [dim][stride] where springs of inertia pull points; NULL but in implicit.c      */
+    double              inertia;  /* their stiffness over the density; 0 in equilibria                                    */
     void               *load;     /* real [dim][stride] force density of loads and reactions then               */
     uint8_t            *constrained;     /* [points] axes, PERI_SINGULAR, PERI_LOADED                                    */
     int32_t            *part_of;  /* [points] part, or less than 0: rigid_modes.c                                        */
@@ -38,6 +49,7 @@ typedef struct peri__solver { /* what a static solve takes, and gives back at it
     int64_t             contact_count, contact_capacity;
     int32_t            *leaning;  /* [points] 1, 2, ...: of a part that would be loose without obstacles; NULL without them */
     int32_t             leaning_count, counted, bridged, hanging; /* see touch.c                                         */
+    peri__kept         *kept;     /* that of the body, whose blocks and levels are these; NULL: they go with the solve       */
     peri__multilevel   *levels;
     double              pace;     /* iterations per e-fold of the residual that the levels took when they were new; 0: not yet known */
     double              lost;     /* iterations that they have taken more since, as bonds broke                           */

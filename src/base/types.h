@@ -143,7 +143,7 @@ typedef enum peri__constant {
 typedef struct peri__interface peri__interface; /* this and the next: bond_laws.h                                        */
 typedef struct peri__bond_law peri__bond_law;
 typedef struct peri__ops peri__ops;
-typedef struct peri__contact peri__contact; /* of a body: search.c                                                       */
+typedef struct peri__contact peri__contact; typedef struct peri__kept peri__kept; /* of a body: search.c; solver.h        */
 
 typedef struct peri__stencil_bond { /* what bonds along one lattice vector between two materials share, rounded as bond  */
     double xi[3], length, weight, partial_volume, inverse; /* weight: as the model's; partial_volume: beta V_j; inverse: 1/|xi| */
@@ -475,7 +475,7 @@ struct peri_body {
     void     *eigenstrain, *strength, *stiffness; /* bond [stride] with margins: fields of material; NULL, like the next two, where none */
     float *bond_strength; double *density; /* by peri__bond_slot, a factor; [points] rho                                 */
     double    least_strength, row_sum_factor; /* of these, 1 without: a bound of all bonds'; what model->row_sum is times */
-    peri__past past;
+    peri__past past; peri__kept *kept; peri__taken *keeping; /* what peri_solve keeps; the list of its blocks            */
     peri__contact *contact;  /* NULL where none is declared                                                              */
     peri__derived derived[peri__count_field]; /* by field                                                                */
 

@@ -246,6 +246,7 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
     for (int k = 0; k < PERI_ARRAYS; ++k)
         held[arrays[k].purpose] += peri__held_bytes(peri__array_of(b, &arrays[k]), arrays[k].count, arrays[k].size);
     for (int k = 0; k < 3; ++k) held[PERI__STATE] += peri__held_bytes(vectors[k], peri__vector_reals(m), peri__real(b));
+    for (const peri__taken *taken = b->keeping; taken; taken = taken->next) held[PERI__STATE] += (int64_t)taken->bytes;
     for (int k = 0; k < peri__count_field; ++k)
         held[PERI__FIELDS] += peri__held_bytes(b->derived[k].data, m->points * b->derived[k].components, sizeof(double));
     int64_t loads = peri__held_bytes(b->sets, b->set_capacity, sizeof *b->sets);

@@ -344,10 +344,24 @@ static void peri__free_load(const peri_body *b, peri__load *load) {
     load->all = NULL;
 }
 
+/* Of what solves leave to the next ones: blocks that are listed, so that all of it is counted and freed without a look at it. */
+static peri__memory peri__lasting(const peri_body *b) {
+    peri__memory memory = b->memory;
+    memory.taken = (peri__taken **)&b->keeping;
+    return memory;
+}
+
+static void peri__forget_solver(peri_body *b) {
+    const peri__memory memory = peri__lasting(b);
+    if (b->keeping) peri__delete_all_taken(&memory);
+    b->kept = NULL;
+}
+
 static void peri__free_state(peri_body *b) {
     const peri__memory *memory = &b->memory;
     const peri__model *m = b->model;
     void **vectors[3] = { &b->u, &b->v, &b->f };
+    peri__forget_solver(b);
     for (int k = 0; k < 3; ++k) {
         peri__delete_vector(b, memory, *vectors[k]);
         *vectors[k] = NULL;

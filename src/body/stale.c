@@ -35,6 +35,10 @@ static void peri__note_energy(peri_body *b) {
 static void peri__changed(peri_body *b, peri__change what) {
     if (what == PERI__MOTION || what == PERI__CUTS) peri__note_energy(b);
     if (what == PERI__EIGENSTRAIN || what == PERI__STIFFNESS) peri__note_energy(b);
+    if ((what == PERI__CUTS || what == PERI__STIFFNESS) && b->kept) {
+        if (b->running) b->kept->ready = b->kept->preconditioner = 0; /* a solve is at work with it */
+        else peri__forget_solver(b);
+    }
     if (what == PERI__CUTS || what == PERI__BONDS) b->now.stale |= PERI__STALE_MASKS;
     if ((what == PERI__CUTS || what == PERI__BONDS) && !b->model->pairwise) b->now.stale |= PERI__STALE_CONSTANTS;
     if (what == PERI__STIFFNESS) b->now.stale |= PERI__STALE_SHARP | (b->model->pairwise ? 0u : (uint32_t)PERI__STALE_CONSTANTS);

@@ -128,8 +128,11 @@ static int peri__forces_and_breaks(peri_body *b, peri__operands *operands) {
     return total.n > 0;
 }
 
-/* One step of dt (inner units) to the time `next`. */
-static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double dt, double next, double damping) {
+/* One step of dt (inner units) to the time `next`, as the context has it: here a peri_advance_desc. */
+typedef int32_t (*peri__step_fn)(void *context, peri_body *b, double dt, double next, double damping);
+
+static int32_t peri__one_step(void *context, peri_body *b, double dt, double next, double damping) {
+    const peri_advance_desc *r = (const peri_advance_desc *)context;
     int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double h = 0.5 * damping * dt;
     int64_t bad = -1;
@@ -187,7 +190,7 @@ static int32_t peri__one_step(peri_body *b, const peri_advance_desc *r, double d
     return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
 }
 
-static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
+static int32_t peri__check_length(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED(b, r, "desc");
     if (r->cookie != PERI_COOKIE_RUN) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     PERI_NEED_FLAG(b, r->force_step);
@@ -200,6 +203,14 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED(b, r->frame_steps >= 0, "frame_steps");
     PERI_NEED(b, r->steps >= 0, "steps");
     if ((r->steps > 0) == (r->duration > 0.0)) return peri__fail(b, PERI_ERROR_ARGUMENT, "duration", -1, r->duration);
+    if (r->duration > 0.0 && !(peri__stored(r->duration / b->model->time) > 0.0)) /* in the unit of time it may vanish */
+        return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
+    return PERI_OK;
+}
+
+static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
+    const int32_t status = peri__check_length(b, r);
+    if (status < 0) return status;
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch(b);
     if (!peri__look_at_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
@@ -207,10 +218,7 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */
         return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
     double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
-    /* in the unit of time both may vanish */
     if (!(peri__stored(step / unit) > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
-    if (r->duration > 0.0 && !(peri__stored(r->duration / unit) > 0.0))
-        return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
     if (peri__stored(r->damping * step) > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
     if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
         return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
@@ -272,7 +280,7 @@ static int32_t peri__fit_steps(peri_body *b, const peri_advance_desc *r, peri__p
     return peri__plan_steps(b, r, plan->end - b->now.time, plan);
 }
 
-static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
+static int32_t peri__march(peri_body *b, const peri_advance_desc *r, peri__step_fn step, void *context) {
     const peri__model *m = b->model;
     int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double damping = r->damping * m->time;
@@ -294,7 +302,7 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
             int64_t full = plan.done < plan.full ? plan.done + 1 : plan.full;
             double next = plan.start + ((double)full * plan.dt + (double)(plan.done + 1 - full) * plan.last) * m->time;
             if (plan.done + 1 == plan.steps && r->steps == 0) next = plan.end;
-            status = peri__one_step(b, r, size, next, damping);
+            status = step(context, b, size, next, damping);
             run++;
             plan.done++;
         }
@@ -316,18 +324,24 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r) {
     return status;
 }
 
+/* The run itself, by the steps of any method; begun and ended by the caller. */
+static int32_t peri__run(peri_body *b, const peri_advance_desc *r, peri__step_fn step, void *context) {
+    const double factor = !peri__is_nan(r->load_factor) ? r->load_factor : b->now.loaded ? b->now.load_factor : 1.0;
+    if (b->now.still || factor != b->now.load_factor) peri__changed(b, PERI__ACTION); /* callbacks are asked for another time */
+    b->now.still = 0;
+    b->now.loaded = 1;
+    b->now.load_factor = factor;
+    return peri__march(b, r, step, context);
+}
+
 PERI_API int32_t peri_advance(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED_IDLE(b);
     int32_t status = peri__check_run(b, r);
     if (status == PERI_OK) status = peri__check_whole(b);
     if (status < 0) return status;
     const int32_t former = peri__begin_run(b);
-    const double factor = !peri__is_nan(r->load_factor) ? r->load_factor : b->now.loaded ? b->now.load_factor : 1.0;
-    if (b->now.still || factor != b->now.load_factor) peri__changed(b, PERI__ACTION); /* callbacks are asked for another time */
-    b->now.still = 0;
-    b->now.loaded = 1;
-    b->now.load_factor = factor;
-    status = peri__march(b, r);
+    peri_advance_desc settings = *r;
+    status = peri__run(b, &settings, peri__one_step, &settings);
     peri__end_run(b, former);
     return status;
 }

@@ -29,12 +29,18 @@ static void *peri__take_vector(peri__solver *s) {
     return taken;
 }
 
+static void peri__note_bytes(peri__solver *s) {
+    if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
+}
+
 static void peri__free_solver(peri__solver *s) {
     const peri_body *b = s->body;
     const peri__model *m = b->model;
-    void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->rate, s->from, s->load };
+    void *vectors[] = { s->k.d, s->k.r, s->k.p, s->k.q, s->k.z, s->before, s->rate, s->from, s->load, s->place };
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) peri__delete_vector(b, &b->scratch, vectors[k]);
-    peri__delete(&b->scratch, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
+    if (s->kept) s->kept->pace = s->pace;
+    if (s->kept) s->kept->lost = s->lost;
+    if (!s->kept) peri__delete(&b->scratch, s->blocks, PERI_PACKED(m->dim) * m->stride, peri__real(b));
     peri__delete(&b->scratch, s->t.moduli, peri__moduli_reals(m), sizeof(double));
     peri__delete(&b->scratch, s->t.change, peri__response_reals(m), peri__bond_real(b));
     peri__delete(&b->scratch, s->constrained, m->points, 1);
@@ -43,13 +49,26 @@ static void peri__free_solver(peri__solver *s) {
     peri__delete(&b->scratch, s->parts, s->part_capacity, sizeof *s->parts);
     peri__delete(&b->scratch, s->contacts, s->contact_capacity, sizeof *s->contacts);
     peri__delete(&b->scratch, s->leaning, m->points, sizeof *s->leaning);
-    peri__free_levels(s->levels);
+    if (!s->kept) peri__free_levels(s->levels);
 }
 
 /* Runs one of the vector kernels over the body, and sums. */
 static peri__sums peri__krylov_pass(peri__solver *s, peri__krylov *k, peri__block_fn kernel) {
     peri__for_points(s->body, s->body->model->points, 4, kernel, k, s->body->sums);
     return peri__total(s->body->sums, s->body->model->points);
+}
+
+/* q += scale m k (p - place), force densities of the springs of inertia on what is free: implicit.c. place may be NULL: 0. */
+static void peri__add_inertia(const peri__solver *s, double scale, const void *p, const void *place, void *q) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    for (int32_t d = 0; s->inertia > 0.0 && d < m->dim; ++d)
+        for (int64_t i = 0; i < m->points; ++i) {
+            const int64_t at = d * m->stride + i;
+            if (s->constrained[i] >> d & 1) continue;
+            const double way = peri__get_real(p, b->f32, at) - (place ? peri__get_real(place, b->f32, at) : 0.0);
+            peri__put_real(q, b->f32, at, peri__get_real(q, b->f32, at) + scale * peri__density_at(b, i) * s->inertia * way);
+        }
 }
 
 /* q = K p, as forces; returns p.K p, and p.p to *square. */
@@ -61,6 +80,7 @@ static double peri__stiffness_times(peri__solver *s, int at_rest, double *square
     peri__apply_tangent(&s->t, at_rest);
     peri__add_springs(s, -1.0, s->k.p, 0, s->k.q);
     peri__add_touch_tangent(s->body, s->t.p, s->t.q);
+    peri__add_inertia(s, -1.0, s->k.p, NULL, s->k.q);
     s->report.passes++;
     peri__sums sums = peri__krylov_pass(s, &s->k, s->body->ops->krylov_force);
     /* the tangent of a stressed body answers to turns; p has no part in what is taken out, so p.K p stands */

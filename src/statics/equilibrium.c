@@ -34,7 +34,7 @@ static int32_t peri__take_solver(peri__solver *s) {
     }
     if (peri__moduli_reals(m) > 0) ok = ok && (s->t.moduli = (double *)peri__take(s, peri__moduli_reals(m), sizeof(double))) != NULL;
     if (!m->pairwise) ok = ok && (s->t.change = peri__take(s, peri__response_reals(m), peri__bond_real(b))) != NULL;
-    s->blocks = peri__take(s, PERI_PACKED(m->dim) * m->stride, peri__real(b));
+    s->blocks = peri__take_kept(s) ? s->kept->blocks : peri__take(s, PERI_PACKED(m->dim) * m->stride, peri__real(b));
     s->constrained = (uint8_t *)peri__take(s, m->points, 1);
     s->part_of = (int32_t *)peri__take(s, m->points, sizeof *s->part_of);
     s->queue = (int32_t *)peri__take(s, m->points, sizeof *s->queue);
@@ -72,9 +72,10 @@ static double peri__static_forces(peri__solver *s) {
     peri__operands operands = peri__operands_of(b);
     double square = 0.0;
     memset(b->f, 0, peri__vector_bytes(b));
-    int32_t status = peri__apply_loads(b, b->now.load_factor, 0.0);
-    if (status == PERI_OK) status = peri__apply_obstacles(b, b->now.load_factor, 0.0);
+    int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
+    if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     if (status < 0) return status;
+    peri__add_inertia(s, -1.0, b->u, s->place, b->f);
     memcpy(s->k.z, b->f, peri__vector_bytes(b));
     for (int32_t d = 0; d < m->dim; ++d)
         for (int64_t i = 0; i < m->points; ++i)
@@ -172,8 +173,25 @@ static void peri__mark_supports(peri__solver *s) {
     }
 }
 
-static void peri__note_bytes(peri__solver *s) {
-    if (s->bytes > s->report.bytes) s->report.bytes = s->bytes;
+/* Inertia holds every part. */
+static int32_t peri__hold_all(peri__solver *s) {
+    for (int64_t i = 0; i < s->body->model->points; ++i) s->part_of[i] = PERI_HELD;
+    s->part_count = 0;
+    return PERI_OK;
+}
+
+/* Returns the mean of what it adds. */
+static double peri__add_inertia_blocks(const peri__solver *s) {
+    const peri_body *b = s->body;
+    const peri__model *m = b->model;
+    double sum = 0.0;
+    for (int64_t i = 0; i < m->points; ++i) {
+        const double spring = peri__mass(b, i) * s->inertia;
+        for (int32_t d = 0; d < m->dim; ++d)
+            peri__put_real(s->blocks, b->f32, d * m->stride + i, peri__get_real(s->blocks, b->f32, d * m->stride + i) + spring);
+        sum += spring;
+    }
+    return sum / (double)m->points;
 }
 
 /* Marks what supports hold, then what else must not move, and makes the preconditioner for the body as it is; its levels only where `anew`,
@@ -182,16 +200,20 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
     peri_body *b = s->body;
     peri__mark_supports(s);
     (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
-    if ((anew || s->lost > PERI_LEVELS_WORTH) && s->levels) {
+    const int same = peri__is_as_kept(s);
+    if (same && s->kept->ready) return peri__recall(s);
+    if (((anew && !same) || s->lost > PERI_LEVELS_WORTH) && s->levels) {
         s->bytes -= s->levels->bytes;
         peri__free_levels(s->levels);
         s->levels = NULL;
+        if (s->kept) s->kept->levels = NULL;
     }
     peri__note_bytes(s);
     s->singular = 0;
-    int32_t status = peri__find_floating_parts(s);
+    int32_t status = s->inertia > 0.0 ? peri__hold_all(s) : peri__find_floating_parts(s);
     if (status < 0) return status;
     s->stiff = peri__fill_diagonal(b, s->blocks);
+    if (s->inertia > 0.0) s->stiff += peri__add_inertia_blocks(s);
     if (s->settings->method == PERI_METHOD_RELAXATION) {
         peri__weigh_modes(s);
         return PERI_OK;
@@ -201,11 +223,12 @@ static int32_t peri__prepare(peri__solver *s, int anew) {
         if (!s->levels) return peri__fail(b, PERI_ERROR_MEMORY, "peri_solve", -1, 0.0);
         s->bytes += s->levels->bytes;
         s->pace = s->lost = 0.0;
+        if (s->kept) s->kept->levels = s->levels;
     }
     peri__note_bytes(s);
     status = peri__invert_blocks(s);
     if (status == PERI_OK) peri__weigh_modes(s);
-    return status;
+    return status == PERI_OK ? peri__keep_solver(s) : status;
 }
 
 /* d = the way that constrained components still have to go to what their supports prescribe, 0 elsewhere. Returns 1 where there is any. */

@@ -213,6 +213,7 @@ static void peri__add_point(const peri__solver *s, const peri__multilevel *l, in
     const int64_t i = l->order[o];
     const peri__law *law = &m->laws[m->material[i]];
     const int dim = l->dim, corners = 1 << dim, wide = corners * dim;
+    const double spring = s->inertia * peri__mass(b, i);
     const double volume = m->volume[i] * peri__relative_stiffness(b, i), lambda = volume * law->lambda, mu = volume * law->mu;
     double shape[8], gradient[8][3];
     for (int c = 0; c < corners; ++c) {
@@ -238,6 +239,7 @@ static void peri__add_point(const peri__solver *s, const peri__multilevel *l, in
                 block[p * wide + p] += dot;
                 if (s->constrained[i] >> p & 1)
                     block[p * wide + p] += shape[a] * shape[c] * peri__get_real(s->blocks, b->f32, p * m->stride + i);
+                else if (spring > 0.0) block[p * wide + p] += shape[a] * shape[c] * spring;
             }
         }
 }
@@ -330,26 +332,33 @@ PERI_INLINE void peri__shapes(const peri__multilevel *l, int64_t o, const int di
         }
 }
 
-/* What each patch gives to its corners of P^T r, the constrained components left out. */
-static void peri__restrict_patches(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__transfer *t = (const peri__transfer *)context;
+/* What each patch gives to its corners of P^T r, the constrained components left out. dim and f32 are constants where this is inlined. */
+PERI_INLINE void peri__restrict_some(const peri__transfer *t, int64_t begin, int64_t end, const int dim, const int f32) {
     const peri__multilevel *l = t->levels;
-    const peri_body *b = t->solver->body;
-    const int dim = l->dim, corners = 1 << dim;
-    (void)sums;
+    const int corners = 1 << dim;
+    const int64_t stride = t->solver->body->model->stride;
+    const uint8_t *constrained = t->solver->constrained;
     for (int64_t p = begin; p < end; ++p) {
         double sum[24] = { 0.0 }, shape[8];
         for (int64_t o = l->start[p]; o < l->start[p + 1]; ++o) {
             const int64_t i = l->order[o];
             peri__shapes(l, o, dim, shape);
             for (int d = 0; d < dim; ++d) {
-                if (t->solver->constrained[i] >> d & 1) continue;
-                double r = peri__get_real(t->solver->k.r, b->f32, d * b->model->stride + i);
+                if (constrained[i] >> d & 1) continue;
+                const double r = peri__get_real(t->solver->k.r, f32, d * stride + i);
                 for (int c = 0; c < corners; ++c) sum[c * dim + d] += shape[c] * r;
             }
         }
         memcpy(&l->given[p * corners * dim], sum, (size_t)(corners * dim) * sizeof *sum);
     }
+}
+
+static void peri__restrict_patches(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__transfer *t = (const peri__transfer *)context;
+    const int f32 = t->solver->body->f32;
+    (void)sums;
+    if (t->levels->dim == 3) peri__restrict_some(t, begin, end, 3, f32);
+    else peri__restrict_some(t, begin, end, 2, f32);
 }
 
 /* And the sum of what the nodes are given. */
@@ -362,13 +371,12 @@ static void peri__sum_patches(peri__multilevel *l) {
 }
 
 /* z of the points of patches += P x of the nodes, but for what is constrained. */
-static void peri__prolong_patches(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__transfer *t = (const peri__transfer *)context;
+PERI_INLINE void peri__prolong_some(const peri__transfer *t, int64_t begin, int64_t end, const int dim, const int f32) {
     const peri__multilevel *l = t->levels;
-    const peri_body *b = t->solver->body;
-    const int dim = l->dim, corners = 1 << dim;
+    const int corners = 1 << dim;
+    const int64_t stride = t->solver->body->model->stride;
+    const uint8_t *constrained = t->solver->constrained;
     void *z = t->solver->k.z;
-    (void)sums;
     for (int64_t p = begin; p < end; ++p) {
         double x[24], shape[8];
         for (int c = 0; c < corners; ++c)
@@ -377,22 +385,31 @@ static void peri__prolong_patches(void *context, int64_t begin, int64_t end, per
             const int64_t i = l->order[o];
             peri__shapes(l, o, dim, shape);
             for (int d = 0; d < dim; ++d) {
-                const int64_t at = d * b->model->stride + i;
+                const int64_t at = d * stride + i;
                 double sum = 0.0;
-                if (t->solver->constrained[i] >> d & 1) continue;
+                if (constrained[i] >> d & 1) continue;
                 for (int c = 0; c < corners; ++c) sum += shape[c] * x[c * dim + d];
-                peri__put_real(z, b->f32, at, peri__get_real(z, b->f32, at) + sum);
+                peri__put_real(z, f32, at, peri__get_real(z, f32, at) + sum);
             }
         }
     }
 }
 
+static void peri__prolong_patches(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__transfer *t = (const peri__transfer *)context;
+    const int f32 = t->solver->body->f32;
+    (void)sums;
+    if (t->levels->dim == 3) peri__prolong_some(t, begin, end, 3, f32);
+    else peri__prolong_some(t, begin, end, 2, f32);
+}
+
 /* Builds the levels for the body as it is; s->blocks are the diagonal blocks, not yet inverted. NULL where memory is short. */
 static peri__multilevel *peri__build_levels(const peri__solver *s) {
     const peri_body *b = s->body;
-    peri__multilevel *l = (peri__multilevel *)peri__new(&b->scratch, 1, sizeof *l);
+    const peri__memory memory = s->kept ? peri__lasting(b) : b->scratch;
+    peri__multilevel *l = (peri__multilevel *)peri__new(&memory, 1, sizeof *l);
     if (!l) return NULL;
-    l->memory = b->scratch;
+    l->memory = memory;
     l->dim = b->dim;
     l->bytes = (int64_t)sizeof *l;
     int ok = peri__build_finest(s, l);

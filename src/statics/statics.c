@@ -34,6 +34,7 @@ static int32_t peri__check_statics(peri_body *b, const peri_solve_desc *st) {
     PERI_NEED_CHOICE(b, preconditioner, st->preconditioner);
     PERI_NEED_CHOICE(b, loose, st->loose);
     PERI_NEED_FLAG(b, st->fracture);
+    PERI_NEED_FLAG(b, st->keep);
     PERI_NEED_CHOICE(b, control, st->control);
     PERI_NEED_NUMBER(b, st->criticality >= 0.0 && st->criticality <= 1.0, st->criticality);
     PERI_NEED_NUMBER(b, st->criticality > 0.0 || st->control == PERI_CONTROL_LOAD, st->criticality);

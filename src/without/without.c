@@ -21,6 +21,13 @@ PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_
     return peri__without(b, "PERI_NO_STATICS");
 }
 
+PERI_API int32_t peri_advance_implicit(peri_body *b, const peri_advance_desc *advance, const peri_solve_desc *solve, double rho,
+                                       peri_solve_report *report) {
+    (void)advance, (void)solve, (void)rho;
+    if (report) memset(report, 0, sizeof *report);
+    return peri__without(b, "PERI_NO_STATICS");
+}
+
 PERI_API int32_t peri_apply_traction(peri_body *b, int32_t set, double area, const double *normal, const double *value,
                                              peri_load_fn fn, void *user) {
     (void)set, (void)area, (void)normal, (void)value, (void)fn, (void)user;

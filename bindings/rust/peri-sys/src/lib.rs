@@ -878,6 +878,10 @@ pub struct peri_solve_desc {
     pub control: i32,
     /// load or support whose curve is recorded. Default 0: none
     pub curve_load: i32,
+    /// 1: what this solve prepares serves the next, until bonds or supports change. Default 0: that is freed
+    pub keep: i32,
+    /// 0
+    pub reserved: i32,
     /// \[0, 1\]: break those over this part of the largest excess. Default 0.98; 1: one by one
     pub criticality: f64,
     /// \[0, 1): \|residual\| over \|loads\| or \|reactions\|. 0 (default): 1e-8, mixed 1e-5, single 1e-4
@@ -1353,6 +1357,10 @@ unsafe extern "C" {
     /// prescribed velocities at rest; bonds over their limit break until none does. A later run goes on at load\_to. A failed step
     /// leaves the last equilibrium, or, after breaks, how far it came; so does PERI\_ENDED\_SEVERED.
     pub fn peri_solve(body: *mut peri_body, desc: *const peri_solve_desc, report: *mut peri_solve_report) -> i32;
+    /// peri\_advance by implicit steps, \`time\_step\` \> 0 of any size (generalised alpha, order 2). rho \[0, 1\]: what is left of
+    /// the highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on\_iteration; NULL: defaults. No
+    /// obstacles or contact. A step that fails leaves the last one. report may be NULL.
+    pub fn peri_advance_implicit(body: *mut peri_body, advance: *const peri_advance_desc, solve: *const peri_solve_desc, rho: f64, report: *mut peri_solve_report) -> i32;
     /// out = K in \[M L T^-2\], the tangent at the present displacement times in\[count\], count = points\*dim; without supports,
     /// obstacles and contact. out may be in. The first call takes memory (peri\_memory.state).
     pub fn peri_multiply_stiffness(body: *mut peri_body, r#in: *const f64, out: *mut f64, count: i64) -> i32;

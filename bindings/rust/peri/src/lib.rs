@@ -1176,6 +1176,8 @@ pub struct SolveDesc<'a> {
     pub control: i32,
     /// load or support whose curve is recorded. Default 0: none
     pub curve_load: i32,
+    /// 1: what this solve prepares serves the next, until bonds or supports change. Default 0: that is freed
+    pub keep: i32,
     /// \[0, 1\]: break those over this part of the largest excess. Default 0.98; 1: one by one
     pub criticality: f64,
     /// \[0, 1): \|residual\| over \|loads\| or \|reactions\|. 0 (default): 1e-8, mixed 1e-5, single 1e-4
@@ -1217,6 +1219,7 @@ impl<'a> SolveDesc<'a> {
             fracture: raw.fracture,
             control: raw.control,
             curve_load: raw.curve_load,
+            keep: raw.keep,
             criticality: raw.criticality,
             tolerance: raw.tolerance,
             energy_tolerance: raw.energy_tolerance,
@@ -1249,6 +1252,7 @@ impl<'a> SolveDesc<'a> {
         raw.fracture = self.fracture;
         raw.control = self.control;
         raw.curve_load = self.curve_load;
+        raw.keep = self.keep;
         raw.criticality = self.criticality;
         raw.tolerance = self.tolerance;
         raw.energy_tolerance = self.energy_tolerance;
@@ -2364,6 +2368,27 @@ impl Body {
         user_holder.fill(&mut desc_raw, user_pointer);
         let mut report = std::mem::MaybeUninit::<sys::peri_solve_report>::zeroed();
         let result = unsafe { sys::peri_solve(self.handle, &desc_raw, report.as_mut_ptr()) };
+        self.check(i64::from(result))?;
+        Ok(unsafe { report.assume_init() })
+    }
+    /// peri\_advance by implicit steps, \`time\_step\` \> 0 of any size (generalised alpha, order 2). rho \[0, 1\]: what is left of
+    /// the highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on\_iteration; NULL: defaults. No
+    /// obstacles or contact. A step that fails leaves the last one. report may be NULL.
+    pub fn advance_implicit(&self, advance: AdvanceDesc, mut solve: SolveDesc, rho: f64) -> Result<SolveReport> {
+        let mut advance_raw = advance.raw();
+        let mut user_holder = AdvanceDescUser { owner: self, on_frame: advance.on_frame };
+        let user_pointer = &mut user_holder as *mut _ as *mut c_void;
+        user_holder.fill(&mut advance_raw, user_pointer);
+        let dim = i64::from(self.dimension());
+        if solve.curve.len() as i64 % ((2 + 2*dim)) != 0 {
+                    return Err(refused("curve"));
+                }
+        let mut solve_raw = solve.raw(dim);
+        let mut user_holder = SolveDescUser { owner: self, on_iteration: solve.on_iteration, on_step: solve.on_step };
+        let user_pointer = &mut user_holder as *mut _ as *mut c_void;
+        user_holder.fill(&mut solve_raw, user_pointer);
+        let mut report = std::mem::MaybeUninit::<sys::peri_solve_report>::zeroed();
+        let result = unsafe { sys::peri_advance_implicit(self.handle, &advance_raw, &solve_raw, rho, report.as_mut_ptr()) };
         self.check(i64::from(result))?;
         Ok(unsafe { report.assume_init() })
     }
