@@ -165,7 +165,8 @@ static void partial_bonds_take_the_same_energy(void) {
     for (i = 0; i < 400; ++i)
         for (j = i + 1; j < 400; ++j) {
             const double length = hypot(x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]);
-            const int outside = fabs(x[2 * i] - 10) > 5 || fabs(x[2 * i + 1] - 10) > 5 || fabs(x[2 * j] - 10) > 5 || fabs(x[2 * j + 1] - 10) > 5;
+            const double *p = &x[2 * i], *q = &x[2 * j];
+            const int outside = fabs(p[0] - 10) > 5 || fabs(p[1] - 10) > 5 || fabs(q[0] - 10) > 5 || fabs(q[1] - 10) > 5;
             if (outside || length > 3.1) continue;
             CHECK(peri_bond_is_intact(b, i, j) == (length < 2.9));
             inside += length > 2.9;

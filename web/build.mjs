@@ -35,7 +35,7 @@ function table() {
 }
 
 const worker = [`${library}/api.mjs`, `${library}/peri.mjs`, `${here}scenes.mjs`, `${here}solver.mjs`].map(plain).join("\n");
-const page = [`${here}scenes.mjs`, `${here}draw.mjs`, `${here}page.mjs`].map(plain).join("\n");
+const page = [`${here}scenes.mjs`, `${here}story.mjs`, `${here}draw.mjs`, `${here}page.mjs`].map(plain).join("\n");
 const wasm = gzipSync(readFileSync(`${library}/peri.wasm`), { level: 9 }).toString("base64");
 const script = `
 const workerText = ${JSON.stringify(worker)};

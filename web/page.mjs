@@ -2,6 +2,7 @@
 // page.mjs - what one touches and sees. The body lives in a worker; a frame is asked for when the last one is drawn.
 import { BODIES, FIELDS, LESSONS, STRUCK, fromHash, settingsOf, toHash } from "./scenes.mjs";
 import { Ledger, Stage, dots } from "./draw.mjs";
+import { pack, unpack } from "./story.mjs";
 
 const $ = id => document.getElementById(id);
 const form = $("settings"),
@@ -30,6 +31,7 @@ const LAWS = {
 };
 
 let settings = fromHash(location.hash),
+    story = null, // to be done again with the next body
     about = null,
     last = null,
     scene = 0,
@@ -54,7 +56,7 @@ const tell = message => worker.postMessage({ scene, ...message });
 worker.onmessage = ({ data }) => {
     if (data.type === "loaded") return make();
     if (data.scene !== scene) return;
-    ({ ready, frame, rest, failed, chosen, cut: () => {} })[data.type](data);
+    ({ ready, frame, rest, failed, chosen, story: share, cut: () => {} })[data.type](data);
 };
 
 function ready(data) {
@@ -78,6 +80,7 @@ function frame(data) {
     if (last && data.steps < last.steps) ledger.clear();
     last = data;
     isDirty = true;
+    if (data.isOver) run(false); // here the link was made
     if (isToTell && data.energy) {
         isToTell = false;
         report();
@@ -134,7 +137,13 @@ function make() {
     press = null;
     isWaiting = false;
     stage.cursor = stage.line = null;
-    tell({ type: "scene", settings });
+    tell({ type: "scene", settings, story });
+    story = null;
+}
+
+async function open() {
+    settings = fromHash(location.hash);
+    story = await unpack(new URLSearchParams(location.hash.replace(/^#/, "")).get("story") ?? "");
 }
 
 const LIVE = ["pull", "magnify", "steps", "strength", "field"]; // all else makes the body anew
@@ -227,17 +236,24 @@ function later(name) {
 for (const button of document.querySelectorAll("[data-preset]"))
     button.addEventListener("click", () => tell({ type: "choose", settings, preset: button.dataset.preset }));
 
-$("share").addEventListener("click", async () => {
-    history.replaceState(null, "", toHash(settings));
+const LONGEST = 30000; // link that is passed on whole everywhere
+async function share({ story: told }) {
+    const packed = told.acts.length ? await pack(told) : "",
+        isShort = packed.length < LONGEST;
+    history.replaceState(null, "", toHash(settings) + (packed && isShort ? `&story=${packed}` : ""));
     try {
         await navigator.clipboard.writeText(location.href);
-        $("share").textContent = "Copied";
+        $("share").textContent = isShort ? "Copied" : "Copied, without what was done: that is too long";
     } catch {
-        $("share").textContent = "The link is in the address bar";
+        $("share").textContent = isShort ? "The link is in the address bar" : "In the address bar, without what was done: that is too long";
     }
     setTimeout(() => {
-        $("share").textContent = "Copy a link to these settings";
+        $("share").textContent = "Copy a link to this state";
     }, 2500);
+}
+$("share").addEventListener("click", () => {
+    run(false);
+    tell({ type: "story" });
 });
 
 function lists() {
@@ -300,7 +316,7 @@ function move(place) {
 
 function end(place) {
     if (!press) return;
-    if (tool === "cut") tell({ type: "cut", from: stage.place3(press.place), to: stage.place3(place), view: stage.view });
+    if (tool === "cut") tell({ type: "cut", from: stage.place3(press.place), to: stage.place3(place), view: stage.view ?? 0 });
     if (tool === "drag" || tool === "load") tell({ type: "release" });
     press = stage.line = null;
     isDirty = true;
@@ -363,6 +379,7 @@ $("rest").addEventListener("click", () => {
 });
 $("reset").addEventListener("click", () => {
     measured = null;
+    history.replaceState(null, "", toHash(settings));
     make();
 });
 
@@ -471,10 +488,7 @@ function colours() {
 }
 
 dark.addEventListener("change", colours);
-addEventListener("hashchange", () => {
-    settings = fromHash(location.hash);
-    make();
-});
+addEventListener("hashchange", () => open().then(make));
 new ResizeObserver(() => {
     stage.resize();
     isDirty = Boolean(last);
@@ -488,7 +502,8 @@ export function start(bytes, table) {
     lists();
     colours();
     fill();
-    tell({ type: "wasm", bytes });
+    open().then(() => tell({ type: "wasm", bytes }));
     run(!calm.matches);
     requestAnimationFrame(tick);
+    globalThis.shown = () => last;
 }

@@ -6,9 +6,24 @@ import { BODIES, STRUCK, poissonOf, waveSpeed } from "./scenes.mjs";
 let peri = null,
     scene = null;
 
+/** Acts on a scene, by the letters of story.mjs. */
+const ACTS = {
+    a: (scene, steps) => scene.advance(steps),
+    s: (scene, ...values) => scene.strike(...values),
+    h: (scene, ...values) => scene.hold(...values),
+    f: scene => scene.release(),
+    c: (scene, ...values) => scene.cut(...values),
+    p: (scene, value) => scene.pull(value),
+    r: scene => scene.rest(),
+};
+/** As short as links want it; what is done is what is told. */
+const brief = v => (Array.isArray(v) ? v.map(brief) : typeof v === "number" ? Number(v.toPrecision(5)) : v);
+
 class Scene {
-    constructor(settings) {
+    constructor(settings, story) {
         this.s = settings;
+        this.story = { pull: settings.pull, acts: [] };
+        this.script = story ? story.acts.map(act => act.slice()) : []; // what is to be done again
         const b = (this.b = BODIES[settings.body]);
         this.dim = b.dim;
         this.h = b.size[0] / settings.n;
@@ -104,6 +119,36 @@ class Scene {
                 ),
             );
     }
+    /** Does it, and notes that. */
+    act(letter, ...given) {
+        const values = given.map(brief),
+            { acts } = this.story,
+            last = acts.at(-1);
+        const out = ACTS[letter](this, ...values);
+        if (letter !== "a") acts.push([letter, ...values]);
+        else if (last?.[0] === "a" && last[1] === values[0]) ++last[2];
+        else acts.push(["a", values[0], 1]);
+        return out;
+    }
+    /** The next frame of the script, and what was done between it and the one after. */
+    follow() {
+        let isDone = false;
+        while (this.script.length) {
+            const act = this.script[0];
+            if (act[0] !== "a") this.act(...this.script.shift());
+            else if (isDone) break;
+            else {
+                this.act("a", act[1]);
+                isDone = true;
+                if (--act[2] === 0) this.script.shift();
+            }
+        }
+    }
+    /** What the user does ends the script. */
+    take(letter, ...values) {
+        this.script = [];
+        return this.act(letter, ...values);
+    }
     /** A hammer drives the material apart around it; on the block falls a ball. */
     strike(at, strength) {
         const { body, h, horizon, e0, c, dim } = this,
@@ -193,7 +238,6 @@ class Scene {
         );
     }
     advance(steps) {
-        if (!steps) return;
         const start = performance.now();
         this.body.advance({ steps, safety: 0.7 });
         const ms = (performance.now() - start) / steps;
@@ -358,38 +402,40 @@ const ACTIONS = {
         peri = instantiate(await WebAssembly.compile(bytes));
         return { type: "loaded" };
     },
-    scene({ settings }) {
+    scene({ settings, story }) {
         scene?.body.destroy();
         scene = null;
-        const made = new Scene(settings);
+        const made = new Scene({ ...settings, pull: story ? story.pull : settings.pull }, story);
         scene = made;
         return made.about();
     },
     frame({ field, steps }) {
-        scene.advance(steps);
-        return scene.frame(field, steps === 0 || scene.frames++ % 6 === 0);
+        const isScript = steps > 0 && scene.script.length > 0;
+        if (isScript) scene.follow();
+        else if (steps > 0) scene.act("a", steps);
+        const isOver = isScript && scene.script.length === 0;
+        return { ...scene.frame(field, steps === 0 || isOver || scene.frames++ % 6 === 0), isOver };
     },
     strike({ at, strength }) {
-        scene.strike(at, strength);
+        scene.take("s", at, strength);
     },
     hold({ kind, at, by, strength }) {
-        scene.hold(kind, at, by, strength);
+        scene.take("h", kind, at, by, strength);
     },
     release() {
-        scene.release();
+        scene.take("f");
     },
     cut({ from, to, view }) {
-        return { type: "cut", bonds: scene.cut(from, to, view) };
+        return { type: "cut", bonds: scene.take("c", from, to, view) };
     },
     pull({ value }) {
-        scene.pull(value);
+        scene.take("p", value);
     },
     rest() {
-        return { type: "rest", ...scene.rest() };
+        return { type: "rest", ...scene.take("r") };
     },
-    reset() {
-        scene.release();
-        scene.body.reset();
+    story() {
+        return { type: "story", story: scene.story };
     },
     choose,
 };

@@ -156,6 +156,41 @@ const tests = {
         const other = await open("#lesson=none&n=1e9&law=x&poisson=9&steps=");
         assert.equal(await other.locator("[name=law]").inputValue(), "BOND_BASED");
     },
+    async "the link holds the state: what was done is done again, to the last bit"() {
+        const tab = await open("#lesson=branching&notch=0&pull=0&n=60");
+        const state = of =>
+            of.evaluate(() => {
+                let hash = 2166136261;
+                for (const b of new Uint8Array(globalThis.shown().displacement.buffer)) hash = Math.imul(hash ^ b, 16777619);
+                return { hash, steps: globalThis.shown().steps, broken: globalThis.shown().broken };
+            });
+        await tab.mouse.click(...(await onStage(tab, 0.4, 0.5)));
+        await until(tab, "broken", 20);
+        await tool(tab, "cut");
+        await drag(tab, [0.6, 0.4], [0.6, 0.6]);
+        await tool(tab, "drag");
+        await drag(tab, [0.8, 0.5], [0.85, 0.4]);
+        await tab.locator("[name=pull]").fill("2");
+        await tab.waitForTimeout(400);
+        await tab.getByRole("button", { name: "Copy a link" }).click();
+        await tab.waitForFunction(() => /story=/.test(location.hash));
+        const link = new URL(tab.url()).hash,
+            before = await state(tab);
+        assert.ok(link.length < 8000 && before.broken > 20);
+        const other = await open(link);
+        await other.waitForFunction(n => globalThis.shown().steps >= n && document.getElementById("run").textContent === "Run", before.steps);
+        assert.deepEqual(await state(other), before);
+        // told on, it is the same story
+        await other.getByRole("button", { name: "Copy a link" }).click();
+        await other.waitForFunction(() => document.getElementById("share").textContent !== "Copy a link to this state");
+        assert.equal(new URL(other.url()).hash, link);
+        // nonsense is not believed
+        for (const text of ["x", "%00", "q1bKUrJSMtBRKlKyMtRRSlSyio5WslLSUTLUUTKMjQUA"]) {
+            const wrong = await open(`#lesson=waves&n=60&story=${text}`);
+            await until(wrong, "time", 0.2);
+            await wrong.close();
+        }
+    },
     async "choices of peri_choose fill the settings"() {
         const tab = await open("#lesson=branching");
         await tab.getByRole("button", { name: "10 %" }).click();
