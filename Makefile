@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # make demo      builds and runs the flagship: dynamic crack branching in glass -> out/branching.png, out/branching.vtu
 # make test      builds and runs every test, closing with "N passed, N failed"
-# make validate  the long tables of the source texts, 200,000 random scenes, a million steps, sanitizers of all
+# make validate  the long tables of the source texts, 50,000 random scenes (WHOLE=1: 200,000), a million steps, sanitizers of all
 # make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
 # make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
 # make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, more than an hour

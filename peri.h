@@ -476,7 +476,8 @@ PERI_API int32_t peri_set_bond_law(peri_body *body, int32_t i, int32_t j, int32_
     peri_bond_law_fn fn, void *user);
 
 /* Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL:
-   never) of bonds between materials i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40) */
+   never; softening: where they break, after peri_build) of bonds between materials i and j.
+   Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40) */
 PERI_API int32_t peri_get_bond_constants(peri_body *body, int32_t i, int32_t j, double *c,
     double *s0);
 

@@ -27,7 +27,10 @@ static int same_record(const peri_error *a, const peri_error *b) {
 static int names_a_point(const slot *s, const peri_error *e) {
     const int64_t points = peri_point_count(s->body);
     switch (e->code) {
-    case PERI_ERROR_UNSTABLE: case PERI_ERROR_COINCIDENT: return e->index >= 0 && e->index < points;
+    case PERI_ERROR_UNSTABLE: /* or a free obstacle */
+        if (strcmp(e->field, "obstacle") != 0) return e->index >= 0 && e->index < points;
+        return e->index == peri_id((peri_body *)s->body, PERI_KIND_OBSTACLE, PERI_ID_INDEX((int32_t)e->index));
+    case PERI_ERROR_COINCIDENT: return e->index >= 0 && e->index < points;
     case PERI_ERROR_LOOSE: return e->index >= 0 && e->index < points;
     case PERI_ERROR_CALLBACK: return strcmp(e->field, "value") != 0 || (e->index >= 0 && e->index < points);
     default: return 1;

@@ -114,9 +114,15 @@ for name in $longest; do shorter=$(printf '%s\n' $shorter | grep -v -x "$name");
 if [ -z "$long" ]; then
     . tests/checks.sh
 else
-    for part in 1-50000 50001-100000 100001-150000 150001-200000; do # scenes, longer than all else
-        queue_program "test_oracles_$part" "build/tests/test_oracles $part"
+    # of 200,000 scenes a quarter, another every day; WHOLE=1: all, and all of 200,000 random programs
+    quarter=$(expr "$(date -u +%j)" % 4)
+    for part in 1-50000 50001-100000 100001-150000 150001-200000; do # longer than all else
+        if [ -n "$WHOLE" ] || [ "$quarter" -eq 0 ]; then queue_program "test_oracles_$part" "build/tests/test_oracles $part"
+        else skip "test_oracles_$part" "a quarter of the scenes a day; WHOLE=1 make validate runs all"; fi
+        quarter=$((quarter - 1))
     done
+    if [ -n "$WHOLE" ]; then queue_program test_programs_50000-199999 "build/tests/test_programs --many 50000 150000"
+    else skip test_programs_50000-199999 "the first 50,000 programs are run; WHOLE=1 make validate runs all"; fi
     queue_programs $(for name in $longest $shorter; do [ "$name" = test_oracles ] || echo "$name"; done)
     . tests/bits.sh
     run_queue

@@ -429,6 +429,61 @@ static void what_leaves_the_numbers(void) {
     peri_body_destroy(b);
 }
 
+/* The step that peri_stable_step tells is one that peri_advance takes: also where nothing has asked yet what a light body is near. What is
+   refused changes nothing, the step included. */
+static void the_step_told_is_taken(void) {
+    peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 8, 4, 1);
+    const double alone = peri_stable_step(b);
+    peri_obstacle_desc d = shaped(PERI_SHAPE_BALL);
+    peri_advance_desc a;
+    d.place[0] = 0.35;
+    d.place[1] = 0.41;
+    d.radius = 0.05;
+    d.mass = 1e-6;
+    (void)MUST(b, peri_add_obstacle(b, &d));
+    peri_advance_desc_init(&a);
+    a.steps = 1;
+    for (int k = 0; k < 2; ++k) {
+        const double step = peri_stable_step(b);
+        CHECK(step > 0 && step < 0.5 * alone);
+        a.time_step = 1.001 * step;
+        REFUSE(b, PERI_ERROR_STEP, peri_advance(b, &a));
+        CHECK(seen.value == step && peri_stable_step(b) == step);
+        a.time_step = step;
+        MUST(b, peri_advance(b, &a));
+        MUST(b, peri_reset(b));
+    }
+    peri_body_destroy(b);
+}
+
+/* However far out a body has gone, the stable step is a number, with friction, too. */
+static void the_step_of_what_is_lost(void) {
+    specimen s = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_CORRESPONDENCE, 0.2, H, 3, 8, 4, 1);
+    peri_body *b = specimen_make(&s); /* the more it is stretched the stiffer */
+    double *u = get(b, PERI_FIELD_DISPLACEMENT);
+    peri_obstacle_desc d = shaped(PERI_SHAPE_PLANE);
+    peri_advance_desc a;
+    peri_solve_desc st;
+    u[0] = 1e-3;
+    MUST(b, peri_set_field(b, PERI_FIELD_DISPLACEMENT, u, peri_size_of_field(b, PERI_FIELD_DISPLACEMENT)));
+    free(u);
+    peri_advance_desc_init(&a);
+    a.steps = 100000;
+    a.time_step = 1e120; /* squares of the displacements are beyond the numbers */
+    a.force_step = 1;
+    REFUSE(b, PERI_ERROR_UNSTABLE, peri_advance(b, &a));
+    peri_solve_desc_init(&st);
+    CHECK(peri_solve(b, &st, NULL) < 0); /* after which the deformation is looked at anew */
+    d.normal[1] = 1;
+    d.friction = 0.3;
+    d.friction_speed = SLIP;
+    (void)MUST(b, peri_add_obstacle(b, &d));
+    CHECK(peri_stable_step(b) >= 0 && peri_stable_step(b) <= 1);
+    MUST(b, peri_reset(b));
+    CHECK(peri_stable_step(b) > 1e-3);
+    peri_body_destroy(b);
+}
+
 /* peri_solve leaves free bodies where they are, and they press as they are placed. */
 static void statics_hold_them(void) {
     peri_body *b = block(PERI_SPACE_PLANE_STRESS, PERI_PRECISION_DOUBLE, PERI_GEOMETRY_NONLINEAR, 8, 4, 1);
@@ -474,6 +529,8 @@ int main(int argc, char **argv) {
     RUN(light_balls_do_not_explode);
     RUN(reset_and_clones);
     RUN(what_leaves_the_numbers);
+    RUN(the_step_told_is_taken);
+    RUN(the_step_of_what_is_lost);
     RUN(statics_hold_them);
     return test_end("test_free_bodies");
 }

@@ -124,7 +124,7 @@ static void judge_scene(uint64_t seed, int loud) {
     if (loud) describe(&s);
     for (int k = 0; k < ORACLES; ++k) {
         oracle *o = &oracles[k];
-        verdict v = {&s, o->name, 0, loud, 0, 0, ""};
+        verdict v = {&s, o->name, 0, loud, 0, 0, 0, ""};
         if (!o->applies(&s)) continue;
         count_choices(&s, o->fit);
         if (!loud && ((seed * 64 + (uint64_t)k) * UINT64_C(0x9E3779B97F4A7C15) >> 40) % (uint64_t)o->often) continue;
@@ -168,7 +168,9 @@ static void nothing_is_left_out(void) {
 }
 
 static void scenes(void) {
+    static const uint64_t kept[2] = {54646, 139571}; /* what breaks there hangs on rounding                               */
     judge_scenes(1, test_long ? 2000 : 700);
+    for (int k = 0; k < 2; ++k) judge_scene(kept[k], 0);
     nothing_is_left_out();
 }
 

@@ -469,10 +469,15 @@ static void fill_loads(peri_body *b) {
     ASK(peri_apply_body_force(b, set, zero3, NULL, NULL)), ASK(peri_apply_layer_traction(b, set, 1, zero3, NULL, NULL));
     ASK(peri_prescribe_displacement(b, set, PERI_AXIS_X, NULL, NULL, NULL));
     ASK(peri_prescribe_velocity(b, set, PERI_AXIS_X, NULL, NULL, NULL));
+    ASK(peri_prescribe_rigid(b, set, zero3, NULL, NULL, NULL));
     ASK(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL)), ASK(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL));
     ASK(peri_apply_traction(b, face, 10, one3, one3, NULL, NULL));
     for (last = 0; last >= 0;) last = plane_obstacle(b, zero3, up3, 1e-9, NULL, NULL);
-    ASK(plane_obstacle(b, zero3, up3, 1e-9, NULL, NULL)), ASK(ball_obstacle(b, far3, 1, 1e-9, NULL, NULL));
+    peri_obstacle_desc ball;
+    peri_obstacle_desc_init(&ball, PERI_SHAPE_BALL);
+    ball.place[1] = 1e3;
+    ball.radius = 1;
+    ASK(peri_add_obstacle(b, &ball));
 }
 
 /* A tangent that is not positive: nearest neighbours that push. */

@@ -161,6 +161,54 @@ static void equilibria_wait(void) {
     }
 }
 
+/* Is the bond, by the deformation that all points have: s + alpha least, least the higher of what both ends have? By the definition alone,
+   from positions and displacements; all ways in which the ends differ, and either may come first. */
+static int64_t breaks_by_hand(int64_t n, const double *x, const double *u, double horizon, double alpha, double s00) {
+    double least[64];
+    int64_t count = 0;
+    CHECK(n <= 64);
+    for (int pass = 0; pass < 2 && n <= 64; ++pass)
+        for (int64_t i = 0; i < n; ++i) {
+            if (pass == 0) least[i] = HUGE_VAL;
+            for (int64_t j = 0; j < n; ++j) {
+                const double xi[2] = {x[2 * j] - x[2 * i], x[2 * j + 1] - x[2 * i + 1]}, square = xi[0] * xi[0] + xi[1] * xi[1];
+                if (i == j || square > horizon * horizon * (1 + 1e-12)) continue;
+                const double s = (xi[0] * (u[2 * j] - u[2 * i]) + xi[1] * (u[2 * j + 1] - u[2 * i + 1])) / square;
+                if (pass == 0) least[i] = fmin(least[i], s);
+                else count += i < j && s > 0 && s + alpha * fmax(least[i], least[j]) > s00;
+            }
+        }
+    return count;
+}
+
+static void the_end_that_has_more_decides(void) {
+    for (int32_t law = peri__first_law; law < peri__end_law; ++law) {
+        specimen p = linear_box(law);
+        uint64_t dice = 7;
+        peri_evaluate_desc e;
+        p.material.criterion = PERI_CRITERION_CONFINED_STRETCH;
+        p.material.compression = 0.6;
+        peri_body *b = specimen_make(&p);
+        const int64_t n = peri_point_count(b);
+        double *x = get(b, PERI_FIELD_POSITION), *u = get(b, PERI_FIELD_DISPLACEMENT);
+        int64_t seen = 0;
+        for (int k = 0; k < 6; ++k) {
+            MUST(b, peri_reset(b));
+            for (int64_t i = 0; i < 2 * n; ++i) u[i] = S0 * (x[i] + H * (3 + k) * (test_random(&dice) - 0.5));
+            peri_evaluate_desc_init(&e);
+            e.fracture = 1;
+            e.displacement = u;
+            MUST(b, peri_evaluate(b, &e, NULL));
+            const int64_t expected = breaks_by_hand(n, x, u, p.desc.horizon, 0.6, S0);
+            CHECK(peri_broken_count(b) == expected);
+            seen += expected > 20 && expected < peri_entry_count(b) / 4;
+        }
+        CHECK(seen == 6);
+        free(x), free(u);
+        peri_body_destroy(b);
+    }
+}
+
 /* Two materials, side by side: bonds between them are those of the lower limit, with what goes with it. */
 static void between_materials(void) {
     for (int swap = 0; swap < 2; ++swap) {
@@ -192,6 +240,7 @@ int main(int argc, char **argv) {
     RUN(what_is_fast_bears_more);
     RUN(what_is_short_bears_more);
     RUN(equilibria_wait);
+    RUN(the_end_that_has_more_decides);
     RUN(between_materials);
     return test_end("test_strengths_time");
 }

@@ -654,8 +654,9 @@ public:
         check(result_);
         return result_;
     }
-    /* Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never) of
-       bonds between materials i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40) */
+    /* Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never;
+       softening: where they break, after peri_build) of bonds between materials i and j. Either may be NULL.
+       ([P] C.15-C.20, [T] 1.24, 1.40) */
     int32_t get_bond_constants(int32_t i_, int32_t j_, span<double> c_ = nullptr, span<double> s0_ = nullptr) {
         if (!c_.empty()) detail::sized(c_.size(), 1, "c");
         if (!s0_.empty()) detail::sized(s0_.size(), 1, "s0");

@@ -2583,8 +2583,8 @@ contains
         if (present(stat)) stat = int(result_)
     end subroutine
 
-    ! Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never) of bonds between
-    ! materials i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40)
+    ! Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never; softening: where
+    ! they break, after peri_build) of bonds between materials i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40)
     subroutine peri_get_bond_constants(body, i, j, c, s0, stat, errmsg)
         type(peri_body), intent(in) :: body
         integer(c_int32_t), intent(in) :: i

@@ -1060,8 +1060,8 @@ function set_bond_law(body::Body, i, j, states, fn = nothing)
 end
 
 """
-Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never) of bonds between materials
-i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40)
+Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never; softening: where they
+break, after peri_build) of bonds between materials i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40)
 """
 function get_bond_constants!(body::Body, i, j, c = nothing, s0 = nothing)
     sized(c, 1, "c")

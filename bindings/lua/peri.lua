@@ -1077,8 +1077,8 @@ function Body:set_bond_law(i, j, states, fn)
     return check(result, nil, self.handle)
 end
 
--- Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never) of bonds between materials
--- i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40)
+-- Micromodulus c [M L^-5 T^-2] (bond-based only, else NULL) and critical stretch s0 [-] (HUGE_VAL: never; softening: where they
+-- break, after peri_build) of bonds between materials i and j. Either may be NULL. ([P] C.15-C.20, [T] 1.24, 1.40)
 function Body:get_bond_constants(i, j, c, s0)
     local c_c, c_n = nil, 0
     if c ~= nil then c_c, c_n = array("double", c, "c") end

@@ -39,6 +39,7 @@ typedef enum peri__asked { /* of laws of bonds, beside the force                
 typedef struct peri__bunch { /* some bonds of a row, and what their laws make of their stretch                           */
     int32_t count, asked;
     int64_t point, first; /* of peri__ask_bond: whose, and which, the last were; point < 0: none                         */
+    int32_t failed;       /* of peri__ask_bond: 1 where a law has failed                                                */
     int32_t others[PERI_BUNCH], broken[PERI_BUNCH];
     double  length[PERI_BUNCH], stretch[PERI_BUNCH], force[PERI_BUNCH], tangent[PERI_BUNCH], energy[PERI_BUNCH], lost[PERI_BUNCH];
     double  state[PERI_BUNCH * PERI_BOND_STATES]; /* [count][states of the model]                                        */

@@ -168,11 +168,23 @@ static double peri__rub(const peri__pusher *p, const peri__obstacle *o, int64_t 
     return lost;
 }
 
+/* Adds point i to what is near a free obstacle. */
+static void peri__note_near(const peri_body *b, const peri__obstacle *o, int64_t i, const peri__dip *t, double *touched, double *swept) {
+    const double volume = b->model->volume[i];
+    double moment[3], arm[3];
+    if (!(t->depth > -peri__foresight(b, o))) return;
+    peri__to_centre(o, arm);
+    for (int d = 0; d < 3; ++d) arm[d] = t->r[d] - arm[d];
+    peri__cross(arm, t->normal, moment);
+    *touched += volume;
+    *swept += volume * peri__dot(moment, moment, 3);
+}
+
 /* What the obstacle does to point i, added to push[3] and to its tally. */
 static int32_t peri__push(const peri__pusher *p, const peri__obstacle *o, int64_t i, double *push, double *tally) {
     const peri_body *b = p->body;
     peri__dip t;
-    double own[3] = { 0.0 }, moment[3], arm[3];
+    double own[3] = { 0.0 }, moment[3];
     const int32_t touches = peri__dips(b, o, i, peri__foresight(b, o), &t);
     if (touches < 0 || (touches == 0 && !o->tally)) return touches;
     for (int d = 0; touches && d < 3; ++d) own[d] = o->stiffness * t.depth * t.normal[d];
@@ -188,12 +200,7 @@ static int32_t peri__push(const peri__pusher *p, const peri__obstacle *o, int64_
         tally[d] += volume * own[d];
         tally[3 + d] += volume * moment[d];
     }
-    if (!o->free || !(t.depth > -peri__foresight(b, o))) return touches;
-    peri__to_centre(o, arm);
-    for (int d = 0; d < 3; ++d) arm[d] = t.r[d] - arm[d];
-    peri__cross(arm, t.normal, moment);
-    tally[7] += volume;
-    tally[8] += volume * peri__dot(moment, moment, 3);
+    if (o->free) peri__note_near(b, o, i, &t, &tally[7], &tally[8]);
     return touches;
 }
 
@@ -274,6 +281,35 @@ static void peri__close_obstacle(peri_body *b, peri__obstacle *o, double dt) {
     if (!(dt > 0.0)) return;
     peri__kick_free(o->free, 0.5 * dt);
     peri__update_velocity(o);
+}
+
+/* What free obstacles are near, where the force does not tell: by block, as the force does. Where a signed distance fails it stays as it
+   was, and whoever makes the force tells why. */
+static void peri__look_at_free(peri_body *b) {
+    const int64_t points = b->model->points;
+    const int32_t stop = b->stop;
+    const peri_error record = b->error;
+    for (int64_t k = 0; k < b->obstacle_count && b->now.stale & PERI__STALE_FORCE; ++k) {
+        const peri__obstacle *o = &b->obstacles[k];
+        double touched = 0.0, swept = 0.0;
+        int32_t status = PERI_OK;
+        if (!o->kind || !o->free) continue;
+        for (int64_t begin = 0; begin < points && status >= 0; begin += PERI_BLOCK) {
+            double near_by = 0.0, turned = 0.0;
+            for (int64_t i = begin; i < points && i < begin + PERI_BLOCK && status >= 0; ++i) {
+                peri__dip t;
+                status = peri__dips(b, o, i, peri__foresight(b, o), &t);
+                if (status >= 0) peri__note_near(b, o, i, &t, &near_by, &turned);
+            }
+            touched += near_by;
+            swept += turned;
+        }
+        if (status < 0) continue;
+        o->free->touched = touched;
+        o->free->swept = swept;
+    }
+    b->stop = stop;
+    b->error = record;
 }
 
 /* Adds all obstacles at `time` to f; dt > 0: counts the work of the step that ends there. */

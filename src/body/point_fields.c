@@ -84,6 +84,11 @@ static int32_t peri__set_point_field(peri_body *b, const peri__point_field *f, c
     return PERI_OK;
 }
 
+/* The density of point i in the unit of the caller, as it is read. */
+static double peri__density_told(const peri_body *b, int64_t i) {
+    return b->density ? b->density[i] * b->model->density : b->materials[b->model->material[i]].density;
+}
+
 /* As materials, within what the precision holds of the mass of points and its inverse. */
 static int32_t peri__set_density(peri_body *b, const double *in) {
     const peri__model *m = b->model;
@@ -91,6 +96,9 @@ static int32_t peri__set_density(peri_body *b, const double *in) {
     for (int64_t i = 0; i < m->points; ++i)
         if (!(in[i] / m->density > light && in[i] / m->density < 1.0 / light)) return peri__fail(b, PERI_ERROR_RANGE, "in", i, in[i]);
     if (b->contact) return peri__fail(b, PERI_ERROR_ORDER, "peri_set_contact", -1, 0.0);
+    int64_t changed = 0;
+    while (changed < m->points && in[changed] == peri__density_told(b, changed)) changed++;
+    if (changed == m->points) return PERI_OK; /* and nothing is stale */
     double *array = b->density ? b->density : (double *)peri__new(&b->memory, m->points, sizeof *array);
     if (!array) return peri__fail(b, PERI_ERROR_MEMORY, "in", -1, 0.0);
     peri__changed(b, PERI__STIFFNESS);

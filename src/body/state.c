@@ -56,7 +56,7 @@ static peri__operands peri__operands_of(const peri_body *b) {
 }
 
 /* What the law of bond k of row i makes of its stretch now: the stretch at which a linear bond pulls as hard, and its slope. `bunch` keeps
-   the answers for bonds beside it; its point is -1 at first. */
+   the answers for bonds beside it; its point is -1 at first, and `failed` 0. Bonds whose law fails are linear. */
 static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, int64_t k, peri__bunch *bunch, double *force,
                            double *tangent) {
     const int64_t first = k - k % PERI_BUNCH;
@@ -76,7 +76,10 @@ static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, 
             bunch->length[n] = peri__get_real(row->bond, b->b32, first + n);
             bunch->stretch[n] = peri__is_alive(b, i, first + n) ? peri__stretch(b, i, row, first + n) : 0.0;
         }
-        if (!peri__respond(&operands, i, first, bunch)) peri__follow_none(bunch);
+        if (!peri__respond(&operands, i, first, bunch)) {
+            peri__follow_none(bunch);
+            bunch->failed = 1;
+        }
     }
     *force = bunch->force[k - first];
     *tangent = bunch->tangent[k - first];

@@ -5,7 +5,7 @@
 #endif
 
 /* A field of point i, inner units, to out[components]. */
-typedef void (*peri__point_fn)(const peri_body *b, int64_t i, const peri__row *row, double *out);
+typedef void (*peri__point_fn)(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums);
 
 typedef struct peri__gradients {
     const peri_body *body;
@@ -111,28 +111,29 @@ static void peri__cauchy(const peri_body *b, double p[3][3], const peri__deforma
         for (int c = a; c < dim; ++c) out[peri__packed(dim, a, c)] = 0.5 * (sigma[a][c] + sigma[c][a]);
 }
 
-/* P as the caller has it; NaN where the caller fails. */
-static void peri__own_piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
+/* P as the caller has it; NaN where the caller fails: sums->bad, n. */
+static void peri__own_piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3], peri__sums *sums) {
     peri__operands operands;
     const peri__own own = { b, &operands, NULL, NULL, NULL };
     peri__own_run run;
-    peri__sums sums = { 0.0, 0.0, 0, -1 };
+    peri__sums asked = { 0.0, 0.0, 0, -1 };
     memset(&operands, 0, sizeof operands);
     run.first = i;
     run.count = 1;
     for (int a = 0; a < b->dim; ++a) memcpy(&run.gradient[a * b->dim], f->h[a], (size_t)b->dim * sizeof(double));
-    peri__ask_stress(&own, &run, NULL, &sums);
+    peri__ask_stress(&own, &run, NULL, &asked);
     for (int a = 0; a < b->dim; ++a)
-        for (int d = 0; d < b->dim; ++d) p[a][d] = sums.bad < 0 ? run.stress[a * b->dim + d] / b->model->stress : (double)NAN;
+        for (int d = 0; d < b->dim; ++d) p[a][d] = asked.bad < 0 ? run.stress[a * b->dim + d] / b->model->stress : (double)NAN;
+    if (asked.bad >= 0 && sums->bad < 0) *sums = asked;
 }
 
 /* P of the strain where the law has a gradient; of others as Hooke's law has it. */
-static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3]) {
+static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *f, double p[3][3], peri__sums *sums) {
     peri__law room;
     const peri__law *law = peri__law_at(b, i, &room);
     double s[3][3], h[3][3];
     if (b->model->past.raw[b->model->material[i]]) {
-        peri__own_piola(b, i, f, p);
+        peri__own_piola(b, i, f, p, sums);
         return;
     }
     memcpy(h, f->h, sizeof h);
@@ -140,8 +141,9 @@ static void peri__piola(const peri_body *b, int64_t i, const peri__deformation *
     peri__stress(law, b->dim, b->desc.geometry == PERI_GEOMETRY_LINEAR, h, s, p);
 }
 
-/* sum T xi V over the live bonds, T the half that point i gives. */
-static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__row *row, const peri__deformation *f, double p[3][3]) {
+/* sum T xi V over the live bonds, T the half that point i gives. sums->bad: a law of bonds, or the caller, failed. */
+static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__row *row, const peri__deformation *f, double p[3][3],
+                                   peri__sums *sums) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     int linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
@@ -150,13 +152,14 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
     peri__bunch bunch;
     int tensor = 0;
     bunch.point = -1;
+    bunch.failed = 0;
     if (!law->pairwise) pressure_factor = peri__get_constant(b, i, PERI__PRESSURE_FACTOR);
     if (pressure_factor != 0.0) pressure_factor *= peri__dilatation(b, i, row, peri__eigenstrain_at(b, i));
     if (law->gather & PERI__GRADIENT) {
         stabilization = peri__get_constant(b, i, PERI__STABILIZATION);
         for (int k = 0; k < PERI_PACKED(m->dim); ++k) inverse[k] = peri__get_constant(b, i, PERI__SHAPE_INVERSE + k);
         tensor = inverse[0] != 0.0;
-        peri__piola(b, i, f, stress);
+        peri__piola(b, i, f, stress, sums);
     }
     for (int a = 0; a < 3; ++a)
         for (int c = 0; c < 3; ++c) p[a][c] = 0.0;
@@ -183,12 +186,14 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
             for (int a = 0; a < m->dim; ++a) p[d][a] += w * t[d] * xi[a];
         }
     }
+    if (bunch.failed && sums->bad < 0) sums->bad = i;
 }
 
-static void peri__dilatation_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+static void peri__dilatation_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     const peri__model *m = b->model;
     peri__deformation f;
     double strain[3][3];
+    (void)sums;
     *out = 0.0;
     if (!(m->laws[m->material[i]].gather & PERI__GRADIENT)) {
         *out = peri__dilatation(b, i, row, 0.0);
@@ -199,45 +204,57 @@ static void peri__dilatation_at(const peri_body *b, int64_t i, const peri__row *
     for (int a = 0; a < m->dim; ++a) *out += strain[a][a];
 }
 
-static void peri__strain_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+static void peri__strain_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     peri__deformation f;
     double strain[3][3];
+    (void)sums;
     peri__deform(b, i, row, &f);
     peri__strain_of(b, &f, strain);
     for (int a = 0; a < b->dim; ++a)
         for (int c = a; c < b->dim; ++c) out[peri__packed(b->dim, a, c)] = strain[a][c];
 }
 
-static void peri__stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+static void peri__stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     peri__deformation f;
     double p[3][3];
     peri__deform(b, i, row, &f);
-    if (b->past.flow && peri__flowing(b, i)) peri__collapsed_stress(b, i, row, &f, p);
-    else peri__piola(b, i, &f, p);
+    if (b->past.flow && peri__flowing(b, i)) peri__collapsed_stress(b, i, row, &f, p, sums);
+    else peri__piola(b, i, &f, p, sums);
     peri__cauchy(b, p, &f, out);
 }
 
-static void peri__force_stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out) {
+static void peri__force_stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     peri__deformation f;
     double p[3][3];
     peri__deform(b, i, row, &f);
-    peri__collapsed_stress(b, i, row, &f, p);
+    peri__collapsed_stress(b, i, row, &f, p, sums);
     peri__cauchy(b, p, &f, out);
 }
 
 static void peri__gradients_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__gradients *g = (const peri__gradients *)context;
     peri__row row;
-    (void)sums;
     for (int64_t i = begin; i < end; ++i) {
         peri__read_row(g->body, i, &row);
-        g->at(g->body, i, &row, &g->out[i * g->components]);
+        g->at(g->body, i, &row, &g->out[i * g->components], sums);
     }
+}
+
+/* Notes what of the caller failed in the last pass over points, for peri__heed_laws: a stress, sums->n, or else a law of bonds. */
+static void peri__note_failures(peri_body *b) {
+    int64_t k = 0;
+    while (k < b->model->blocks && b->sums[k].bad < 0) k++;
+    if (k == b->model->blocks) return;
+    if (b->sums[k].n != 0) peri__note_stress(b, b->sums);
+    else peri__note_laws(b);
 }
 
 static void peri__read_gradients(peri_body *b, peri__point_fn at, int32_t components, double *out) {
     peri__gradients gradients = { b, at, components, out };
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (b->model->inelastic & PERI__FLOWS) (void)peri__make_flow(b, b->u, 0.0, 0, NULL);
-    peri__for_points(b, b->model->points, 8 * b->model->width, peri__gradients_block, &gradients, NULL);
+    const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
+    peri__for_points(b, b->model->points, 8 * b->model->width, peri__gradients_block, &gradients, b->sums);
+    peri__leave(b, former);
+    peri__note_failures(b);
 }

@@ -47,7 +47,7 @@ static void peri__renew_inverse(peri_body *b, int64_t i, double *inverse) {
 }
 
 /* The stress of point i, of the sum of w eta xi V in its place. In plane strain that across the plane is as Hooke's law has it. */
-static void peri__note_point_stress(peri_body *b, int64_t i) {
+static void peri__note_point_stress(peri_body *b, int64_t i, peri__sums *sums) {
     const peri__model *m = b->model;
     const peri__law *law = &m->laws[m->material[i]];
     const int32_t dim = m->dim;
@@ -66,7 +66,7 @@ static void peri__note_point_stress(peri_body *b, int64_t i) {
         peri__read_row(b, i, &row);
         peri__deform(b, i, &row, &f);
     }
-    peri__piola(b, i, &f, p);
+    peri__piola(b, i, &f, p, sums);
     peri__cauchy(b, p, &f, stress);
     if (dim == 2)
         stress[3] = b->desc.space == PERI_SPACE_PLANE_STRESS ? 0.0 : 0.5 * law->lambda / (law->lambda + law->mu) * (stress[0] + stress[1]);
@@ -111,11 +111,11 @@ static void peri__align_block(void *context, int64_t begin, int64_t end, peri__s
         else a->body->aligned[i * PERI_ALIGNED] = a->body->aligned[i * PERI_ALIGNED + 1] = 1.0;
 }
 
-/* sums->a: the largest nearness. */
+/* sums->a: the largest nearness; bad, n: as of peri__own_piola. */
 static void peri__stress_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     peri_body *b = (peri_body *)context;
     for (int64_t i = begin; i < end; ++i) {
-        peri__note_point_stress(b, i);
+        peri__note_point_stress(b, i, sums);
         b->nearness[i] = peri__nearness_of(b, i);
         sums->a = fmax(sums->a, b->nearness[i]);
     }
@@ -134,6 +134,7 @@ static void peri__note_stresses(peri_body *b, peri__operands *operands) {
         peri__for_points(b, m->points, m->width, b->ops->gather_shapes, &o, NULL);
         peri__for_points(b, m->points, m->width, peri__stress_block, b, b->sums);
         for (int64_t k = 0; k < m->blocks; ++k) o.nearness_most = fmax(o.nearness_most, b->sums[k].a);
+        peri__note_failures(b);
         /* in motion of those points alone that can have a bond over its limit: 0.5 (nearness + most) > 1 */
         peri__aligning aligning = { b, operands ? 2.0 * (1.0 - 1e-6) - o.nearness_most : -HUGE_VAL };
         if (!operands || o.nearness_most >= aligning.least)

@@ -47,7 +47,7 @@ static double peri__step_of(const peri_body *b, double sharp) {
     lambda = fmax(lambda, alone);
     const double step = b->contact ? peri__step_with_contact(b->contact, lambda) : 2.0 / sqrt(lambda);
     if (damping > 0.0) lambda = 4.0 / (step * step);
-    return damping > 0.0 ? (sqrt(damping * damping + lambda) - damping) * 2.0 / lambda : step;
+    return damping > 0.0 && lambda < HUGE_VAL ? (sqrt(damping * damping + lambda) - damping) * 2.0 / lambda : step;
 }
 
 /* The crowd of contact, where the force does not tell. 0 where memory is short. */
@@ -69,6 +69,7 @@ PERI_API double peri_stable_step(const peri_body *b) {
     if (b->running <= PERI__IN_FRAME) {
         if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch((peri_body *)b);
         (void)peri__look_at_contact((peri_body *)b);
+        peri__look_at_free((peri_body *)b);
         (void)peri__sharpen((peri_body *)b);
     }
     return peri__stable(b) * b->model->time;
@@ -213,6 +214,7 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     if (status < 0) return status;
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch(b);
+    peri__look_at_free(b);
     if (!peri__look_at_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
     const double unit = b->model->time;
     if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */

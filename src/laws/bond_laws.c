@@ -119,16 +119,24 @@ static int peri__follow_law(const peri__operands *o, const peri__bond_law *law, 
     return sum == 0.0;
 }
 
-/* Copies the kept state of a bunch from the row's, `states` numbers per bond, or back, of the bonds that follow `law`; laws NULL: all. */
-static void peri__copy_states(const peri__operands *o, const peri__bond_law *law, const peri__bond_law *const *laws, double *history,
-                              peri__bunch *bunch, int back) {
-    const int32_t stride = o->model->bond_states, states = law->states;
-    if (states == stride && !back) memcpy(bunch->state, history, (size_t)(bunch->count * states) * sizeof *history);
-    for (int32_t k = 0; (states != stride || back) && k < bunch->count; ++k)
-        for (int32_t n = 0; n < states; ++n) {
-            if (!back) bunch->state[k * states + n] = history[k * stride + n];
-            else if (!laws || laws[k] == law) history[k * stride + n] = bunch->state[k * states + n];
-        }
+/* Copies the kept state of `count` bonds, `states` numbers each, from the row's, or back. where: their places there; NULL: in turn. */
+static void peri__copy_states(const peri__operands *o, int32_t states, int32_t count, const int32_t *where, double *history, double *state,
+                              int back) {
+    const int32_t stride = o->model->bond_states;
+    for (int32_t k = 0; k < count; ++k) {
+        double *kept = &history[(where ? where[k] : k) * stride], *own = &state[k * states];
+        memcpy(back ? kept : own, back ? own : kept, (size_t)states * sizeof *own);
+    }
+}
+
+/* Lets all bonds of a bunch follow a law, with their history at `history`, where it has one. 0 where it fails. */
+static int peri__follow_kept(const peri__operands *o, const peri__bond_law *law, int64_t i, const int32_t *where, double *history,
+                             peri__bunch *bunch) {
+    const int keeping = o->keeping && bunch->asked & PERI__ASK_HISTORY;
+    if (law->states > 0) peri__copy_states(o, law->states, bunch->count, where, history, bunch->state, 0);
+    if (!peri__follow_law(o, law, i, bunch)) return 0;
+    if (law->states > 0 && keeping) peri__copy_states(o, law->states, bunch->count, where, history, bunch->state, 1);
+    return 1;
 }
 
 /* Of each bond of a bunch the law that it follows. Returns that of all, or sets *mixed. */
@@ -155,6 +163,33 @@ static void peri__follow_none(peri__bunch *bunch) {
     }
 }
 
+/* Lets those bonds of a bunch follow `law` that do by `laws`: it sees no others. 0 where it fails. */
+static int peri__follow_apart(const peri__operands *o, const peri__bond_law *law, const peri__bond_law *const *laws, int64_t i,
+                              double *history, peri__bunch *bunch) {
+    int32_t where[PERI_BUNCH];
+    peri__bunch part;
+    part.count = 0;
+    part.asked = bunch->asked;
+    for (int32_t k = 0; k < bunch->count; ++k) {
+        if (laws[k] != law) continue;
+        part.others[part.count] = bunch->others[k];
+        part.length[part.count] = bunch->length[k];
+        part.stretch[part.count] = bunch->stretch[k];
+        where[part.count++] = k;
+    }
+    if (!peri__follow_kept(o, law, i, where, history, &part)) return 0;
+    for (int32_t n = 0; n < part.count; ++n) {
+        const int32_t k = where[n];
+        bunch->force[k] = part.force[n];
+        if (part.asked & PERI__ASK_TANGENT) bunch->tangent[k] = part.tangent[n];
+        if (part.asked & PERI__ASK_ENERGY) bunch->energy[k] = part.energy[n];
+        if (!(part.asked & PERI__ASK_HISTORY)) continue;
+        bunch->lost[k] = part.lost[n];
+        bunch->broken[k] = part.broken[n];
+    }
+    return 1;
+}
+
 /* What their laws make of the bonds `first`, ... of row i, whose number, other ends, stretches and lengths the bunch has; and their
    history, where that is asked for and o->keeping. Returns 0 where a law failed. Both ends of a bond get the same to the last bit, as they
    give the same. */
@@ -163,36 +198,13 @@ PERI_SHARED int peri__respond(const peri__operands *o, int64_t i, int64_t first,
     double *history = o->history ? o->history + (o->model->start[i] + first) * o->model->bond_states : NULL;
     int mixed, ok = 1;
     law = peri__laws_of_bunch(o, i, bunch, laws, &mixed);
-    if (!mixed) {
-        if (!law) {
-            peri__follow_none(bunch);
-            return 1;
-        }
-        if (law->states > 0) peri__copy_states(o, law, NULL, history, bunch, 0);
-        if (!peri__follow_law(o, law, i, bunch)) return 0;
-        if (law->states > 0 && o->keeping && bunch->asked & PERI__ASK_HISTORY) peri__copy_states(o, law, NULL, history, bunch, 1);
-        return 1;
-    }
-    peri__bunch sum = *bunch;
-    peri__follow_none(&sum);
-    for (int32_t q = 0; q < bunch->count && ok; ++q) { /* law after law, all bonds of the bunch by each */
+    if (law && !mixed) return peri__follow_kept(o, law, i, NULL, history, bunch);
+    peri__follow_none(bunch);
+    for (int32_t q = 0; mixed && q < bunch->count && ok; ++q) { /* law after law */
         int seen = laws[q] == NULL;
         for (int32_t k = 0; k < q; ++k) seen |= laws[k] == laws[q];
-        if (seen) continue;
-        if (laws[q]->states > 0) peri__copy_states(o, laws[q], laws, history, bunch, 0);
-        ok = peri__follow_law(o, laws[q], i, bunch);
-        if (laws[q]->states > 0 && ok && o->keeping && bunch->asked & PERI__ASK_HISTORY)
-            peri__copy_states(o, laws[q], laws, history, bunch, 1);
-        for (int32_t k = 0; k < bunch->count; ++k) {
-            if (laws[k] != laws[q]) continue;
-            sum.force[k] = bunch->force[k];
-            sum.tangent[k] = bunch->tangent[k];
-            sum.energy[k] = bunch->energy[k];
-            sum.lost[k] = bunch->lost[k];
-            sum.broken[k] = bunch->broken[k];
-        }
+        if (!seen) ok = peri__follow_apart(o, laws[q], laws, i, history, bunch);
     }
-    *bunch = sum;
     return ok;
 }
 

@@ -433,6 +433,15 @@ static int32_t peri__pair_constants(peri_body *b, int32_t i, int32_t j, double s
     return PERI_OK;
 }
 
+/* The law of the bonds between two materials, or NULL. */
+static peri__bond_law *peri__declared_law(const peri_body *b, int32_t i, int32_t j) {
+    for (int64_t k = 0; k < b->bond_law_count; ++k) {
+        peri__bond_law *law = &b->bond_laws[k];
+        if ((law->i == i && law->j == j) || (law->i == j && law->j == i)) return law;
+    }
+    return NULL;
+}
+
 PERI_API int32_t peri_get_bond_constants(peri_body *b, int32_t first, int32_t second, double *c, double *s0) {
     int32_t at[2] = { 0, 0 };
     PERI_NEED_BODY(b);
@@ -444,6 +453,10 @@ PERI_API int32_t peri_get_bond_constants(peri_body *b, int32_t first, int32_t se
     int solid = b->desc.space == PERI_SPACE_SOLID;
     double edge = 0.0, length = b->desc.horizon, stress = peri__young(&b->materials[i], b->desc.space);
     peri__pair pair, own[PERI_MATERIAL_LIMIT];
+    const peri__bond_law *law = peri__declared_law(b, i, j);
+    if (s0 && law && !law->fn) { /* tables are fitted to the families */
+        PERI_NEED_BUILT(b);
+    }
     if (b->desc.influence == PERI_INFLUENCE_POLE_EDGE) {
         PERI_NEED_BUILT(b);
         edge = 0.5 * b->model->spacing / b->model->horizon;
@@ -460,6 +473,7 @@ PERI_API int32_t peri_get_bond_constants(peri_body *b, int32_t first, int32_t se
     if (c) *c = micromodulus;
     const double stretch = peri__least_critical(&pair);
     if (s0) *s0 = stretch < PERI_NEVER ? stretch : HUGE_VAL;
+    if (s0 && law && !law->fn) *s0 = law->last;
     return PERI_OK;
 }
 

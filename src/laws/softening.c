@@ -252,10 +252,8 @@ static int32_t peri__fit_bond_laws(peri_body *b) {
 
 /* The law between two materials: the one that is there, or a new one; NULL where memory or numbers are short. */
 static peri__bond_law *peri__bond_law_between(peri_body *b, int32_t i, int32_t j, int create) {
-    for (int64_t k = 0; k < b->bond_law_count; ++k) {
-        peri__bond_law *law = &b->bond_laws[k];
-        if ((law->i == i && law->j == j) || (law->i == j && law->j == i)) return law;
-    }
+    peri__bond_law *law = peri__declared_law(b, i, j);
+    if (law) return law;
     if (!create || b->bond_law_count == PERI_BOND_LAWS
         || !peri__grow(&b->memory, &b->bond_laws, &b->bond_law_capacity, b->bond_law_count + 1, sizeof *b->bond_laws))
         return NULL;

@@ -379,6 +379,21 @@ static int32_t peri__load_head(peri__loader *l) {
     return PERI_OK;
 }
 
+/* What is named where a section is another than the one expected: an array that only one of both has, "" where none is to blame. */
+static const char *peri__odd_array(const peri_body *b, uint64_t found, uint64_t expected) {
+    const char *missing = "", *more = "";
+    peri__array arrays[PERI_ARRAYS];
+    peri__list_arrays(b, arrays);
+    for (int k = 0; k < PERI_ARRAYS && found != expected; ++k) {
+        const peri__role role = arrays[k].role;
+        const uint64_t name = peri__section_name(arrays[k].name);
+        if (role != PERI__FOLLOWS && role != PERI__HISTORY && role != PERI__FIELD) continue;
+        if (name == expected) missing = arrays[k].name;
+        if (name == found && !peri__array_of(b, &arrays[k])) more = arrays[k].name;
+    }
+    return *more ? more : missing;
+}
+
 /* The sections that the body expects, in order; flags of bonds may be missing. */
 static int32_t peri__load_sections(peri__loader *l, peri__section *list, int64_t count) {
     int64_t room = 0;
@@ -390,7 +405,8 @@ static int32_t peri__load_sections(peri__loader *l, peri__section *list, int64_t
         while (k < count && list[k].array >= 0 && head[0] != list[k].name) k++;
         const uint64_t name = k < count ? list[k].name : peri__section_name("end"), number = k < count ? list[k].number : l->sum;
         const int64_t bytes = k < count ? list[k].bytes : 0, whole = peri__whole_words(bytes);
-        if (head[0] != name || head[1] != number || head[2] != (uint64_t)bytes) return peri__load_fail(l, begin, "");
+        if (head[0] != name || head[1] != number || head[2] != (uint64_t)bytes)
+            return peri__load_fail(l, begin, peri__odd_array(l->body, head[0], name));
         status = whole > 0 ? peri__load_bytes(l, l->bytes + room, whole) : PERI_OK;
         if (status < 0) return status;
         if (head[3] != peri__section_sum(head, l->bytes + room, whole)) return peri__load_fail(l, begin, "");

@@ -169,7 +169,7 @@ static void peri__read_fragment(peri_body *b, double *out) {
 
 static void peri__read_density(peri_body *b, double *out) {
     for (int64_t i = 0; i < b->model->points; ++i)
-        out[i] = b->density ? b->density[i] * b->model->density : b->materials[b->model->material[i]].density;
+        out[i] = peri__density_told(b, i);
 }
 
 static void peri__read_point_mass(peri_body *b, double *out) {
@@ -223,18 +223,19 @@ static int peri__stored_view(const peri_body *b, int32_t field, peri_view *view)
     return 1;
 }
 
-/* A field in the user's units and order; out is [peri_size_of_field]. */
-static void peri__compute(peri_body *b, int32_t field, double *out) {
+/* A field in the user's units and order; out is [peri_size_of_field]. Fails where a law of bonds or a stress of the caller does. */
+static int32_t peri__compute(peri_body *b, int32_t field, double *out) {
     const int64_t count = peri_size_of_field(b, field);
     const double unit = peri__unit_of(b->model, field);
     peri_view view;
     if (peri__stored_view(b, field, &view)) {
         for (int64_t i = 0; i < view.count; ++i)
             for (int32_t d = 0; d < view.components; ++d) out[i * view.components + d] = peri__view_at(&view, i, d);
-        return;
+        return PERI_OK;
     }
     peri__fields[field - peri__first_field].read(b, out);
     for (int64_t k = 0; unit != 1.0 && k < count; ++k) out[k] *= unit;
+    return peri__heed_laws(b);
 }
 
 PERI_API int32_t peri_get_field(peri_body *b, int32_t field, double *out, int64_t capacity) {
@@ -245,8 +246,7 @@ PERI_API int32_t peri_get_field(peri_body *b, int32_t field, double *out, int64_
     if (capacity < need) return peri__fail(b, PERI_ERROR_CAPACITY, "capacity", -1, (double)need);
     const int32_t status = peri__fields[field - peri__first_field].ensure(b);
     if (status < 0) return status;
-    peri__compute(b, field, out);
-    return PERI_OK;
+    return peri__compute(b, field, out);
 }
 
 PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
@@ -254,7 +254,7 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
     PERI_NEED_CHOICE(b, field, field);
     PERI_NEED(b, view, "view");
     const int known = b->fragment_of != NULL;
-    const int32_t status = peri__fields[field - peri__first_field].ensure(b);
+    int32_t status = peri__fields[field - peri__first_field].ensure(b);
     if (status < 0) return status;
     memset(view, 0, sizeof *view);
     if (peri__stored_view(b, field, view)) return PERI_OK;
@@ -266,7 +266,11 @@ PERI_API int32_t peri_view_field(peri_body *b, int32_t field, peri_view *view) {
         return peri__fail(b, PERI_ERROR_MEMORY, "field", field, 0.0);
     }
     derived->components = components;
-    peri__compute(b, field, derived->data);
+    status = peri__compute(b, field, derived->data);
+    if (status < 0) {
+        memset(view, 0, sizeof *view);
+        return status;
+    }
     view->data = derived->data;
     view->count = b->model->points;
     view->components = components;

@@ -72,7 +72,8 @@ typedef struct peri__element { /* the stiffness of the energy of one point: of i
     double  *spring; /* [count][dim][dim]; of the point itself their sum                                                 */
 } peri__element;
 
-/* Fills the element of point o; returns what multiplies pull x pull of theta. tensor[a][d][c][e]: V dP_ad/dH_ce less the stabilisation. */
+/* Fills the element of point o; returns what multiplies pull x pull of theta, NaN where a law of bonds failed. tensor[a][d][c][e]: V
+   dP_ad/dH_ce less the stabilisation. */
 static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e, double tensor[3][3][3][3], int *tensors) {
     const peri__model *m = b->model;
     const int dim = m->dim, linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
@@ -84,6 +85,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     peri__row row;
     peri__read_row(b, o, &row);
     bunch.point = -1;
+    bunch.failed = 0;
     e->count = 0;
     e->self = -1;
     *tensors = 0;
@@ -124,6 +126,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
         for (int a = 0; a < dim * dim; ++a) springs[a] += spring[a];
         e->id[e->count++] = row.ids[k];
     }
+    if (bunch.failed) return (double)NAN;
     if (e->self < 0) e->self = e->count++;
     e->id[e->self] = (int32_t)o;
     memcpy(&e->pull[e->self * dim], self, (size_t)dim * sizeof *self);
@@ -217,7 +220,8 @@ static int32_t peri__assemble(peri_body *b, const peri__memory *memory, peri_mat
         double tensor[3][3][3][3];
         int tensors;
         double theta = peri__fill_element(b, o, &e, tensor, &tensors);
-        peri__add_element(a, b, o, &e, theta, tensor, tensors);
+        if (peri__is_nan(theta)) status = peri__fail(b, PERI_ERROR_CALLBACK, "peri_bond_law_fn", o, 0.0);
+        else peri__add_element(a, b, o, &e, theta, tensor, tensors);
     }
     peri__delete(&b->memory, mark, m->points, sizeof *mark);
     peri__delete(&b->memory, list, m->points, sizeof *list);

@@ -424,7 +424,7 @@ static int32_t peri__invert_blocks(peri__solver *s) {
                 return peri__set_error(&s->failure, PERI_ERROR_INDEFINITE, "peri_solve", i, 0.0);
         }
         if (spanned < frees && peri__directions(b, i, s->constrained[i]) == frees) { /* soft beside stiff */
-            peri__diagonal_block(b, i, block);
+            (void)peri__diagonal_block(b, i, block);
             (void)peri__free_block(m->dim, s->constrained[i], block);
             (void)peri__invert(m->dim, block, DBL_EPSILON, inverse);
             memset(last, 0, sizeof last);

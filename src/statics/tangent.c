@@ -65,8 +65,9 @@ static void peri__add_dyad(int32_t dim, double scale, const double *v, double ro
 }
 
 /* The diagonal block of point i, force per displacement, packed: of the bonds as they stand, without what their tension adds, so that it
-   is never negative; correspondence as at rest. For a body at rest, or of linear geometry, exactly that of the tangent. */
-static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
+   is never negative; correspondence as at rest. For a body at rest, or of linear geometry, exactly that of the tangent. Returns 0 where a
+   law of bonds failed. */
+static int peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     const peri__model *m = b->model;
     const int32_t dim = m->dim;
     peri__law room, other;
@@ -77,6 +78,7 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     peri__row row;
     peri__read_row(b, i, &row);
     bunch.point = -1;
+    bunch.failed = 0;
     for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
     for (int64_t k = 0; k < row.count; ++k) {
         const int64_t j = row.ids[k];
@@ -128,6 +130,7 @@ static void peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
                        m->volume[i] * (mu * peri__dot(h, h, dim)
                                       + peri__get_constant(b, i, PERI__STABILIZATION) * (whole - square)), block);
     }
+    return !bunch.failed;
 }
 
 typedef struct peri__diagonal {
@@ -140,7 +143,7 @@ static void peri__diagonal_rows(void *context, int64_t begin, int64_t end, peri_
     const peri__model *m = t->body->model;
     for (int64_t i = begin; i < end; ++i) {
         double block[6];
-        peri__diagonal_block(t->body, i, block);
+        if (!peri__diagonal_block(t->body, i, block) && sums->bad < 0) sums->bad = i;
         for (int k = 0; k < PERI_PACKED(m->dim); ++k) peri__put_real(t->blocks, t->body->f32, k * m->stride + i, block[k]);
         for (int d = 0; d < m->dim; ++d) sums->a += block[d] / m->dim;
     }
@@ -152,6 +155,7 @@ static double peri__fill_diagonal(peri_body *b, void *blocks) {
     t.body = b;
     t.blocks = blocks;
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__diagonal_rows, &t, b->sums);
+    peri__note_laws(b);
     return peri__total(b->sums, b->model->points).a / (double)b->model->points;
 }
 

@@ -1168,8 +1168,8 @@ unsafe extern "C" {
     /// Bonds between bond-based materials i and j follow fn, each with \`states\` (0..8) numbers of its own, 0 at first; before
     /// peri\_build. Their critical stretch holds, too. docs/laws.md
     pub fn peri_set_bond_law(body: *mut peri_body, i: i32, j: i32, states: i32, r#fn: peri_bond_law_fn, user: *mut c_void) -> i32;
-    /// Micromodulus c \[M L^-5 T^-2\] (bond-based only, else NULL) and critical stretch s0 \[-\] (HUGE\_VAL: never) of bonds between
-    /// materials i and j. Either may be NULL. (\[P\] C.15-C.20, \[T\] 1.24, 1.40)
+    /// Micromodulus c \[M L^-5 T^-2\] (bond-based only, else NULL) and critical stretch s0 \[-\] (HUGE\_VAL: never; softening: where
+    /// they break, after peri\_build) of bonds between materials i and j. Either may be NULL. (\[P\] C.15-C.20, \[T\] 1.24, 1.40)
     pub fn peri_get_bond_constants(body: *mut peri_body, i: i32, j: i32, c: *mut f64, s0: *mut f64) -> i32;
     /// Critical bond energy w0 \[M L^-4 T^-2\] of a material whose criterion is an energy; HUGE\_VAL: none.
     /// PERI\_CRITERION\_NODE\_ENERGY: after peri\_build.

@@ -1706,8 +1706,8 @@ impl Body {
         self.check(i64::from(result))?;
         Ok(result)
     }
-    /// Micromodulus c \[M L^-5 T^-2\] (bond-based only, else NULL) and critical stretch s0 \[-\] (HUGE\_VAL: never) of bonds between
-    /// materials i and j. Either may be NULL. (\[P\] C.15-C.20, \[T\] 1.24, 1.40)
+    /// Micromodulus c \[M L^-5 T^-2\] (bond-based only, else NULL) and critical stretch s0 \[-\] (HUGE\_VAL: never; softening: where
+    /// they break, after peri\_build) of bonds between materials i and j. Either may be NULL. (\[P\] C.15-C.20, \[T\] 1.24, 1.40)
     pub fn get_bond_constants(&self, i: i32, j: i32, c: Option<&mut f64>, s0: Option<&mut f64>) -> Result<i32> {
         let result = unsafe { sys::peri_get_bond_constants(self.handle, i, j, c.map_or(std::ptr::null_mut(), |a| a as *mut _), s0.map_or(std::ptr::null_mut(), |a| a as *mut _)) };
         self.check(i64::from(result))?;
