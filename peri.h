@@ -113,7 +113,8 @@ typedef enum peri_status { /* peri_status_text says the same */
     PERI_ERROR_CONVERGENCE = -35, /* no equilibrium within the iterations; value: residual */
     PERI_ERROR_WRITE = -36,       /* the file or the write callback failed */
     PERI_ERROR_LEFT_OUT = -37,    /* left out of this build, by the switch that the field names */
-    PERI_ERROR_STATE = -38        /* no saved state of such a body, or damaged; value: the byte */
+    PERI_ERROR_STATE = -38,       /* no saved state of such a body, or damaged; value: the byte */
+    PERI_ERROR_PART = -39         /* not of a part of a body; or its ghosts are not as owned */
 } peri_status;
 
 typedef struct peri_error {
@@ -512,6 +513,52 @@ PERI_API int64_t peri_add_points(peri_body *body, int64_t count, const double *p
    Membership must be mutual. Weights are computed as for found families, of whose horizon they must
    be. */
 PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t *ibond);
+
+/* ---- a part of a body: one of several processes, or a periodic cell (docs/scale.md) */
+
+/* plane[k][i], of type PERI_TYPE_F64 or _F32, is of point i: send those of your points to where
+   they are ghosts, and write those of ghosts. Once per step; `planes` is alike on all parts. */
+typedef int32_t (*peri_exchange_fn)(void *user, int32_t type, int32_t planes, void *const *plane);
+
+typedef enum peri_reduction { /* over all parts */
+    PERI_REDUCTION_SUM = 3901,
+    PERI_REDUCTION_MAX = 3902
+} peri_reduction;
+
+/* values[count] become their sums or maxima. Once per step, and in most calls. */
+typedef int32_t (*peri_reduce_fn)(void *user, int32_t reduction, int64_t count, double *values);
+
+/* Ghosts: copies of points that other parts own, peri_ghost_depth horizons deep. They bear no load
+   and are in no set, sum or count. Give them all else that their owners have: cuts, motion. */
+typedef struct peri_part_desc {
+    uint64_t cookie;           /* set by init */
+    double origin[3];          /* [L] this, and the next two: any, alike on all parts. Required */
+    double length;             /* [L] > 0: the spacing */
+    double mean_volume;        /* [L^3] > 0, planes [L^2], of a point */
+    int64_t ghost_count;       /* Default 0 */
+    const int32_t *ghosts;     /* [ghost_count] points, ascending */
+    const int32_t *owners;     /* [ghost_count] the point that it is an image of in a periodic body,
+                                  or -1. Default NULL: none is */
+    const int64_t *ids;        /* [points] in the whole body, ascending. Default NULL: 0, 1, ... */
+    peri_exchange_fn exchange; /* where another part owns ghosts. Default NULL */
+    peri_reduce_fn reduce;     /* of several parts. Default NULL */
+    void *user;
+} peri_part_desc;
+
+PERI_API void peri_part_desc_init(peri_part_desc *desc);
+
+/* After the points, before peri_build. All parts make the same calls. */
+PERI_API int32_t peri_set_part(peri_body *body, const peri_part_desc *desc);
+
+/* 1 or 2, before peri_build; the deepest that its materials need. */
+PERI_API int32_t peri_ghost_depth(const peri_body *body);
+
+/* H[dim*dim] [-] by rows: images have their owner's displacement + H (distance). Default 0 */
+PERI_API int32_t peri_set_mean_gradient(peri_body *body, const double *gradient);
+
+/* Of the cells of peri_add_box those from first[dim] to before last[dim]. */
+PERI_API int64_t peri_add_box_part(peri_body *body, int32_t material, const double *lo,
+    const double *hi, double spacing, const int32_t *first, const int32_t *last);
 
 /* Finds the families, computes weights and constants, takes the state. Warns of rows of points, and
    of sheets of them in 3D: no constants are for these. After a failure the body is as it was: add

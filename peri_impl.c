@@ -105,6 +105,7 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 /* ---- body: what there is, and what may be done to it ----------------------------------- */
 #include "src/body/arrays.c"       /* what a body keeps                                                            */
 #include "src/body/flow.c"         /* inelastic extensions of bonds -> force, energy, tangent                         */
+#include "src/body/part.c"         /* parts of larger bodies, periodic cells: what they ask each other              */
 #include "src/body/body.c"         /* create, build, destroy                                                       */
 #include "src/body/clone.c"        /* copies; counts                                                               */
 #include "src/body/sets.c"         /* selections of points                                                         */

@@ -114,4 +114,69 @@ static void with_evaluations(void) {
     peri_body_destroy(d), peri_body_destroy(b);
 }
 
+/* A body that is a part: what it has not; before it is one, wrong descriptors; a part whose other runs otherwise. */
+static int32_t run_otherwise(void *user, int32_t reduction, int64_t count, double *values) {
+    return (void)user, (void)reduction, values[1] += count > 1, 0;
+}
+static void refuse_parts(peri_body *b) {
+    peri_matrix *matrix = NULL;
+    peri_cracks *cracks = NULL;
+    peri_cracks_desc cracked;
+    peri_obstacle_desc ball;
+    peri_solve_desc equilibrium;
+    peri_solve_report report;
+    peri_fragment piece;
+    peri_advance_desc run;
+    int64_t count[2];
+    const double half = 0.5, gradient[4] = {0, 0, 0, 1e9};
+    peri_cracks_desc_init(&cracked), peri_solve_desc_init(&equilibrium), peri_evaluate_desc_init(&forces);
+    ASK(peri_set_strength_pairs(b, 1, two, &half)), ASK(peri_set_strength_if(b, 0.5, cut_none, NULL));
+    ASK(peri_find_fragments(b, ints, 512)), ASK(peri_get_fragments(b, &piece, 1));
+    ASK(peri_size_of_outline(b, -1, count, count + 1)), ASK(peri_get_outline(b, -1, numbers, 4, ints, NULL, NULL, 4));
+    ASK(peri_apply_traction(b, PERI_ALL, 1, one3, one3, NULL, NULL)), ASK(peri_apply_pressure(b, PERI_ALL, 1, NULL, NULL));
+    ASK(peri_apply_bond_pressure_for_comparison(b, PERI_ALL, 1, NULL, NULL)), ASK(peri_set_contact(b, PERI_ALL, PERI_ALL, NULL));
+    ASK(peri_evaluate(b, &forces, NULL)), ASK(peri_solve(b, &equilibrium, &report)), ASK(peri_matrix_create(b, &matrix));
+    ASK(peri_multiply_stiffness(b, numbers, numbers, 240)), ASK(peri_multiply_stiffness_at(b, numbers, numbers, numbers, 240));
+    ASK(peri_set_field(b, PERI_FIELD_DENSITY, numbers, 120)), ASK(peri_cracks_create(b, &cracked, &cracks));
+    ASK(peri_save_state_to(b, take_bytes, NULL)), ASK(peri_load_state_from(b, no_bytes, NULL)), ASK(peri_get_fragments(b, NULL, 0));
+    ASK(peri_save_state(b, "build/x")), ASK(peri_load_state(b, "build/x"));
+    ASK(peri_get_field(b, PERI_FIELD_FRAGMENT, numbers, 120)), ASK(peri_view_field(b, PERI_FIELD_FRAGMENT, &view));
+    peri_obstacle_desc_init(&ball, PERI_SHAPE_BALL), ball.radius = ball.mass = 1, ASK(peri_add_obstacle(b, &ball));
+    peri_advance_desc_init(&run), run.steps = 1, ASK(peri_advance_implicit(b, &run, NULL, 0.8, NULL));
+    ASK(peri_set_mean_gradient(b, NULL)), ASK(peri_set_mean_gradient(b, gradient));
+}
+static void with_parts(void) {
+    specimen s = plate_of(PERI_LAW_LPS);
+    peri_part_desc p;
+    peri_advance_desc r;
+    const int32_t none[2] = {0, 0}, ghosts[2] = {3, 2};
+    const double wide[2] = {1, 1e300};
+    peri_body *d = specimen_start(&s), *b = specimen_make(&s);
+    peri_part_desc_init(&p), p.length = p.mean_volume = 1;
+    ASK(peri_set_part(NULL, &p)), ASK(peri_set_part(b, &p)), ASK(peri_set_part(d, &p)), ASK(peri_ghost_depth(NULL));
+    ASK(peri_set_mean_gradient(NULL, one3)), ASK(peri_set_mean_gradient(d, one3)), ASK(peri_set_mean_gradient(b, one3));
+    const int32_t material = peri_id(d, PERI_KIND_MATERIAL, 1), there[2] = {1, 1};
+    ASK(peri_add_box_part(NULL, material, zero3, far3, 1, none, there)), ASK(peri_add_box_part(b, material, zero3, far3, 1, none, there));
+    ASK(peri_add_box_part(d, 0, zero3, far3, 1, none, there)), ASK(peri_add_box_part(d, material, zero3, far3, 1, NULL, there));
+    ASK(peri_add_box_part(d, peri_id(b, PERI_KIND_MATERIAL, 1), zero3, far3, 1, none, there));
+    ASK(peri_add_box_part(d, material + 7, zero3, far3, 1, none, there));
+    ASK(peri_add_box_part(d, PERI_ALL, zero3, far3, 1, none, there));
+    ASK(peri_add_box_part(d, material, zero3, far3, 1, none, none)), ASK(peri_add_box_part(d, material, zero3, wide, 1, none, there));
+    ASK(peri_add_box_part(d, material, zero3, far3, 1e-9, none, there));
+    fail_in = 0, ASK(peri_add_box_part(d, material, zero3, far3, 1, none, there)), fail_in = -1;
+    peri_body_destroy(b);
+    MUST(d, peri_add_box(d, material, s.lo, s.hi, s.spacing));
+    p.cookie++, ASK(peri_set_part(d, &p)), p.cookie--, ASK(peri_set_part(d, NULL));
+    p.length = 0, ASK(peri_set_part(d, &p)), p.length = 1, p.ghost_count = 2, p.ghosts = ghosts, ASK(peri_set_part(d, &p));
+    p.ghost_count = 0, fail_in = 0, ASK(peri_set_part(d, &p)), fail_in = -1;
+    p.reduce = run_otherwise, MUST(d, peri_set_part(d, &p));
+    MUST(d, peri_set_families(d, 1, ints)), ASK(peri_build(d)), peri_body_destroy(d);
+    d = specimen_start(&s);
+    MUST(d, peri_add_box(d, peri_id(d, PERI_KIND_MATERIAL, 1), s.lo, s.hi, s.spacing));
+    MUST(d, peri_set_part(d, &p)), MUST(d, peri_build(d));
+    peri_advance_desc_init(&r), r.steps = 1, ASK(peri_advance(d, &r));
+    refuse_parts(d);
+    peri_body_destroy(d);
+}
+
 #endif

@@ -125,6 +125,7 @@ static inline void wrong_runs_and_reads(peri_body *b, int32_t mat) {
     REFUSE(b, PERI_ERROR_CHOICE, peri_view_field(b, peri__end_field, &view));
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_view_field(b, PERI_FIELD_DAMAGE, NULL));
     u = get(b, PERI_FIELD_VELOCITY);
+    REFUSE(b, PERI_ERROR_PART, peri_set_mean_gradient(b, u)); /* of a body that is no part */
     REFUSE(b, PERI_ERROR_FIELD, peri_set_field(b, PERI_FIELD_POSITION, u, n));
     REFUSE(b, PERI_ERROR_FIELD, peri_set_field(b, PERI_FIELD_DAMAGE, u, n));
     REFUSE(b, PERI_ERROR_ARGUMENT, peri_set_field(b, PERI_FIELD_VELOCITY, NULL, n));

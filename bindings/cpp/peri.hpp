@@ -185,6 +185,11 @@ typedef std::function<int32_t(const peri_bond_row &)> bond_law_fn;
 typedef std::function<int32_t(span<const unsigned char>)> write_fn;
 /* Writes the next `count` bytes to `bytes`; all but 0 is a failure, as where fewer are left. (bytes, count) */
 typedef std::function<int32_t(span<unsigned char>)> read_fn;
+/* plane[k][i], of type PERI_TYPE_F64 or _F32, is of point i: send those of your points to where they are ghosts,
+   and write those of ghosts. Once per step; `planes` is alike on all parts. (type, planes, plane) */
+typedef std::function<int32_t(int32_t, int32_t, span<const unsigned char>)> exchange_fn;
+/* values[count] become their sums or maxima. Once per step, and in most calls. (reduction, count, values) */
+typedef std::function<int32_t(int32_t, span<double>)> reduce_fn;
 /* Every frame_steps steps and at the end of a run; at each equilibrium of peri_solve. > 0 stops. It may also
    cut, select, set no-fail zones and contact, add or remove loads and obstacles. (body) */
 typedef std::function<int32_t(body &)> frame_fn;
@@ -329,6 +334,42 @@ struct material_desc_stress_user {
 struct softening_desc : peri_softening_desc {
     explicit softening_desc(int32_t shape_) : peri_softening_desc() { peri_softening_desc_init(this, shape_); }
 };
+
+/* peri_part_desc, filled with the defaults. Ghosts: copies of points that other parts own, peri_ghost_depth
+   horizons deep. They bear no load and are in no set, sum or count. Give them all else that their owners have:
+   cuts, motion. */
+struct part_desc : peri_part_desc {
+    part_desc() : peri_part_desc() { peri_part_desc_init(this); }
+    part_desc(const peri_part_desc &plain_) : peri_part_desc(plain_) {}
+    /* where another part owns ghosts. Default NULL plane[k][i], of type PERI_TYPE_F64 or _F32, is of point i:
+       send those of your points to where they are ghosts, and write those of ghosts. Once per step; `planes` is
+       alike on all parts. (type, planes, plane) */
+    std::function<int32_t(int32_t, int32_t, span<const unsigned char>)> exchange;
+    /* of several parts. Default NULL values[count] become their sums or maxima. Once per step, and in most
+       calls. (reduction, count, values) */
+    std::function<int32_t(int32_t, span<double>)> reduce;
+};
+
+namespace detail {
+struct part_desc_user {
+    int dim;
+    std::function<int32_t(int32_t, int32_t, span<const unsigned char>)> exchange;
+    static int32_t exchange_c(void *user_, int32_t type_, int32_t planes_, const void **plane_) {
+        part_desc_user &self = *static_cast<part_desc_user *>(user_);
+        return guarded([&]() -> int32_t { return self.exchange(type_, planes_, span<const unsigned char>(static_cast<const unsigned char *>(plane_), std::size_t(count_))); });
+    }
+    std::function<int32_t(int32_t, span<double>)> reduce;
+    static int32_t reduce_c(void *user_, int32_t reduction_, int64_t count_, double *values_) {
+        part_desc_user &self = *static_cast<part_desc_user *>(user_);
+        return guarded([&]() -> int32_t { return self.reduce(reduction_, span<double>(values_, std::size_t(count_))); });
+    }
+    static void fill(peri_part_desc &to, part_desc_user *self) {
+        to.user = self;
+        if (self->exchange) to.exchange = exchange_c;
+        if (self->reduce) to.reduce = reduce_c;
+    }
+};
+} /* namespace detail */
 typedef peri_fragment fragment;
 
 /* peri_obstacle_desc, filled with the defaults. Pushes points within it out along the normal by stiffness*depth
@@ -725,6 +766,43 @@ public:
     int32_t set_families(int32_t width_, span<const int32_t> ibond_) {
         detail::sized(ibond_.size(), point_count()*int64_t(width_), "ibond");
         const int32_t result_ = peri_set_families(handle_, width_, ibond_.data());
+        check(result_);
+        return result_;
+    }
+
+    /* ---- a part of a body: one of several processes ---- */
+    /* After the points, before peri_build. All parts make the same calls. */
+    int32_t set_part(const part_desc &desc_) {
+        peri_part_desc desc_raw = desc_;
+        if (desc_.exchange || desc_.reduce) {
+            std::shared_ptr<detail::part_desc_user> user_context_(new detail::part_desc_user{dimension(), desc_.exchange, desc_.reduce});
+            detail::part_desc_user::fill(desc_raw, user_context_.get());
+            keep_->keep(user_context_);
+        }
+        const int32_t result_ = peri_set_part(handle_, &desc_raw);
+        check(result_);
+        return result_;
+    }
+    /* 1 or 2, before peri_build; the deepest that its materials need. */
+    int32_t ghost_depth() const {
+        const int32_t result_ = peri_ghost_depth(handle_);
+        check(result_);
+        return result_;
+    }
+    /* H[dim*dim] [-] by rows: images have their owner's displacement + H (distance). Default 0 */
+    int32_t set_mean_gradient(span<const double> gradient_) {
+        detail::sized(gradient_.size(), dimension(), "gradient");
+        const int32_t result_ = peri_set_mean_gradient(handle_, gradient_.data());
+        check(result_);
+        return result_;
+    }
+    /* Of the cells of peri_add_box those from first[dim] to before last[dim]. */
+    int64_t add_box_part(int32_t material_, span<const double> lo_, span<const double> hi_, double spacing_, span<const int32_t> first_, span<const int32_t> last_) {
+        detail::sized(lo_.size(), dimension(), "lo");
+        detail::sized(hi_.size(), dimension(), "hi");
+        detail::sized(first_.size(), dimension(), "first");
+        detail::sized(last_.size(), dimension(), "last");
+        const int64_t result_ = peri_add_box_part(handle_, material_, lo_.data(), hi_.data(), spacing_, first_.data(), last_.data());
         check(result_);
         return result_;
     }

@@ -95,6 +95,8 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_ERROR_LEFT_OUT = -37
     ! no saved state of such a body, or damaged; value: the byte
     integer(c_int32_t), parameter :: PERI_ERROR_STATE = -38
+    ! not of a part of a body; or its ghosts are not as owned
+    integer(c_int32_t), parameter :: PERI_ERROR_PART = -39
 
     integer(c_int32_t), parameter :: PERI_KIND_MATERIAL = 2201
     integer(c_int32_t), parameter :: PERI_KIND_SET = 2202
@@ -239,6 +241,9 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_UNLOADING_SECANT = 3001
     ! as stiff as new: a stretch stays
     integer(c_int32_t), parameter :: PERI_UNLOADING_ELASTIC = 3002
+
+    integer(c_int32_t), parameter :: PERI_REDUCTION_SUM = 3901
+    integer(c_int32_t), parameter :: PERI_REDUCTION_MAX = 3902
 
     ! an initial crack: stays at peri_reset. Only before the first step
     integer(c_int32_t), parameter :: PERI_CUT_INITIAL = 2101
@@ -576,6 +581,32 @@ module peri_c
         integer(c_int64_t) :: count = 0
         ! [count*2] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
         type(c_ptr) :: table = c_null_ptr
+    end type
+
+    ! Ghosts: copies of points that other parts own, peri_ghost_depth horizons deep. They bear no load and are in no set, sum
+    ! or count. Give them all else that their owners have: cuts, motion.
+    type, bind(c) :: peri_part_desc
+        ! set by init
+        integer(c_int64_t) :: cookie = 0
+        ! [L] this, and the next two: any, alike on all parts. Required
+        real(c_double) :: origin(3) = 0
+        ! [L] > 0: the spacing
+        real(c_double) :: length = 0
+        ! [L^3] > 0, planes [L^2], of a point
+        real(c_double) :: mean_volume = 0
+        ! Default 0
+        integer(c_int64_t) :: ghost_count = 0
+        ! [ghost_count] points, ascending
+        type(c_ptr) :: ghosts = c_null_ptr
+        ! [ghost_count] the point that it is an image of in a periodic body, or -1. Default NULL: none is
+        type(c_ptr) :: owners = c_null_ptr
+        ! [points] in the whole body, ascending. Default NULL: 0, 1, ...
+        type(c_ptr) :: ids = c_null_ptr
+        ! c_funloc of a peri_exchange_fn. where another part owns ghosts. Default NULL
+        type(c_funptr) :: exchange = c_null_funptr
+        ! c_funloc of a peri_reduce_fn. of several parts. Default NULL
+        type(c_funptr) :: reduce = c_null_funptr
+        type(c_ptr) :: user = c_null_ptr
     end type
 
     ! A rigid body of point masses; in 2D vectors end with 0.
@@ -1136,6 +1167,27 @@ module peri_c
             integer(c_int32_t) :: result_
         end function
 
+        ! plane[k][i], of type PERI_TYPE_F64 or _F32, is of point i: send those of your points to where they are ghosts, and
+        ! write those of ghosts. Once per step; `planes` is alike on all parts.
+        function peri_exchange_fn(user, type, planes, plane) bind(c) result(result_)
+            import
+            type(c_ptr), value :: user
+            integer(c_int32_t), value :: type
+            integer(c_int32_t), value :: planes
+            type(c_ptr), value :: plane
+            integer(c_int32_t) :: result_
+        end function
+
+        ! values[count] become their sums or maxima. Once per step, and in most calls.
+        function peri_reduce_fn(user, reduction, count, values) bind(c) result(result_)
+            import
+            type(c_ptr), value :: user
+            integer(c_int32_t), value :: reduction
+            integer(c_int64_t), value :: count
+            real(c_double), intent(inout) :: values(count)
+            integer(c_int32_t) :: result_
+        end function
+
         ! Every frame_steps steps and at the end of a run; at each equilibrium of peri_solve. > 0 stops. It may also cut,
         ! select, set no-fail zones and contact, add or remove loads and obstacles.
         function peri_frame_fn(user, body) bind(c) result(result_)
@@ -1335,6 +1387,38 @@ module peri_c
             integer(c_int32_t), value :: width
             type(c_ptr), value :: ibond
             integer(c_int32_t) :: c_set_families
+        end function
+        subroutine c_part_desc_init(desc) bind(c, name='peri_part_desc_init')
+            import
+            type(peri_part_desc), intent(inout) :: desc
+        end subroutine
+        function c_set_part(body, desc) bind(c, name='peri_set_part')
+            import
+            type(c_ptr), value :: body
+            type(peri_part_desc), intent(in) :: desc
+            integer(c_int32_t) :: c_set_part
+        end function
+        function c_ghost_depth(body) bind(c, name='peri_ghost_depth')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t) :: c_ghost_depth
+        end function
+        function c_set_mean_gradient(body, gradient) bind(c, name='peri_set_mean_gradient')
+            import
+            type(c_ptr), value :: body
+            type(c_ptr), value :: gradient
+            integer(c_int32_t) :: c_set_mean_gradient
+        end function
+        function c_add_box_part(body, material, lo, hi, spacing, first, last) bind(c, name='peri_add_box_part')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: material
+            type(c_ptr), value :: lo
+            type(c_ptr), value :: hi
+            real(c_double), value :: spacing
+            type(c_ptr), value :: first
+            type(c_ptr), value :: last
+            integer(c_int64_t) :: c_add_box_part
         end function
         function c_build(body) bind(c, name='peri_build')
             import
@@ -2100,6 +2184,11 @@ module peri
     private :: c_add_perturbed_box
     private :: c_add_points
     private :: c_set_families
+    private :: c_part_desc_init
+    private :: c_set_part
+    private :: c_ghost_depth
+    private :: c_set_mean_gradient
+    private :: c_add_box_part
     private :: c_build
     private :: c_dimension
     private :: c_point_count
@@ -2889,6 +2978,147 @@ contains
         end if
         if (present(stat)) stat = int(result_)
     end subroutine
+
+    subroutine peri_part_desc_init(desc)
+        type(peri_part_desc), intent(out) :: desc
+        call c_part_desc_init(desc)
+    end subroutine
+
+    ! After the points, before peri_build. All parts make the same calls.
+    subroutine peri_set_part(body, desc, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        type(peri_part_desc), intent(in) :: desc
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(peri_error) :: record
+        result_ = c_set_part(body%handle, desc)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! 1 or 2, before peri_build; the deepest that its materials need.
+    subroutine peri_ghost_depth(body, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(peri_error) :: record
+        result_ = c_ghost_depth(body%handle)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! H[dim*dim] [-] by rows: images have their owner's displacement + H (distance). Default 0
+    subroutine peri_set_mean_gradient(body, gradient, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        real(c_double), intent(in), target, contiguous :: gradient(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_ptr) :: gradient_at
+        type(peri_error) :: record
+        if (size(gradient) /= int(c_dimension(body%handle))) then
+            call refused('gradient', stat, errmsg)
+            return
+        end if
+        gradient_at = c_null_ptr
+        if (size(gradient) > 0) gradient_at = c_loc(gradient)
+        result_ = c_set_mean_gradient(body%handle, gradient_at)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! Of the cells of peri_add_box those from first[dim] to before last[dim].
+    function peri_add_box_part(body, material, lo, hi, spacing, first, last, stat, errmsg) result(result_)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: material
+        real(c_double), intent(in), target, contiguous :: lo(:)
+        real(c_double), intent(in), target, contiguous :: hi(:)
+        real(c_double), intent(in) :: spacing
+        integer(c_int32_t), intent(in), target, contiguous :: first(:)
+        integer(c_int32_t), intent(in), target, contiguous :: last(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int64_t) :: result_
+        type(c_ptr) :: lo_at
+        type(c_ptr) :: hi_at
+        type(c_ptr) :: first_at
+        type(c_ptr) :: last_at
+        type(peri_error) :: record
+        result_ = PERI_ERROR_ARGUMENT
+        if (size(lo) /= int(c_dimension(body%handle))) then
+            call refused('lo', stat, errmsg)
+            return
+        end if
+        lo_at = c_null_ptr
+        if (size(lo) > 0) lo_at = c_loc(lo)
+        if (size(hi) /= int(c_dimension(body%handle))) then
+            call refused('hi', stat, errmsg)
+            return
+        end if
+        hi_at = c_null_ptr
+        if (size(hi) > 0) hi_at = c_loc(hi)
+        if (size(first) /= int(c_dimension(body%handle))) then
+            call refused('first', stat, errmsg)
+            return
+        end if
+        first_at = c_null_ptr
+        if (size(first) > 0) first_at = c_loc(first)
+        if (size(last) /= int(c_dimension(body%handle))) then
+            call refused('last', stat, errmsg)
+            return
+        end if
+        last_at = c_null_ptr
+        if (size(last) > 0) last_at = c_loc(last)
+        result_ = c_add_box_part(body%handle, material, lo_at, hi_at, spacing, first_at, last_at)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = 0
+    end function
 
     ! Finds the families, computes weights and constants, takes the state. Warns of rows of points, and of sheets of them in
     ! 3D: no constants are for these. After a failure the body is as it was: add what is missing and build again.

@@ -55,6 +55,7 @@ const ERROR_CONVERGENCE = Int32(-35) # no equilibrium within the iterations; val
 const ERROR_WRITE = Int32(-36) # the file or the write callback failed
 const ERROR_LEFT_OUT = Int32(-37) # left out of this build, by the switch that the field names
 const ERROR_STATE = Int32(-38) # no saved state of such a body, or damaged; value: the byte
+const ERROR_PART = Int32(-39) # not of a part of a body; or its ghosts are not as owned
 const KIND_MATERIAL = Int32(2201)
 const KIND_SET = Int32(2202)
 const KIND_LOAD = Int32(2203) # supports included
@@ -122,6 +123,8 @@ const SOFTENING_EXPONENTIAL = Int32(2903) # cut off at 1/100 of the strength
 const SOFTENING_TABLE = Int32(2904) # a table of yours
 const UNLOADING_SECANT = Int32(3001) # to the origin: damage
 const UNLOADING_ELASTIC = Int32(3002) # as stiff as new: a stretch stays
+const REDUCTION_SUM = Int32(3901)
+const REDUCTION_MAX = Int32(3902)
 const CUT_INITIAL = Int32(2101) # an initial crack: stays at peri_reset. Only before the first step
 const CUT_NOW = Int32(2102) # counts as broken, whole again at peri_reset
 const CUT_IN_PLACE = Int32(2103) # as PERI_CUT_NOW, where the body is now: by current positions
@@ -304,6 +307,25 @@ mutable struct peri_softening_desc
     count::Int64 # 2..30 rows of
     table::Ptr{Float64} # [count*2] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
     peri_softening_desc() = new()
+end
+
+"""
+Ghosts: copies of points that other parts own, peri_ghost_depth horizons deep. They bear no load and are in no set, sum or count.
+Give them all else that their owners have: cuts, motion.
+"""
+mutable struct peri_part_desc
+    cookie::UInt64 # set by init
+    origin::NTuple{3,Float64} # [L] this, and the next two: any, alike on all parts. Required
+    length::Float64 # [L] > 0: the spacing
+    mean_volume::Float64 # [L^3] > 0, planes [L^2], of a point
+    ghost_count::Int64 # Default 0
+    ghosts::Ptr{Int32} # [ghost_count] points, ascending
+    owners::Ptr{Int32} # [ghost_count] the point that it is an image of in a periodic body, or -1. Default NULL: none is
+    ids::Ptr{Int64} # [points] in the whole body, ascending. Default NULL: 0, 1, ...
+    exchange::Ptr{Cvoid} # where another part owns ghosts. Default NULL
+    reduce::Ptr{Cvoid} # of several parts. Default NULL
+    user::Ptr{Cvoid}
+    peri_part_desc() = new()
 end
 
 """
@@ -720,6 +742,14 @@ function softening_desc(shape)
     return Desc(raw)
 end
 
+callbacks(::Type{peri_part_desc}) = (:exchange, :reduce, )
+"""peri_part_desc with its defaults."""
+function part_desc()
+    raw = peri_part_desc()
+    ccall((:peri_part_desc_init, LIB), Cvoid, (Ref{peri_part_desc},), raw)
+    return Desc(raw)
+end
+
 callbacks(::Type{peri_obstacle_desc}) = (:distance, :motion, )
 """peri_obstacle_desc with its defaults."""
 function obstacle_desc(shape)
@@ -853,6 +883,20 @@ function stress_fn_stress(user::Ptr{Cvoid}, block::Ptr{peri_stress_block})
     return result
 end
 pointer_of_stress_fn_stress() = @cfunction(stress_fn_stress, Int32, (Ptr{Cvoid}, Ptr{peri_stress_block},))
+
+function exchange_fn_exchange(user::Ptr{Cvoid}, type_::Int32, planes::Int32, plane::Ptr{Ptr{Cvoid}})
+    context = unsafe_pointer_to_objref(user)::Context
+    result = guarded(() -> context.calls[:exchange](type_, planes, unsafe_wrap(Array, Ptr{UInt8}(plane), count)))
+    return result
+end
+pointer_of_exchange_fn_exchange() = @cfunction(exchange_fn_exchange, Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Ptr{Cvoid}},))
+
+function reduce_fn_reduce(user::Ptr{Cvoid}, reduction::Int32, count::Int64, values::Ptr{Float64})
+    context = unsafe_pointer_to_objref(user)::Context
+    result = guarded(() -> context.calls[:reduce](reduction, unsafe_wrap(Array, values, count)))
+    return result
+end
+pointer_of_reduce_fn_reduce() = @cfunction(reduce_fn_reduce, Int32, (Ptr{Cvoid}, Int32, Int64, Ptr{Float64},))
 
 function distance_fn_distance(user::Ptr{Cvoid}, x::Ptr{Float64}, distance::Ptr{Float64}, normal::Ptr{Float64})
     context = unsafe_pointer_to_objref(user)::Context
@@ -1151,6 +1195,52 @@ are computed as for found families, of whose horizon they must be.
 function set_families(body::Body, width, ibond)
     sized(ibond, point_count(body)*width, "ibond")
     result = GC.@preserve body ccall((:peri_set_families, LIB), Int32, (Ptr{Cvoid}, Int32, Ptr{Int32}), body.handle, width, maybe(Int32, ibond))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+After the points, before peri_build. All parts make the same calls.
+"""
+function set_part(body::Body, desc::Desc{peri_part_desc})
+    context_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
+    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_user))
+    setfield!(getfield(desc, :raw), :exchange, desc.exchange === nothing ? C_NULL : pointer_of_exchange_fn_exchange())
+    setfield!(getfield(desc, :raw), :reduce, desc.reduce === nothing ? C_NULL : pointer_of_reduce_fn_reduce())
+    push!(body.keep, context_user)
+    result = GC.@preserve body desc context_user ccall((:peri_set_part, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_part_desc}), body.handle, Ptr{peri_part_desc}(pointer_from_objref(getfield(desc, :raw))))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+1 or 2, before peri_build; the deepest that its materials need.
+"""
+function ghost_depth(body::Body)
+    result = GC.@preserve body ccall((:peri_ghost_depth, LIB), Int32, (Ptr{Cvoid},), body.handle)
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+H[dim*dim] [-] by rows: images have their owner's displacement + H (distance). Default 0
+"""
+function set_mean_gradient(body::Body, gradient)
+    sized(gradient, dimension(body), "gradient")
+    result = GC.@preserve body ccall((:peri_set_mean_gradient, LIB), Int32, (Ptr{Cvoid}, Ptr{Float64}), body.handle, maybe(Float64, gradient))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Of the cells of peri_add_box those from first[dim] to before last[dim].
+"""
+function add_box_part(body::Body, material, lo, hi, spacing, first, last)
+    sized(lo, dimension(body), "lo")
+    sized(hi, dimension(body), "hi")
+    sized(first, dimension(body), "first")
+    sized(last, dimension(body), "last")
+    result = GC.@preserve body ccall((:peri_add_box_part, LIB), Int64, (Ptr{Cvoid}, Int32, Ptr{Float64}, Ptr{Float64}, Float64, Ptr{Int32}, Ptr{Int32}), body.handle, material, maybe(Float64, lo), maybe(Float64, hi), spacing, maybe(Int32, first), maybe(Int32, last))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end

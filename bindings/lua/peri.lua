@@ -18,6 +18,7 @@ typedef struct peri_bond_row peri_bond_row;
 typedef struct peri_body_desc peri_body_desc;
 typedef struct peri_material_desc peri_material_desc;
 typedef struct peri_softening_desc peri_softening_desc;
+typedef struct peri_part_desc peri_part_desc;
 typedef struct peri_fragment peri_fragment;
 typedef struct peri_obstacle_desc peri_obstacle_desc;
 typedef struct peri_obstacle_state peri_obstacle_state;
@@ -53,6 +54,8 @@ typedef int32_t (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, 
 typedef int32_t (*peri_bond_law_fn)(void *user, const peri_bond_row *row);
 typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 typedef int32_t (*peri_read_fn)(void *user, void *bytes, int64_t count);
+typedef int32_t (*peri_exchange_fn)(void *user, int32_t type, int32_t planes, const void **plane);
+typedef int32_t (*peri_reduce_fn)(void *user, int32_t reduction, int64_t count, double *values);
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
 typedef int32_t (*peri_iteration_fn)(void *user, int64_t iteration, double residual);
 struct peri_error {
@@ -150,6 +153,19 @@ struct peri_softening_desc {
     double compression;
     int64_t count;
     const double *table;
+};
+struct peri_part_desc {
+    uint64_t cookie;
+    double origin[3];
+    double length;
+    double mean_volume;
+    int64_t ghost_count;
+    const int32_t *ghosts;
+    const int32_t *owners;
+    const int64_t *ids;
+    peri_exchange_fn exchange;
+    peri_reduce_fn reduce;
+    void *user;
 };
 struct peri_fragment {
     int32_t first;
@@ -398,6 +414,11 @@ int64_t peri_add_shape(peri_body *body, int32_t material, const double *lo, cons
 int64_t peri_add_perturbed_box(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing, double amount, uint64_t seed);
 int64_t peri_add_points(peri_body *body, int64_t count, const double *positions, const double *volumes, const int32_t *materials);
 int32_t peri_set_families(peri_body *body, int32_t width, const int32_t *ibond);
+void peri_part_desc_init(peri_part_desc *desc);
+int32_t peri_set_part(peri_body *body, const peri_part_desc *desc);
+int32_t peri_ghost_depth(const peri_body *body);
+int32_t peri_set_mean_gradient(peri_body *body, const double *gradient);
+int64_t peri_add_box_part(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing, const int32_t *first, const int32_t *last);
 int32_t peri_build(peri_body *body);
 int32_t peri_dimension(const peri_body *body);
 int64_t peri_point_count(const peri_body *body);
@@ -553,6 +574,7 @@ local peri = {
     ERROR_WRITE = -36, -- the file or the write callback failed
     ERROR_LEFT_OUT = -37, -- left out of this build, by the switch that the field names
     ERROR_STATE = -38, -- no saved state of such a body, or damaged; value: the byte
+    ERROR_PART = -39, -- not of a part of a body; or its ghosts are not as owned
     KIND_MATERIAL = 2201,
     KIND_SET = 2202,
     KIND_LOAD = 2203, -- supports included
@@ -620,6 +642,8 @@ local peri = {
     SOFTENING_TABLE = 2904, -- a table of yours
     UNLOADING_SECANT = 3001, -- to the origin: damage
     UNLOADING_ELASTIC = 3002, -- as stiff as new: a stretch stays
+    REDUCTION_SUM = 3901,
+    REDUCTION_MAX = 3902,
     CUT_INITIAL = 2101, -- an initial crack: stays at peri_reset. Only before the first step
     CUT_NOW = 2102, -- counts as broken, whole again at peri_reset
     CUT_IN_PLACE = 2103, -- as PERI_CUT_NOW, where the body is now: by current positions
@@ -840,6 +864,15 @@ function peri.softening_desc(shape)
     local raw = ffi.new("peri_softening_desc[1]")
     C.peri_softening_desc_init(raw, shape)
     return wrap("peri_softening_desc", raw, {})
+end
+
+-- peri_part_desc, filled with the defaults: origin, length, mean_volume, ghost_count, ghosts, owners, ids, exchange, reduce. Ghosts:
+-- copies of points that other parts own, peri_ghost_depth horizons deep. They bear no load and are in no set, sum or count. Give
+-- them all else that their owners have: cuts, motion.
+function peri.part_desc()
+    local raw = ffi.new("peri_part_desc[1]")
+    C.peri_part_desc_init(raw)
+    return wrap("peri_part_desc", raw, { exchange = true, reduce = true })
 end
 
 -- peri_obstacle_desc, filled with the defaults: shape, place, turn, normal, axis, radius, length, size, vertex_count, face_count,
@@ -1176,6 +1209,60 @@ function Body:set_families(width, ibond)
     if ibond ~= nil then ibond_c, ibond_n = array("int32_t", ibond, "ibond") end
     sized(ibond_n, self:point_count()*width, "ibond")
     local result = C.peri_set_families(self.handle, width, ibond_c)
+    return check(result, nil, self.handle)
+end
+
+-- After the points, before peri_build. All parts make the same calls.
+function Body:set_part(desc)
+    local keep = self.keep
+    local desc_c, desc_f
+    desc_c, desc_f = plain(desc, "peri_part_desc")
+    if desc_f.exchange then
+        local call = desc_f.exchange
+        keep[#keep + 1] = ffi.cast("peri_exchange_fn", guard(function(_, type, planes, plane) return call(type, planes, ffi.string(plane, count)) end))
+        desc_c[0].exchange = keep[#keep]
+    end
+    if desc_f.reduce then
+        local call = desc_f.reduce
+        keep[#keep + 1] = ffi.cast("peri_reduce_fn", guard(function(_, reduction, count, values) return call(reduction, tonumber(count), values) end))
+        desc_c[0].reduce = keep[#keep]
+    end
+    local result = C.peri_set_part(self.handle, desc_c)
+    desc_c[0].exchange = nil
+    desc_c[0].reduce = nil
+    return check(result, nil, self.handle)
+end
+
+-- 1 or 2, before peri_build; the deepest that its materials need.
+function Body:ghost_depth()
+    local result = C.peri_ghost_depth(self.handle)
+    return check(result, nil, self.handle)
+end
+
+-- H[dim*dim] [-] by rows: images have their owner's displacement + H (distance). Default 0
+function Body:set_mean_gradient(gradient)
+    local gradient_c, gradient_n = nil, 0
+    if gradient ~= nil then gradient_c, gradient_n = array("double", gradient, "gradient") end
+    sized(gradient_n, self:dimension(), "gradient")
+    local result = C.peri_set_mean_gradient(self.handle, gradient_c)
+    return check(result, nil, self.handle)
+end
+
+-- Of the cells of peri_add_box those from first[dim] to before last[dim].
+function Body:add_box_part(material, lo, hi, spacing, first, last)
+    local lo_c, lo_n = nil, 0
+    if lo ~= nil then lo_c, lo_n = array("double", lo, "lo") end
+    sized(lo_n, self:dimension(), "lo")
+    local hi_c, hi_n = nil, 0
+    if hi ~= nil then hi_c, hi_n = array("double", hi, "hi") end
+    sized(hi_n, self:dimension(), "hi")
+    local first_c, first_n = nil, 0
+    if first ~= nil then first_c, first_n = array("int32_t", first, "first") end
+    sized(first_n, self:dimension(), "first")
+    local last_c, last_n = nil, 0
+    if last ~= nil then last_c, last_n = array("int32_t", last, "last") end
+    sized(last_n, self:dimension(), "last")
+    local result = C.peri_add_box_part(self.handle, material, lo_c, hi_c, spacing, first_c, last_c)
     return check(result, nil, self.handle)
 end
 

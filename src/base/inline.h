@@ -12,6 +12,11 @@ PERI_INLINE int peri__packed(int32_t dim, int a, int b) {
     return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
+PERI_INLINE int peri__is_ghost(const peri__model *m, int64_t i) { return m->part && m->part->depth[i]; }
+
+/* Points that share a flag of `central`: a group, and in parts of bodies one, since groups depend on the partition. */
+PERI_INLINE int64_t peri__central_of(const peri__model *m) { return m->part ? 1 : PERI_GROUP; }
+
 /* The point at place k: the k-th in passes over the list. */
 PERI_INLINE int64_t peri__nth(const peri__model *m, int64_t k) { return m->order ? m->order[k] : k; }
 

@@ -18,24 +18,28 @@ typedef struct peri__loop {
     void          *context;
     int64_t        points;
     peri__sums    *sums;
+    const uint8_t *skip; /* [blocks] 1: left out; or NULL                                                                 */
 } peri__loop;
 
 static void peri__block_task(void *context, int64_t k) {
     const peri__loop *loop = (const peri__loop *)context;
     peri__sums sums = { 0.0, 0.0, 0, -1 };
-    loop->fn(loop->context, k * PERI_BLOCK, peri__min((k + 1) * PERI_BLOCK, loop->points), &sums);
+    if (!loop->skip || !loop->skip[k])
+        loop->fn(loop->context, k * PERI_BLOCK, peri__min((k + 1) * PERI_BLOCK, loop->points), &sums);
     if (loop->sums) loop->sums[k] = sums;
 }
 
-/* Runs fn over all blocks of [0, points). cost: work per point, in bonds. sums is [blocks], or NULL where totals are not needed. */
-static void peri__for_points(const peri_body *b, int64_t points, int64_t cost, peri__block_fn fn, void *context,
-                             peri__sums *sums) {
+/* Runs fn over the blocks of [0, points) that are not to be skipped. cost: work per point, in bonds. sums is [blocks], or NULL where totals
+   are not needed. */
+static void peri__for_blocks(const peri_body *b, int64_t points, int64_t cost, peri__block_fn fn, void *context,
+                             peri__sums *sums, const uint8_t *skip) {
     peri__loop loop;
     int64_t blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK;
     loop.fn = fn;
     loop.context = context;
     loop.points = points;
     loop.sums = sums;
+    loop.skip = skip;
     int threaded = points * cost >= PERI_THREAD_WORK;
     if (threaded && b->desc.parallel_for) {
         const int32_t former = peri__enter(b, PERI__IN_CALLBACK); /* the hook may not change the body, whoever called */
@@ -52,6 +56,10 @@ static void peri__for_points(const peri_body *b, int64_t points, int64_t cost, p
     }
 #endif
     for (int64_t k = 0; k < blocks; ++k) peri__block_task(&loop, k);
+}
+
+static void peri__for_points(const peri_body *b, int64_t points, int64_t cost, peri__block_fn fn, void *context, peri__sums *sums) {
+    peri__for_blocks(b, points, cost, fn, context, sums, NULL);
 }
 
 /* The sum of PERI_BLOCK numbers, by halves, which are lost: the order does not depend on the width of vectors, and errors stay small. */

@@ -46,7 +46,8 @@
     X(ERROR_CONVERGENCE, -35, "no equilibrium within the iterations; value: residual")                                 \
     X(ERROR_WRITE, -36, "the file or the write callback failed")                                                       \
     X(ERROR_LEFT_OUT, -37, "left out of this build, by the switch that the field names")                               \
-    X(ERROR_STATE, -38, "no saved state of such a body, or damaged; value: the byte")
+    X(ERROR_STATE, -38, "no saved state of such a body, or damaged; value: the byte")                                  \
+    X(ERROR_PART, -39, "not of a part of a body; or its ghosts are not as owned")
 
 #define PERI_STATUS_NUMBER_(name, number, text) PERI_SAME_NUMBER_(name, PERI_##name == (number))
 PERI_STATUS_LIST(PERI_STATUS_NUMBER_)

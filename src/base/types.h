@@ -105,6 +105,8 @@ typedef struct peri__piece {
     uint64_t seed;
 } peri__piece;
 
+#include "part.h" /* bodies that are parts of larger ones */
+
 /* What is described before peri_build. */
 typedef struct peri__setup {
     peri__piece *pieces;
@@ -116,6 +118,7 @@ typedef struct peri__setup {
     int32_t     *ibond;    /* the caller's families, or NULL                                                             */
     int64_t      ibond_entries;
     int32_t      ibond_width;
+    peri__domain  *part;     /* NULL: all of a body                                                                        */
 } peri__setup;
 
 #include "past.h" /* what inelastic materials keep of their past */
@@ -232,6 +235,8 @@ typedef struct peri__model {
     int32_t    bond_states; /* of which bonds keep that many numbers, in body->history                                   */
     int32_t   inelastic;  /* bits of peri__inelastic: what materials in use are                                          */
     peri__past_model past;
+    peri__domain *part;          /* NULL: all of a body                                                                    */
+    int64_t     part_bytes;
 } peri__model;
 
 typedef union peri__reals {
@@ -258,7 +263,7 @@ typedef struct peri__set {
     char    *name;
     int64_t  name_bytes;
     int32_t *points; /* ascending; NULL for the set of all points                                                        */
-    int64_t  count;
+    int64_t  count, all; /* all: with ghosts, which come last                                                            */
 } peri__set;
 
 typedef enum peri__load_kind { PERI__FREE, PERI__DISPLACEMENT, PERI__VELOCITY, PERI__FORCE } peri__load_kind;
@@ -312,7 +317,7 @@ typedef struct peri__operands {
     const uint8_t     *point_class;     /* [points] row of pairs; NULL: 0                                                */
     const peri__pair  *pairs;   /* [classes][classes]                                                                    */
     int32_t            classes;
-    const uint8_t     *central; /* [groups] 1: points there or beside it that act by central bonds instead of a gradient */
+    const uint8_t     *central; /* as body->central                                                                      */
     const void        *eigenstrain, *strength, *stiffness; /* bond [stride] from the first point on; NULL, like the next two: none */
     const float *bond_strength; const double *density; /* by peri__bond_slot; [points]                                   */
     double least_strength; int32_t fields, partly; /* least of a bond; 1: bonds need fields; constants count bonds that are not alive */
@@ -337,6 +342,7 @@ typedef struct peri__operands {
     void              *closing; /* real [dim][stride]: impulse per volume of the bonds that broke; NULL: it is let go     */
     double             keep, kick, drift; /* v = keep*v + kick*f/rho, u += drift*v                                       */
     double             loss_old, loss_new; /* damping work: (loss_old v_old + loss_new v_new).(v_old + v_new)/2 rho V     */
+    const uint8_t     *ghost;   /* [points] not 0: a ghost, in no sum; NULL: there are none                              */
     double            *out;     /* energy density per point, or NULL                                                     */
     const void        *p;       /* real [dim][stride]: a change of the displacements                                     */
     void              *q;       /* real [dim][stride]: the change that the tangent makes of the force density            */
@@ -438,7 +444,7 @@ struct peri_body {
     double    largest_row_sum; /* largest row_sum                                                                        */
     double    sharp;         /* the square of the highest frequency, estimated: frequency.c; HUGE_VAL where it is not     */
     int32_t   softens;       /* 1: found to get no stiffer whatever bonds it loses, so that `sharp` outlasts that         */
-    uint8_t  *central;       /* [groups of PERI_GROUP] 1: points there or beside it act by central bonds instead of a gradient; NULL without
+    uint8_t  *central;       /* [groups], of parts [points] 1: points there or beside it act by central bonds, not a gradient; NULL without
                                 gradients                                                                                */
     uint32_t *dying;         /* [points][words] bonds whose criterion was met in the last pass; NULL where none can break */
     int32_t  *near_dying;    /* [points] the points whose force that changes                                             */
@@ -474,6 +480,7 @@ struct peri_body {
     double   *push;          /* [dim][stride] force density of the obstacles; NULL where none                            */
     void     *eigenstrain, *strength, *stiffness; /* bond [stride] with margins: fields of material; NULL, like the next two, where none */
     float *bond_strength; double *density; /* by peri__bond_slot, a factor; [points] rho                                 */
+    double    mean_gradient[9]; /* [dim][dim] of the displacement over a periodic cell: what images have over their owners, by distance */
     double    least_strength, row_sum_factor; /* of these, 1 without: a bound of all bonds'; what model->row_sum is times */
     peri__past past; peri__kept *kept; peri__taken *keeping; /* what peri_solve keeps; the list of its blocks            */
     peri__contact *contact;  /* NULL where none is declared                                                              */
@@ -489,6 +496,7 @@ struct peri_body {
     void           *break_user;
 
     peri__progress now;
+    int32_t        told;    /* of a part: 1: the others know that this call has failed                                   */
     int32_t        running; /* peri__running                                                                             */
     int32_t        stop;    /* 1: a load or an obstacle asked the run to stop                                            */
     int64_t        law_bad;        /* the first point at whose bonds a law has failed since that was last asked, or -1    */

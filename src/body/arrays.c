@@ -51,7 +51,7 @@ typedef struct peri__array {
 } peri__array;
 #define PERI_ARRAYS 52       /* of a body, taken where a scene has use for them                                           */
 #define PERI_LIST_ARRAYS 8   /* of a model: the list of families, then                                                    */
-#define PERI_MODEL_ARRAYS 21 /* with all others                                                                           */
+#define PERI_MODEL_ARRAYS 22 /* with all others                                                                           */
 
 static void *peri__pointer_at(const void *owner, size_t place) {
     void *pointer;
@@ -94,6 +94,7 @@ static void peri__list_model(const peri_body *b, const peri__model *m, peri__arr
         PERI_ARRAY_(pieces, m->piece_count, sizeof(peri__piece), PERI__POINTS),
         PERI_ARRAY_(pairs, pairs, sizeof(peri__pair), PERI__LAWS),
         PERI_ARRAY_(law_of, pairs, 1, PERI__LAWS),
+        PERI_ARRAY_(part, m->part_bytes, 1, PERI__POINTS),
     };
 #undef PERI_ARRAY_
     memcpy(list, arrays, sizeof arrays);
@@ -139,7 +140,7 @@ static void peri__list_arrays(const peri_body *b, peri__array *list) {
         PERI_ARRAY_(change_response, peri__response_reals(m), bond, 0, PERI__STATE, PERI__SCRATCH),
         PERI_ARRAY_(row_sum, n, sizeof(double), states, PERI__LAWS, PERI__FOLLOWS),
         PERI_ARRAY_(gather_row_sum, n, sizeof(double), states, PERI__LAWS, PERI__FOLLOWS),
-        PERI_ARRAY_(central, n / PERI_GROUP + 1, 1, (m->gathers & PERI__GRADIENT) != 0, PERI__LAWS, PERI__FOLLOWS),
+        PERI_ARRAY_(central, n / peri__central_of(m) + 1, 1, (m->gathers & PERI__GRADIENT) != 0, PERI__LAWS, PERI__FOLLOWS),
         PERI_ARRAY_(dying, flags, sizeof(uint32_t), breaks, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(near_dying, n, sizeof(int32_t), breaks, PERI__DAMAGE, PERI__SCRATCH),
         PERI_ARRAY_(marked, n, 1, breaks, PERI__DAMAGE, PERI__SCRATCH),
@@ -228,6 +229,7 @@ static void peri__count_setup(const peri_body *b, int64_t *held) {
     points += peri__held_bytes(s->volume, s->point_capacity, sizeof *s->volume);
     points += peri__held_bytes(s->material, s->point_capacity, sizeof *s->material);
     for (int64_t k = 0; k < s->piece_count; ++k) points += peri__held_bytes(s->pieces[k].vertices, s->pieces[k].vertex_bytes, 1);
+    points += peri__held_bytes(s->part, s->part ? s->part->bytes : 0, 1);
     held[PERI__POINTS] += points;
     held[PERI__FAMILIES] += peri__held_bytes(s->ibond, s->ibond_entries, sizeof *s->ibond);
 }
@@ -261,7 +263,7 @@ static void peri__count_body(const peri_body *b, int64_t *held) {
     }
     for (int64_t k = 0; k < b->set_count; ++k) {
         loads += peri__held_bytes(b->sets[k].name, b->sets[k].name_bytes, 1);
-        loads += peri__held_bytes(b->sets[k].points, b->sets[k].count, sizeof *b->sets[k].points);
+        loads += peri__held_bytes(b->sets[k].points, b->sets[k].all, sizeof *b->sets[k].points);
     }
     for (int64_t k = 0; k < b->load_count; ++k) {
         const peri__load *load = &b->loads[k];

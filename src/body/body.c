@@ -171,12 +171,10 @@ static int32_t peri__check_contrast(peri_body *b, const peri__model *m, int32_t 
 }
 
 /* Units of stress and density, and the constants of all pairs of materials in them. */
-static int32_t peri__fill_pairs(peri_body *b, peri__model *m) {
+static int32_t peri__fill_pairs(peri_body *b, peri__model *m, const uint8_t *used) {
     int32_t n = b->material_count;
     peri__pair own[PERI_MATERIAL_LIMIT];
-    uint8_t used[PERI_MATERIAL_LIMIT] = { 0 };
     m->materials = n;
-    for (int64_t i = 0; i < m->points; ++i) used[m->material[i]] = 1;
     m->pairs = (peri__pair *)peri__new(&m->memory, (int64_t)n * n, sizeof *m->pairs);
     if (!m->pairs) return peri__fail(b, PERI_ERROR_MEMORY, "materials", -1, 0.0);
     m->density = HUGE_VAL;
@@ -227,9 +225,29 @@ static int32_t peri__fill_list(peri_body *b, peri__model *m, peri__cloud *cloud,
     return PERI_OK;
 }
 
+/* The same of a part: all have columns, or all rows by points. Those columns that a list would lead to are the same. */
+static int32_t peri__fill_part(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
+    double listed = peri__corrects(b, m) || !peri__is_lattice_part(b);
+    int32_t status = peri__check_part(b, m);
+    if (status == PERI_OK) status = peri__count_families(b, cloud);
+    if (status == PERI_OK) status = peri__check_families(b, m);
+    if (status == PERI_OK) status = peri__agree(b, PERI_OK, 1, &listed);
+    if (status == PERI_OK && listed == 0.0) {
+        const int32_t made = peri__build_stencil(b, cloud);
+        listed = made == 0;
+        status = made < 0 ? made : peri__agree(b, PERI_OK, 1, &listed);
+        if (listed > 0.0) peri__free_stencil(m);
+    }
+    if (status == PERI_OK && listed > 0.0) status = peri__fill_list(b, m, cloud, sums);
+    if (status < 0) return status;
+    peri__find_depths(m);
+    return PERI_OK;
+}
+
 /* Families and weights: by columns from the points, or by the list and, where that pays, columns from it. */
 static int32_t peri__fill_families(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
     int32_t listed = b->setup.ibond || peri__corrects(b, m), status = PERI_OK, made = 0;
+    if (m->part) return peri__fill_part(b, m, cloud, sums);
     if (!b->setup.ibond) status = peri__count_families(b, cloud);
     if (status == PERI_OK && !b->setup.ibond) status = peri__check_families(b, m);
     if (status == PERI_OK && !listed) status = made = peri__build_stencil(b, cloud);
@@ -254,25 +272,9 @@ static void peri__fit_model(const peri_body *b, peri__model *m) {
         m->record_reals = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
 }
 
-/* Points, families, weights: all that clones share. On failure the model is partly filled; the caller releases it. */
-static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
-    int32_t dim = b->dim, status;
-    size_t real = peri__real(b);
-    m->dim = dim;
-    m->f32 = b->f32;
-    m->b32 = b->b32;
-    m->points = b->setup.point_count;
-    m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
-    m->stride = peri__stride(m->points);
-    m->x = peri__new(&m->memory, m->stride * dim, real);
-    m->volume = (double *)peri__new(&m->memory, m->points, sizeof *m->volume);
-    m->material = (uint8_t *)peri__copy(&m->memory, b->setup.material, m->points, 1);
-    m->count = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->count);
-    m->piece_count = b->setup.piece_count;
-    m->pieces = (peri__piece *)peri__copy(&m->memory, b->setup.pieces, m->piece_count, sizeof *m->pieces);
-    for (int64_t p = 0; m->pieces && p < m->piece_count; ++p) m->pieces[p].vertices = NULL;
-    if (!m->x || !m->volume || !m->material || !m->count || !m->pieces) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
-
+/* The units, and the points in them; cloud->largest: the largest edge of a cell. */
+static int32_t peri__place_points(peri_body *b, peri__model *m, peri__cloud *cloud) {
+    const int32_t dim = b->dim;
     peri__scale_points(b, m, cloud->x);
     for (int64_t i = 0; i < m->points; ++i) { /* extents or cells beyond the range of double */
         if (!peri__finite_vector(&cloud->x[i * dim], dim)) return peri__fail(b, PERI_ERROR_POINT, "positions", i, 0.0);
@@ -291,14 +293,46 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
         if (m->volume[i] != cloud->even) cloud->even = 0.0;
         if (m->volume[i] > most) most = m->volume[i];
     }
+    if (pow(most, 1.0 / dim) > cloud->largest) cloud->largest = pow(most, 1.0 / dim);
+    return PERI_OK;
+}
+
+/* Points, families, weights: all that clones share. On failure the model is partly filled; the caller releases it. */
+static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud, peri__sums *sums) {
+    int32_t dim = b->dim, status;
+    size_t real = peri__real(b);
+    uint8_t used[PERI_MATERIAL_LIMIT] = { 0 };
+    m->dim = dim;
+    m->f32 = b->f32;
+    m->b32 = b->b32;
+    m->points = b->setup.point_count;
+    m->blocks = (m->points + PERI_BLOCK - 1) / PERI_BLOCK;
+    m->stride = peri__stride(m->points);
+    m->x = peri__new(&m->memory, m->stride * dim, real);
+    m->volume = (double *)peri__new(&m->memory, m->points, sizeof *m->volume);
+    m->material = (uint8_t *)peri__copy(&m->memory, b->setup.material, m->points, 1);
+    m->count = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->count);
+    m->piece_count = b->setup.piece_count;
+    m->pieces = (peri__piece *)peri__copy(&m->memory, b->setup.pieces, m->piece_count, sizeof *m->pieces);
+    for (int64_t p = 0; m->pieces && p < m->piece_count; ++p) m->pieces[p].vertices = NULL;
+    if (!m->x || !m->volume || !m->material || !m->count || !m->pieces) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+
+    if (b->setup.part) {
+        m->part = peri__new_part(&m->memory, &b->setup.part->desc, b->setup.part->points);
+        m->part_bytes = m->part ? m->part->bytes : 0;
+        if (!m->part) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
+    }
+    status = peri__place_points(b, m, cloud);
+    for (int64_t i = 0; i < m->points; ++i) used[m->material[i]] = 1;
+    if (status == PERI_OK && m->part) status = peri__agree_on_points(b, m, used, &cloud->even);
+    if (status < 0) return status;
     m->mutual = b->b32 && !(cloud->even > 0.0);
     if (m->mutual) m->portion = peri__new(&m->memory, m->stride, real);
     if (m->mutual && !m->portion) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
     for (int64_t i = 0; m->mutual && i < m->points; ++i) peri__put_real(m->portion, b->f32, i, 1.0 / m->volume[i]);
-    if (pow(most, 1.0 / dim) > cloud->largest) cloud->largest = pow(most, 1.0 / dim);
     peri__gauss(cloud->gauss_x, cloud->gauss_w);
 
-    status = peri__fill_pairs(b, m);
+    status = peri__fill_pairs(b, m, used);
     if (status == PERI_OK && m->inelastic && m->seen_by) status = peri__fail(b, PERI_ERROR_CRITERION, "criterion", -1, 0.0);
     cloud->edge = 0.5 * m->spacing / m->horizon;
     if (status == PERI_OK) status = peri__fill_families(b, m, cloud, sums);
@@ -378,7 +412,7 @@ static void peri__free_state(peri_body *b) {
     }
     for (int64_t k = 0; k < b->set_count; ++k) {
         peri__delete(memory, b->sets[k].name, b->sets[k].name_bytes, 1);
-        peri__delete(memory, b->sets[k].points, b->sets[k].count, sizeof(int32_t));
+        peri__delete(memory, b->sets[k].points, b->sets[k].all, sizeof(int32_t));
     }
     peri__delete(memory, b->sets, b->set_capacity, sizeof *b->sets);
     for (int64_t k = 0; k < b->load_count; ++k) peri__free_load(b, &b->loads[k]);
@@ -459,9 +493,12 @@ static int32_t peri__new_state(peri_body *b) {
         return peri__fail(b, PERI_ERROR_MEMORY, "state", -1, 0.0);
     peri__find_mirrors(b);
     int32_t status = peri__update_classes(b);
-    if (status < 0 || m->pairwise) return status;
+    if (status == PERI_OK && m->part) status = peri__compare_ghosts(b);
+    if (status < 0 || m->pairwise) return status < 0 || !m->part ? status : peri__agree(b, status, 1, &b->model->row_sum);
     b->now.stale |= PERI__STALE_CONSTANTS;
     peri__refresh(b);
+    status = peri__agree(b, status, 1, &b->largest_row_sum);
+    if (status < 0) return status;
     b->model->row_sum = b->largest_row_sum; /* of the whole body: broken bonds may only raise it */
     return b->largest_row_sum > 1e-30 && b->largest_row_sum < 1e30 ? PERI_OK
                                                                     : peri__fail(b, PERI_ERROR_RANGE, "horizon", -1, b->desc.horizon);
@@ -513,7 +550,8 @@ PERI_API int32_t peri_build(peri_body *b) {
     if (b->material_count == 0) return peri__fail(b, PERI_ERROR_MATERIAL, "material", -1, 0.0);
     if (b->setup.point_count == 0) return peri__fail(b, PERI_ERROR_EMPTY, "points", -1, 0.0);
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
-    const int32_t status = peri__make_model(b);
+    b->told = 0;
+    const int32_t status = peri__tell_parts(b, peri__make_model(b));
     peri__leave(b, former);
     if (status < 0) {
         peri__drop_build(b);

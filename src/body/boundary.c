@@ -53,7 +53,7 @@ static int32_t peri__add_load(peri_body *b, int32_t kind, int32_t set, int32_t a
         peri__free_load(b, &load);
         return peri__fail(b, PERI_ERROR_MEMORY, "load", -1, 0.0);
     }
-    for (int64_t k = 0; load.all && k < load.count; ++k) load.all[k] = (int32_t)k;
+    for (int64_t k = 0; load.all && k < load.count; ++k) load.all[k] = peri__set_point(b, set, k);
     b->loads[b->load_count++] = load;
     peri__changed(b, PERI__ACTION);
     peri__assign_support(b, b->load_count - 1);
@@ -118,6 +118,20 @@ PERI_API int32_t peri_apply_body_force(peri_body *b, int32_t set, const double *
     return at < 0 ? at : peri__load_id(b, peri__add_load(b, PERI__FORCE, at, (1 << b->dim) - 1, value, fn, user));
 }
 
+/* The volume of a set of all parts, to 2^-52 of a unit per point, with the same bits for every partition: the sums of multiples of 2^-26,
+   and of what is left of them, are exact. */
+static int32_t peri__volume_of_parts(peri_body *b, int32_t set, double *volume) {
+    double sum[2] = { 0.0, 0.0 };
+    for (int64_t k = 0; k < peri__set_count(b, set); ++k) {
+        const double own = b->model->volume[peri__set_point(b, set, k)], coarse = ldexp(floor(ldexp(own, 26)), -26);
+        sum[0] += coarse;
+        sum[1] += ldexp(floor(ldexp(own - coarse, 52)), -52);
+    }
+    const int32_t status = peri__share_total(b, PERI_OK, 2, sum);
+    *volume = sum[0] + sum[1];
+    return status;
+}
+
 PERI_API int32_t peri_apply_layer_traction(peri_body *b, int32_t id, double area, const double *value, peri_load_fn fn,
                                            void *user) {
     double volume = 0.0;
@@ -127,6 +141,9 @@ PERI_API int32_t peri_apply_layer_traction(peri_body *b, int32_t id, double area
     if (set < 0) return set;
     const peri__model *m = b->model;
     for (int64_t k = 0; k < peri__set_count(b, set); ++k) volume += m->volume[peri__set_point(b, set, k)];
+    const int32_t status = m->part ? peri__volume_of_parts(b, set, &volume) : PERI_OK;
+    if (status < 0) return status;
+    if (!(volume > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, "set", id, 0.0);
     const int32_t at = peri__add_load(b, PERI__FORCE, set, (1 << b->dim) - 1, value, fn, user);
     if (at >= 0) b->loads[at].per_value = area / (volume * pow(m->length, b->dim));
     return peri__load_id(b, at);

@@ -63,7 +63,7 @@ static int peri__copy_state(peri_body *b, const peri_body *from) {
         b->sets[k].name = NULL;
         b->sets[k].points = NULL;
         PERI_COPY_(sets[k].name, from->sets[k].name_bytes, 1)
-        PERI_COPY_(sets[k].points, from->sets[k].count, sizeof(int32_t))
+        PERI_COPY_(sets[k].points, from->sets[k].all, sizeof(int32_t))
         b->set_count = k + 1;
     }
     for (int64_t k = 0; b->loads && k < from->load_count; ++k) {
@@ -106,6 +106,7 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
     b->side_count = from->side_count;
     b->on_break = from->on_break;
     b->break_user = from->break_user;
+    memcpy(b->mean_gradient, from->mean_gradient, sizeof b->mean_gradient);
     b->now = from->now;
     if (from->running) b->now.torn = 0; /* on_frame comes at a whole step */
     (void)peri__count_users(&b->model->users, 1);
@@ -171,9 +172,16 @@ PERI_API const char *peri_kernel_text(const peri_body *b) {
     return names[m->stencil.columns ? 0 : listed][m->stencil.isa];
 }
 
-PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? b->now.cut / 2 : 0; }
+/* Half of the directed bonds, of all parts. */
+static int64_t peri__count_of_parts(const peri_body *b, int64_t directed) {
+    double sum = (double)directed;
+    const int32_t status = b->model && b->model->part ? peri__share_total((peri_body *)b, PERI_OK, 1, &sum) : PERI_OK;
+    return status < 0 ? status : b->model && b->model->part ? (int64_t)(0.5 * sum) : directed / 2;
+}
 
-PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? b->now.broken / 2 : 0; }
+PERI_API int64_t peri_cut_count(const peri_body *b) { return b ? peri__count_of_parts(b, b->now.cut) : 0; }
+
+PERI_API int64_t peri_broken_count(const peri_body *b) { return b ? peri__count_of_parts(b, b->now.broken) : 0; }
 
 PERI_API int64_t peri_step_count(const peri_body *b) { return b ? b->now.steps : 0; }
 

@@ -131,6 +131,7 @@ static peri__contact *peri__next_contact(peri_body *b, int64_t i, int64_t j, con
 PERI_API int32_t peri_set_contact(peri_body *b, int32_t i, int32_t j, const peri_contact_desc *d) {
     int failed;
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_set_contact");
     const int64_t p = peri__material_or_all(b, i, "i"), q = p < -1 ? -1 : peri__material_or_all(b, j, "j");
     if (p < -1 || q < -1) return (int32_t)(p < -1 ? p + 1 : q + 1);
     const int32_t status = d ? peri__check_contact(b, d) : PERI_OK;

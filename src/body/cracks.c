@@ -84,9 +84,9 @@ static int peri__cut_one(peri_body *b, int32_t standing, int64_t i, int64_t k) {
     *alive &= ~flag;
     if (standing == PERI_CUT_INITIAL) {
         b->uncut[i * b->model->words + k / 32] &= ~flag;
-        b->now.cut++;
+        b->now.cut += !peri__is_ghost(b->model, i);
     } else {
-        b->now.broken++;
+        b->now.broken += !peri__is_ghost(b->model, i);
     }
     return 1;
 }
@@ -127,7 +127,8 @@ static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sum
             if (!peri__meets(cutter->crack, i < j ? xi : xj, i < j ? xj : xi, dim)) continue;
             *alive &= ~flag;
             if (cutter->standing == PERI_CUT_INITIAL) b->uncut[i * m->words + k / 32] &= ~flag;
-            sums->n++;
+            if (!peri__is_ghost(m, i)) sums->n++;
+            if (!peri__is_ghost(m, i) && i < j) sums->a += 1.0;
         }
     }
 }
@@ -141,12 +142,13 @@ static int64_t peri__apply_crack(peri_body *b, int32_t standing, const peri__cra
     cutter.crack = crack;
     cutter.standing = standing;
     peri__for_points(b, b->model->points, 2 * b->model->width, peri__cut_block, &cutter, b->sums);
-    int64_t cut = peri__total(b->sums, b->model->points).n;
+    const peri__sums total = peri__total(b->sums, b->model->points);
+    const int64_t cut = total.n;
     if (standing == PERI_CUT_INITIAL) b->now.cut += cut;
     else b->now.broken += cut;
     peri__note_cuts(b, standing);
-    if (cut == 0) peri__log(b, 1, "the crack meets no bond that was whole");
-    return cut / 2;
+    if (cut == 0 && !b->model->part) peri__log(b, 1, "the crack meets no bond that was whole");
+    return (int64_t)total.a;
 }
 
 /* The flat convex polygon with `count` vertices (2 in 2D, 3 or 4 in 3D), thickened by the tolerance. */
@@ -391,7 +393,7 @@ PERI_API int32_t peri_set_no_fail(peri_body *b, int32_t id, int32_t on) {
         (void)peri__update_classes(b);
         return peri__fail(b, PERI_ERROR_MEMORY, "laws", -1, 0.0);
     }
-    for (int64_t k = 0; k < peri__set_count(b, set); ++k) b->no_fail[peri__set_point(b, set, k)] = (uint8_t)on;
+    for (int64_t k = 0; k < peri__set_all(b, set); ++k) b->no_fail[peri__set_any(b, set, k)] = (uint8_t)on;
     return peri__update_classes(b);
 }
 
@@ -414,6 +416,7 @@ static void peri__report_breaks(peri_body *b) {
     const peri__model *m = b->model;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t i = 0; i < m->points && b->break_said >= 0; ++i) {
+        if (peri__is_ghost(m, i)) continue; /* the part that owns the lower end reports */
         if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
         peri__row row;
         peri__read_row(b, i, &row);

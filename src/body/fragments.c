@@ -463,6 +463,7 @@ static int peri__need_fragments(peri_body *b) {
 static int32_t peri__label_fragments(peri_body *b) {
     const int64_t dead = b->now.cut + b->now.broken;
     peri__flood flood;
+    PERI_NEED_WHOLE(b, "peri_find_fragments");
     if (b->now.fragments > 0 && b->now.fragment_dead == dead) return PERI_OK;
     if (!peri__open_flood(b, &flood)) return peri__fail(b, PERI_ERROR_MEMORY, "fragment", -1, 0.0);
     const int ok = peri__need_fragments(b);

@@ -67,6 +67,17 @@ PERI_API int32_t peri_add_velocity(peri_body *b, int32_t set, const double *valu
     return peri__add_to(b, b->v, peri__velocity_unit(b->model), set, value);
 }
 
+PERI_API int32_t peri_set_mean_gradient(peri_body *b, const double *gradient) {
+    PERI_NEED_IDLE(b);
+    PERI_NEED(b, gradient, "gradient");
+    for (int32_t k = 0; k < b->dim * b->dim; ++k)
+        if (!(fabs(gradient[k]) < 1e3)) return peri__fail(b, PERI_ERROR_RANGE, "gradient", k, gradient[k]);
+    if (!b->model->part) return peri__fail(b, PERI_ERROR_PART, "peri_set_part", -1, 0.0);
+    peri__changed(b, PERI__MOTION);
+    memcpy(b->mean_gradient, gradient, (size_t)(b->dim * b->dim) * sizeof *gradient);
+    return PERI_OK;
+}
+
 PERI_API int32_t peri_reset(peri_body *b) {
     PERI_NEED_IDLE(b);
     const peri__model *m = b->model;

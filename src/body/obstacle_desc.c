@@ -293,6 +293,7 @@ PERI_API int32_t peri_add_obstacle(peri_body *b, const peri_obstacle_desc *d) {
     peri__obstacle obstacle;
     PERI_NEED_CHANGEABLE(b);
     int32_t status = peri__check_obstacle(b, d);
+    if (status == PERI_OK && b->model->part && d->mass + d->density > 0.0) status = peri__fail(b, PERI_ERROR_PART, "mass", -1, d->mass);
     if (status == PERI_OK) status = peri__check_room(b, PERI_KIND_OBSTACLE, PERI_ID_LIMIT, "obstacle");
     if (status < 0) return status;
     status = peri__read_obstacle(b, d, &obstacle);
@@ -322,6 +323,7 @@ static int32_t peri__sum_stored(peri_body *b, const peri__obstacle *o, double *s
     *stored = 0.0;
     for (int64_t i = 0; i < b->model->points; ++i) {
         peri__dip t;
+        if (peri__is_ghost(b->model, i)) continue;
         const int32_t touches = peri__dips(b, o, i, 0.0, &t);
         if (touches < 0) return touches;
         if (touches) *stored += 0.5 * o->stiffness * t.depth * t.depth * b->model->volume[i];

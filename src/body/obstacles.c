@@ -221,6 +221,7 @@ static void peri__push_block(void *context, int64_t begin, int64_t end, peri__su
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].tally) memset(&b->obstacles[k].tally[begin / PERI_BLOCK * PERI_TALLIED], 0, PERI_TALLIED * sizeof(double));
     for (int64_t i = begin; i < end; ++i) {
+        if (peri__is_ghost(m, i)) continue;
         double push[3] = { 0.0, 0.0, 0.0 }, work = 0.0;
         for (int64_t k = 0; k < b->obstacle_count; ++k) {
             const peri__obstacle *o = &b->obstacles[k];

@@ -110,6 +110,7 @@ static int32_t peri__set_density(peri_body *b, const double *in) {
 
 /* Of peri_set_field: PERI_ERROR_FIELD where it is no field of material. */
 static int32_t peri__set_material_field(peri_body *b, int32_t field, const double *in) {
+    PERI_NEED_WHOLE(b, "field");
     for (int k = 0; k < 3; ++k)
         if (peri__point_fields[k].field == field) return peri__set_point_field(b, &peri__point_fields[k], in);
     return peri__set_density(b, in);
@@ -143,6 +144,7 @@ static void peri__put_bond_strength(peri_body *b, int64_t i, const peri__row *ro
 
 PERI_API int64_t peri_set_strength_pairs(peri_body *b, int64_t count, const int32_t *pairs, const double *factors) {
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_set_strength_pairs");
     PERI_NEED(b, count >= 0, "count");
     PERI_NEED(b, pairs || count == 0, "pairs");
     PERI_NEED(b, factors || count == 0, "factors");
@@ -168,6 +170,7 @@ PERI_API int64_t peri_set_strength_pairs(peri_body *b, int64_t count, const int3
 
 PERI_API int64_t peri_set_strength_if(peri_body *b, double factor, peri_pair_fn take, void *user) {
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_set_strength_if");
     PERI_NEED_NUMBER(b, peri__is_strength(factor), factor);
     PERI_NEED(b, take, "take");
     const int32_t status = peri__check_fieldable(b);

@@ -34,6 +34,7 @@ static int32_t peri__sum_obstacle(peri_body *b, const peri__obstacle *o, double 
     if (o->tally) return PERI_OK;
     for (int64_t i = 0; i < b->model->points; ++i) {
         double push[3] = { 0.0, 0.0, 0.0 };
+        if (peri__is_ghost(b->model, i)) continue;
         const int32_t status = peri__push(&pusher, o, i, push, tally);
         if (status < 0) return status;
     }
@@ -49,6 +50,7 @@ PERI_API int32_t peri_get_obstacle_force(peri_body *b, int32_t id, double *force
     PERI_NEED(b, force || moment, "force");
     int32_t status = peri__ensure_force(b); /* moves the obstacle to where it is now */
     if (status == PERI_OK) status = peri__sum_obstacle(b, &b->obstacles[obstacle], total);
+    status = peri__share_total(b, status, 6, total);
     if (status < 0) return status;
     if (moment) status = peri__tell_moment(b, total + 3, turns);
     if (status == PERI_OK && force) status = peri__tell_force(b, total, force);
@@ -78,13 +80,13 @@ static double peri__reaction_at(const peri_body *b, const peri__load *load, int6
 
 /* Of the load at an index. */
 static int32_t peri__read_reaction_of(peri_body *b, int64_t at, double *force) {
-    const int32_t status = peri__ensure_force(b);
-    if (status < 0) return status;
+    int32_t status = peri__ensure_force(b);
     const peri__load *load = &b->loads[at];
     double total[3] = { 0.0, 0.0, 0.0 };
-    for (int64_t k = 0; k < load->count; ++k)
+    for (int64_t k = 0; status == PERI_OK && k < load->count; ++k)
         for (int32_t d = 0; d < b->dim; ++d) total[d] += peri__reaction_at(b, load, k, d);
-    return peri__tell_force(b, total, force);
+    status = peri__share_total(b, status, 3, total);
+    return status < 0 ? status : peri__tell_force(b, total, force);
 }
 
 PERI_API int32_t peri_get_reaction(peri_body *b, int32_t load, double *force) {
@@ -101,12 +103,12 @@ PERI_API int32_t peri_get_reaction_moment(peri_body *b, int32_t id, const double
     if (at < 0) return (int32_t)at;
     PERI_NEED_VECTOR(b, place);
     PERI_NEED(b, moment, "moment");
-    const int32_t status = peri__ensure_force(b), dim = b->dim, linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
-    if (status < 0) return status;
+    const int32_t dim = b->dim, linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
+    int32_t status = peri__ensure_force(b);
     const peri__load *load = &b->loads[at];
     double about[3] = { 0.0, 0.0, 0.0 }, total[3] = { 0.0, 0.0, 0.0 };
     peri__inner(b, place, about);
-    for (int64_t k = 0; k < load->count; ++k) {
+    for (int64_t k = 0; status == PERI_OK && k < load->count; ++k) {
         double arm[3] = { 0.0, 0.0, 0.0 }, force[3] = { 0.0, 0.0, 0.0 }, part[3];
         for (int32_t d = 0; d < dim; ++d) {
             const int64_t dof = peri__dof(b, load, k, d);
@@ -116,5 +118,6 @@ PERI_API int32_t peri_get_reaction_moment(peri_body *b, int32_t id, const double
         peri__cross(arm, force, part);
         for (int d = 0; d < 3; ++d) total[d] += part[d];
     }
-    return peri__tell_moment(b, total, moment);
+    status = peri__share_total(b, status, 3, total);
+    return status < 0 ? status : peri__tell_moment(b, total, moment);
 }

@@ -22,12 +22,19 @@ static double peri__touching(const peri_body *b) {
 }
 
 static int64_t peri__set_count(const peri_body *b, int32_t set) {
-    return set == 0 ? b->model->points : b->sets[set - 1].count;
+    if (set == 0) return b->model->points - (b->model->part ? b->model->part->desc.ghost_count : 0);
+    return b->sets[set - 1].count;
 }
 
 static int32_t peri__set_point(const peri_body *b, int32_t set, int64_t k) {
-    return set == 0 ? (int32_t)k : b->sets[set - 1].points[k];
+    if (set == 0) return b->model->part ? b->model->part->owned[k] : (int32_t)k;
+    return b->sets[set - 1].points[k];
 }
+
+/* With its ghosts, which come after the points that are owned. */
+static int64_t peri__set_all(const peri_body *b, int32_t set) { return set == 0 ? b->model->points : b->sets[set - 1].all; }
+
+static int32_t peri__set_any(const peri_body *b, int32_t set, int64_t k) { return set == 0 ? (int32_t)k : b->sets[set - 1].points[k]; }
 
 /* What a set is called inside, 0 for all; or why its id is none. */
 static int32_t peri__find_set(peri_body *b, int32_t id) {
@@ -50,19 +57,30 @@ PERI_API int32_t peri_find_set(const peri_body *b, const char *name) {
     return set ? set : peri__fail_const(b, PERI_ERROR_NAME, "name", -1, 0.0);
 }
 
-/* Takes over points[capacity] of b->scratch, of which the first count are the set (ascending). */
+/* Moves the ghosts of points[count] to the end, all ascending as before; returns how many are none. */
+static int64_t peri__part_set(const peri_body *b, const int32_t *points, int64_t count, int32_t *out) {
+    int64_t owned = 0, ghosts = 0;
+    for (int64_t k = 0; k < count; ++k)
+        if (!peri__is_ghost(b->model, points[k])) out[owned++] = points[k];
+    for (int64_t k = 0; k < count; ++k)
+        if (peri__is_ghost(b->model, points[k])) out[owned + ghosts++] = points[k];
+    return owned;
+}
+
+/* Takes over points[capacity] of b->scratch, of which the first count are the set (ascending). A part may have none of it. */
 static int32_t peri__new_set(peri_body *b, const char *name, int32_t *points, int64_t capacity, int64_t count) {
     peri__set set;
     int32_t status = PERI_OK;
     memset(&set, 0, sizeof set);
-    if (count == 0) status = peri__fail(b, PERI_ERROR_EMPTY, "set", -1, 0.0);
+    if (count == 0 && !b->model->part) status = peri__fail(b, PERI_ERROR_EMPTY, "set", -1, 0.0);
     else if (name && peri__set_named(b, name)) status = peri__fail(b, PERI_ERROR_NAME, "name", peri__set_named(b, name), 0.0);
     else status = peri__check_room(b, PERI_KIND_SET, PERI_ID_LIMIT, "set");
     if (status == PERI_OK && !peri__grow(&b->memory, &b->sets, &b->set_capacity, b->set_count + 1, sizeof *b->sets))
         status = peri__fail(b, PERI_ERROR_MEMORY, "set", -1, 0.0);
     if (status == PERI_OK) {
         set.points = (int32_t *)peri__copy(&b->memory, points, count, sizeof *points);
-        set.count = count;
+        set.count = set.all = count;
+        if (b->model->part && set.points) set.count = peri__part_set(b, points, count, set.points);
         if (name) {
             set.name_bytes = (int64_t)strlen(name) + 1;
             set.name = (char *)peri__copy(&b->memory, name, set.name_bytes, 1);

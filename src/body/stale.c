@@ -65,7 +65,8 @@ static int32_t peri__make_force(peri_body *b) {
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     b->law_bad = -1;
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
-    int32_t status = peri__apply_loads(b, peri__load_time(b), 0.0);
+    int32_t status = peri__share_ghosts(b);
+    if (status == PERI_OK) status = peri__apply_loads(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) {
         operands.working = m->seen_by & PERI__BY_WORK;

@@ -49,7 +49,8 @@ static peri__operands peri__operands_of(const peri_body *b) {
     s.history = b->history;
     s.density = b->density;
     s.least_strength = b->least_strength;
-    s.partly = b->desc.moments != PERI_MOMENTS_LIVE && b->now.cut + b->now.broken > 0;
+    s.ghost = m->part ? m->part->depth : NULL;
+    s.partly = b->desc.moments != PERI_MOMENTS_LIVE && (m->part || b->now.cut + b->now.broken > 0);
     peri__take_fields(b, &s, 1);
     s.linear = b->desc.geometry == PERI_GEOMETRY_LINEAR;
     return s;
@@ -87,6 +88,7 @@ static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, 
 
 static double peri__kinetic_energy(peri_body *b) {
     peri__operands operands = peri__operands_of(b);
+    peri__still_ghosts(b);
     peri__for_points(b, b->model->points, 1, b->ops->kinetic, &operands, b->sums);
     return peri__total(b->sums, b->model->points).a;
 }
@@ -123,13 +125,13 @@ static void peri__sum_bonds(const peri_body *b, peri__operands *operands, peri__
     }
     if (m->record_reals) peri__for_points(b, m->points, 2, b->ops->fill_records, operands, NULL);
     if (m->gathers || operands->node) {
-        peri__for_points(b, m->points, m->width, b->ops->gather, operands, NULL);
+        peri__for_blocks(b, m->points, m->width, b->ops->gather, operands, NULL, m->part ? m->part->gather_skip : NULL);
         if (operands->past.raw && operands->p) peri__own_changes(b, operands, operands->response);
         else if (operands->past.raw) operands->past.taken = peri__own_stresses(b, operands);
         if (m->record_reals) peri__for_points(b, m->points, 1, b->ops->fill_responses, operands, NULL);
     }
     if (operands->node && operands->breaking) operands->node_most = peri__most_node_energy(operands);
-    peri__for_points(b, m->points, m->width, b->ops->force, operands, sums);
+    peri__for_blocks(b, m->points, m->width, b->ops->force, operands, sums, m->part ? m->part->force_skip : NULL);
 }
 
 /* The same with all that is not elastic, a time step->step after the history, which takes it where step->past.commit. */

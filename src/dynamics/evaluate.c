@@ -274,6 +274,7 @@ static int32_t peri__evaluate_here(peri_body *b, const peri_evaluate_desc *e, vo
 PERI_API int32_t peri_evaluate(peri_body *b, const peri_evaluate_desc *e, peri_evaluate_report *report) {
     if (report) memset(report, 0, sizeof *report);
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_evaluate");
     int32_t status = peri__check_evaluate(b, e);
     if (status < 0) return status;
     if (e->fracture && b->running) return peri__fail(b, PERI_ERROR_ORDER, "peri_unlock", -1, 0.0);

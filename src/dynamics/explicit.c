@@ -63,6 +63,11 @@ static double peri__bounded(const peri_body *b) { return peri__step_of(b, HUGE_V
 
 static double peri__stable(const peri_body *b) { return peri__step_of(b, b->now.stale & PERI__STALE_SHARP ? HUGE_VAL : b->sharp); }
 
+/* The largest row sum of this part alone, where it is that of all. */
+static void peri__own_row_sum(peri_body *b) {
+    if (b->model->part && !b->model->pairwise) peri__find_largest_row_sum(b);
+}
+
 PERI_API double peri_stable_step(const peri_body *b) {
     if (!b || !b->model) return 0.0;
     (void)peri__ensure((peri_body *)b, PERI__STALE_CONSTANTS);
@@ -71,12 +76,19 @@ PERI_API double peri_stable_step(const peri_body *b) {
         (void)peri__look_at_contact((peri_body *)b);
         peri__look_at_free((peri_body *)b);
         (void)peri__sharpen((peri_body *)b);
+        peri__own_row_sum((peri_body *)b);
+        double most[2] = { b->largest_row_sum, b->now.stiffer };
+        ((peri_body *)b)->told = 0;
+        if (peri__agree((peri_body *)b, PERI_OK, 2, most) < 0) return 0.0;
+        ((peri_body *)b)->largest_row_sum = most[0];
+        ((peri_body *)b)->now.stiffer = most[1];
     }
     return peri__stable(b) * b->model->time;
 }
 
 static void peri__kick(peri_body *b, peri__operands *operands, int64_t *bad) {
     peri__supply_supports(b, operands);
+    peri__still_ghosts(b);
     peri__for_points(b, b->model->points, 1, b->ops->kick, operands, b->sums);
     peri__sums total = peri__total(b->sums, b->model->points);
     b->now.ledger.damping += total.b;
@@ -124,9 +136,26 @@ static int peri__forces_and_breaks(peri_body *b, peri__operands *operands) {
         peri__break_states(b, operands);
     } else {
         b->now.ledger.fracture += total.a;
-        b->now.broken += total.n;
+        b->now.broken += total.n - (int64_t)total.b;
     }
     return total.n > 0;
+}
+
+/* At the end of a step, or before a run: what all parts are to know alike. They stop where one is asked to. */
+static int32_t peri__agree_on_step(peri_body *b) {
+    const uint32_t stale = b->now.stale & (PERI__STALE_FORCE | PERI__STALE_LEDGER);
+    peri__own_row_sum(b);
+    double most[4] = { b->largest_row_sum, b->now.stiffer, b->stop || b->break_said > 0, stale };
+    if (!b->model->part) return PERI_OK;
+    if (b->break_said < 0) return peri__fail(b, PERI_ERROR_CALLBACK, "peri_break_fn", -1, b->break_said);
+    const int32_t status = peri__agree(b, PERI_OK, 4, most);
+    if (status < 0) return status;
+    b->largest_row_sum = most[0];
+    b->now.stiffer = most[1];
+    b->stop = most[2] > 0.0;
+    if (most[3] > 0.0) b->now.stale |= PERI__STALE_FORCE;
+    if (most[3] >= PERI__STALE_LEDGER) peri__note_energy(b);
+    return PERI_OK;
 }
 
 /* One step of dt (inner units) to the time `next`, as the context has it: here a peri_advance_desc. */
@@ -141,6 +170,7 @@ static int32_t peri__one_step(void *context, peri_body *b, double dt, double nex
     peri__operands operands = peri__operands_of(b);
     int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
+        (void)peri__share_ghosts(b); /* for which other parts wait */
         peri__changed(b, PERI__ACTION);
         return status;
     }
@@ -154,7 +184,8 @@ static int32_t peri__one_step(void *context, peri_body *b, double dt, double nex
     b->now.time = next;
     b->now.steps++;
 
-    status = peri__apply_loads(b, next, dt);
+    status = peri__share_ghosts(b);
+    if (status == PERI_OK) status = peri__apply_loads(b, next, dt);
     if (status == PERI_OK) status = peri__apply_obstacles(b, next, dt);
     if (status < 0) {
         peri__changed(b, PERI__ACTION);
@@ -186,9 +217,23 @@ static int32_t peri__one_step(void *context, peri_body *b, double dt, double nex
     if (broke) peri__note_breaks(b, peri__load_time(b));
     if (b->before && broke) peri__report_breaks(b);
     if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
-    if (listed) return PERI_OK;
+    if (listed) return peri__agree_on_step(b);
     peri__changed(b, PERI__ACTION); /* the step was done by lists that miss what has come near of late */
     return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
+}
+
+/* Parts run alike, as long and by the same steps. */
+static int32_t peri__agree_on_run(peri_body *b, const peri_advance_desc *r) {
+    const double own[10] = { (double)r->steps, r->duration, r->time_step, r->safety, r->damping, (double)r->frame_steps, r->integrator,
+                             r->force_step, b->now.time, r->on_frame != NULL };
+    int32_t status = peri__agree_on_step(b);
+    for (int k = 0; b->model->part && k < 10 && status == PERI_OK; k += 2) {
+        double most[4] = { own[k], -own[k], own[k + 1], -own[k + 1] };
+        status = peri__agree(b, status, 4, most);
+        if (status == PERI_OK && (most[0] != -most[1] || most[2] != -most[3]))
+            status = peri__fail(b, PERI_ERROR_PART, "peri_advance_desc", -1, 0.0);
+    }
+    return status;
 }
 
 static int32_t peri__check_length(peri_body *b, const peri_advance_desc *r) {
@@ -210,12 +255,14 @@ static int32_t peri__check_length(peri_body *b, const peri_advance_desc *r) {
 }
 
 static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
-    const int32_t status = peri__check_length(b, r);
+    int32_t status = peri__check_length(b, r);
     if (status < 0) return status;
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (b->now.stale & PERI__STALE_STRETCH) peri__look_at_stretch(b);
     peri__look_at_free(b);
     if (!peri__look_at_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
+    status = peri__agree_on_run(b, r);
+    if (status < 0) return status;
     const double unit = b->model->time;
     if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */
         return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
@@ -234,11 +281,17 @@ static int32_t peri__show_frame(peri_body *b, const peri_advance_desc *r) {
     const int32_t said = r->on_frame(r->user, b);
     peri__leave(b, former);
     int32_t status = peri__heed(b, said, "peri_frame_fn");
+    if (b->model->part && status >= 0) {
+        b->stop |= status == PERI_STOPPED;
+        (void)peri__ensure(b, PERI__STALE_CONSTANTS);
+        status = peri__agree_on_step(b);
+        if (status == PERI_OK && b->stop) status = PERI_STOPPED;
+    }
     if (status != PERI_OK) return status;
     status = peri__settle_past(b);
     if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE);
     (void)peri__ensure(b, PERI__STALE_LEDGER);
-    return status;
+    return status == PERI_OK ? peri__agree_on_step(b) : status;
 }
 
 /* The rest of a run from the time `start` on: `full` steps of dt, the others, at most two, of `last`; to `end` where a duration is given.
@@ -292,6 +345,7 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r, peri__step_
     int32_t status = peri__plan_steps(b, r, r->duration, &plan);
     if (status == PERI_OK) status = peri__settle_past(b);
     if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE | PERI__STALE_LEDGER);
+    if (status == PERI_OK) status = peri__agree_on_step(b);
     if (status == PERI_OK) status = peri__heed_callbacks(b);
     if (status == PERI_OK) status = peri__fit_steps(b, r, &plan); /* what free obstacles are near is known by now */
     while (plan.done < plan.steps && status == PERI_OK) {
@@ -311,6 +365,7 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r, peri__step_
         if (central && (status == PERI_OK || status == PERI_ERROR_MEMORY)) {
             const int32_t back = peri__unstagger(b, size, damping);
             if (status == PERI_OK || back < 0) status = back;
+            if (status == PERI_OK) status = peri__agree(b, status, 0, NULL);
         }
         left_to_frame -= run;
         if (status != PERI_OK) break;
@@ -338,13 +393,14 @@ static int32_t peri__run(peri_body *b, const peri_advance_desc *r, peri__step_fn
 
 PERI_API int32_t peri_advance(peri_body *b, const peri_advance_desc *r) {
     PERI_NEED_IDLE(b);
+    b->told = b->break_said = b->stop = 0;
     int32_t status = peri__check_run(b, r);
     if (status == PERI_OK) status = peri__check_whole(b);
-    if (status < 0) return status;
+    if (status < 0) return peri__tell_parts(b, status);
     const int32_t former = peri__begin_run(b);
     peri_advance_desc settings = *r;
     status = peri__run(b, &settings, peri__one_step, &settings);
     peri__end_run(b, former);
-    return status;
+    return peri__tell_parts(b, status);
 }
 

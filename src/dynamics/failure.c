@@ -13,11 +13,12 @@
 #endif
 
 #define PERI_QUARTERS 4
+#define PERI_PART_QUARTERS 16 /* of parts, each of which goes by its middle: part.c                                      */
 
 typedef struct peri__deaths { /* the bonds in `dying` that break up to the end of a quarter                              */
     peri_body            *body;
     const peri__operands *operands;
-    int                   quarter;
+    int                   quarter, quarters;
     int64_t               bonds, count;  /* directed; points that lose one, then their neighbours too                    */
     double                late, share;   /* sums over the bonds: (1 - t) (1 + met)/2, share                              */
 } peri__deaths;
@@ -34,17 +35,18 @@ static int peri__is_dying(const peri_body *b, int64_t i) {
     return some != 0;
 }
 
-/* Is bond k of row i in the quarter? As its lower end sees it: with centroids the ends differ. */
+/* Is bond k of row i in the quarter? As its lower end sees it: with centroids the ends differ. Of parts a deep ghost keeps nothing of how
+   long its bonds have been over their limit. */
 static int peri__parts(const peri__deaths *s, int64_t i, const peri__row *row, int64_t k, peri__parting *parting) {
     const int64_t j = row->ids[k];
     if (!(s->body->dying[i * s->body->model->words + k / 32] >> (k % 32) & 1)) return 0;
-    if (i < j) *parting = s->body->ops->part(s->operands, i, row, k);
+    if (i < j || (s->body->model->part && s->body->model->part->depth[j] > 1)) *parting = s->body->ops->part(s->operands, i, row, k);
     else {
         peri__row other;
         peri__read_row(s->body, j, &other);
         *parting = s->body->ops->part(s->operands, j, &other, peri__find_bond(s->body->model, j, i));
     }
-    return s->quarter == PERI_QUARTERS - 1 || parting->moment * PERI_QUARTERS < s->quarter + 1;
+    return s->quarter == s->quarters - 1 || parting->moment * s->quarters < s->quarter + 1;
 }
 
 /* The points that lose a bond (1) and their neighbours (2); both ends of a bond lose it if one finds it over its limit. */
@@ -90,7 +92,7 @@ static void peri__part_point(peri__deaths *s, int64_t i) {
         peri__parting parting;
         if (!peri__parts(s, i, &row, k, &parting)) continue;
         b->alive[i * m->words + k / 32] &= ~flag;
-        b->now.broken++;
+        b->now.broken += !peri__is_ghost(m, i);
     }
     if (b->masks) peri__group_masks(m, i / PERI_GROUP, (uint32_t)1 << (i % PERI_GROUP), b->alive, b->masks);
     peri__set_constants(b, i, &row);
@@ -113,7 +115,7 @@ static double peri__power_at_stake(const peri__deaths *s) {
     const peri__model *m = b->model;
     double power = 0.0;
     for (int64_t n = 0; n < s->count; ++n)
-        for (int32_t d = 0; d < m->dim; ++d) {
+        for (int32_t d = 0; d < m->dim && !peri__is_ghost(m, b->near_dying[n]); ++d) {
             const int64_t i = b->near_dying[n], at = d * m->stride + i;
             power += m->volume[i] * peri__get_real(b->f, b->f32, at) * peri__get_real(b->v, b->f32, at);
         }
@@ -126,7 +128,9 @@ static void peri__break_quarter(peri__deaths *s) {
     const peri__operands *o = s->operands;
     peri__mark_dying(s);
     if (s->count == 0) return;
-    const double late = s->late / (double)s->bonds, time = 0.5 * o->step * s->share / (double)s->bonds;
+    const double middle = (s->quarter + 0.5) / s->quarters;
+    const double late = !b->model->part ? s->late / (double)s->bonds : o->closing ? 1.0 - middle : 0.0;
+    const double time = 0.5 * o->step * (b->model->part ? 2.0 * middle - 1.0 : s->share / (double)s->bonds);
     double power = peri__power_at_stake(s), energy = 0.0;
     b->ops->add_point_forces(o, b->near_dying, s->count, -1, time);
     energy = peri__energy_at_stake(s);
@@ -153,8 +157,9 @@ static void peri__break_states(peri_body *b, const peri__operands *at) {
     peri__operands operands = *at;
     operands.breaking = 0;
     operands.out = NULL;
-    for (int quarter = 0; quarter < PERI_QUARTERS; ++quarter) {
-        peri__deaths deaths = { b, &operands, quarter, 0, 0, 0.0, 0.0 };
+    const int quarters = b->model->part ? PERI_PART_QUARTERS : PERI_QUARTERS;
+    for (int quarter = 0; quarter < quarters; ++quarter) {
+        peri__deaths deaths = { b, &operands, quarter, quarters, 0, 0, 0.0, 0.0 };
         peri__break_quarter(&deaths);
     }
     peri__find_largest_row_sum(b);

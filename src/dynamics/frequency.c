@@ -268,7 +268,7 @@ static int peri__sharpen(peri_body *b) {
     if (!(b->now.stale & PERI__STALE_SHARP)) return 1;
     b->softens = peri__softens(b);
     b->sharp = HUGE_VAL;
-    if (!m->centroid && (b->softens || !m->breakable)) {
+    if (!m->centroid && !m->part && (b->softens || !m->breakable)) { /* parts go by the bound */
         (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
         const double most = peri__estimate_frequency(b);
         if (most < 0.0) return 0;

@@ -46,7 +46,7 @@ static void peri__group_reach(const peri_body *b, int64_t g, peri__reach *reach)
         for (int64_t n = 0; n < PERI_GROUP; ++n) {
             const int64_t i = g * PERI_GROUP + n, j = i + column[c].offset;
             double square = 0.0;
-            if (!(live >> n & 1)) continue;
+            if (!(live >> n & 1) || peri__is_ghost(m, i)) continue;
             for (int32_t d = 0; d < m->dim; ++d)
                 square += peri__square(bond->xi[d] + peri__get_real(b->u, b->f32, d * m->stride + j)
                                        - peri__get_real(b->u, b->f32, d * m->stride + i));
@@ -75,7 +75,8 @@ static void peri__reach_block(void *context, int64_t begin, int64_t end, peri__s
     if (b->model->stencil.columns > 0)
         for (int64_t g = begin / PERI_GROUP; g * PERI_GROUP < end; ++g) peri__group_reach(b, g, &reach);
     else
-        for (int64_t i = begin; i < end; ++i) peri__row_reach(b, i, &reach);
+        for (int64_t i = begin; i < end; ++i)
+            if (!peri__is_ghost(b->model, i)) peri__row_reach(b, i, &reach);
     sums->a = reach.most;
     sums->b = reach.least;
 }

@@ -157,7 +157,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
         }
         if (!(total > 0.0)) continue; /* refused later */
         if (b->desc.correction == PERI_CORRECTION_MOMENT && least >= 0.0) {
-            if (fitted >= 0 && peri__same_family(f, i, fitted)) {
+            if (fitted >= 0 && !m->part && peri__same_family(f, i, fitted)) {
                 memcpy(x, &f->factor[m->start[fitted]], (size_t)m->count[i] * sizeof *x);
                 continue;
             }
@@ -191,6 +191,7 @@ static void peri__apply_block(void *context, int64_t begin, int64_t end, peri__s
 static int peri__corrects(const peri_body *b, const peri__model *m) {
     int bonds = 0;
     for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].pairwise;
+    if (m->part) bonds = m->pairwise || m->mixed; /* of all parts */
     return b->desc.correction == PERI_CORRECTION_MOMENT || (bonds && b->desc.correction != PERI_CORRECTION_NONE);
 }
 

@@ -189,7 +189,7 @@ static int32_t peri__write_families(peri_body *b, peri__cloud *c, int numbered) 
     const int64_t blocks = c->cell_count / PERI_BLOCK + 1;
     m->order = c->order; /* which the model owns from now on, see peri__free_cells */
     if (!peri__make_rows(m)) return peri__fail(b, PERI_ERROR_MEMORY, "families", -1, 0.0);
-    numbered = numbered || m->width > PERI_VECTOR_LIMIT;
+    numbered = numbered || m->width > PERI_VECTOR_LIMIT || m->part; /* places depend on the partition */
     c->weighs = !numbered && b->desc.quadrature == PERI_QUADRATURE_FULL && b->desc.influence != PERI_INFLUENCE_USER;
     peri__sums *sums = (peri__sums *)peri__new(&m->memory, blocks, sizeof *sums);
     if (c->weighs) m->weight = peri__new_tail(&m->memory, m->entries, peri__bond_real(b), PERI_GROUP);

@@ -211,7 +211,7 @@ static int peri__build_row(peri__builder *d, int64_t i, const int32_t *ids, int6
     d->bonds += count;
     if (count > d->width) d->width = count;
     row_sum *= 2.0 / m->rho[m->material[i]];
-    if (row_sum > d->row_sum) d->row_sum = row_sum;
+    if (row_sum > d->row_sum) d->row_sum = row_sum; /* of ghosts, too: they have less than where they are owned */
     return peri__check_weight(c->body, total, stiff, m->pairwise) == PERI_OK;
 }
 
@@ -391,7 +391,7 @@ static int32_t peri__build_groups(peri__builder *d) {
         }
     }
     /* emptier columns than 2 in 5 take more than twice the time of the list: too much for the memory that they save */
-    return 5 * d->bonds >= 2 * PERI_GROUP * m->stencil.begin[m->stencil.groups] ? PERI_OK : PERI_ERROR_FAMILY;
+    return m->part || 5 * d->bonds >= 2 * PERI_GROUP * m->stencil.begin[m->stencil.groups] ? PERI_OK : PERI_ERROR_FAMILY;
 }
 
 static void peri__free_stencil(peri__model *m) {

@@ -245,7 +245,7 @@ PERI_VECTOR_CODE static void peri__weigh_hits(const peri__cloud *c, peri__near *
 static int peri__is_weighed(const peri__cloud *c, int64_t i, const peri__tally *t, double *row_sum) {
     const peri__model *m = c->model;
     const double share = peri__share(m, i), own = 2.0 * (t->row_sum / share) / m->rho[m->material[i]];
-    if (!(own <= *row_sum)) *row_sum = own;
+    if (!(own <= *row_sum) && !peri__is_ghost(m, i)) *row_sum = own;
     return t->blurred == 0
         && peri__check_weight(c->body, t->total / share, t->stiff / share, m->laws[m->material[i]].pairwise) == PERI_OK;
 }
@@ -263,7 +263,7 @@ static void peri__row_sum_block(void *context, int64_t begin, int64_t end, peri_
             row_sum += m->pairs[m->material[i] * m->materials + m->material[peri__entry_id(m, at)]].c
                   * fabs(peri__weight_of(m, i, m->weight, at)) / peri__listed_length(c, i, at);
         row_sum *= 2.0 / m->rho[m->material[i]];
-        if (row_sum > sums->a) sums->a = row_sum;
+        if (row_sum > sums->a && !peri__is_ghost(m, i)) sums->a = row_sum;
     }
 }
 

@@ -51,6 +51,7 @@ static void peri__free_setup(peri_body *b) {
     peri__delete(&b->memory, s->volume, s->point_capacity, sizeof(double));
     peri__delete(&b->memory, s->material, s->point_capacity, 1);
     peri__delete(&b->memory, s->ibond, s->ibond_entries, sizeof(int32_t));
+    peri__delete(&b->memory, s->part, s->part ? s->part->bytes : 0, 1);
     memset(s, 0, sizeof *s);
 }
 
@@ -160,6 +161,39 @@ PERI_API int64_t peri_add_box(peri_body *b, int32_t material, const double *lo, 
     peri__piece piece;
     int32_t status = peri__lattice(b, material, lo, hi, spacing, &piece);
     return status < 0 ? status : peri__add_lattice(b, material, &piece, NULL, NULL);
+}
+
+PERI_API int64_t peri_add_box_part(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing,
+                                   const int32_t *first, const int32_t *last) {
+    peri__piece piece;
+    int64_t count = 1;
+    int32_t status = peri__lattice(b, material, lo, hi, spacing, &piece);
+    if (status < 0) return status;
+    PERI_NEED(b, first, "first");
+    PERI_NEED(b, last, "last");
+    const double volume = piece.cell[0] * piece.cell[1] * (b->dim == 3 ? piece.cell[2] : 1.0);
+    if (!(volume > 0.0 && peri__finite(volume))) return peri__fail(b, PERI_ERROR_RANGE, "spacing", -1, volume);
+    for (int32_t d = 0; d < b->dim; ++d) {
+        if (first[d] < 0 || first[d] >= piece.cells[d]) return peri__fail(b, PERI_ERROR_RANGE, "first", d, first[d]);
+        if (last[d] <= first[d] || last[d] > piece.cells[d]) return peri__fail(b, PERI_ERROR_RANGE, "last", d, last[d]);
+        count *= last[d] - first[d];
+    }
+    status = peri__reserve_points(b, count);
+    if (status < 0) return status;
+    peri__setup *s = &b->setup;
+    for (int64_t k = 0; k < count; ++k) {
+        int64_t rest = k;
+        for (int32_t d = 0; d < b->dim; ++d) {
+            s->local[(s->point_count + k) * b->dim + d] = (double)(first[d] + rest % (last[d] - first[d])) + 0.5;
+            rest /= last[d] - first[d];
+        }
+        s->volume[s->point_count + k] = volume;
+        s->material[s->point_count + k] = (uint8_t)(PERI_ID_INDEX(material) - 1);
+    }
+    piece.count = count;
+    s->pieces[s->piece_count++] = piece;
+    s->point_count += count;
+    return count;
 }
 
 PERI_API int64_t peri_add_shape(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing,
@@ -332,6 +366,17 @@ PERI_API int32_t peri_set_families(peri_body *b, int32_t width, const int32_t *i
     return PERI_OK;
 }
 
+/* To a multiple of 2^-34: coordinates of lattices of up to 2^18 cells, and their differences, are then exact, so that bonds that are alike
+   have the same bits wherever in a body they are. What that moves is 6e-11 of a cell over the length of one. */
+static double peri__snapped(double a) { return floor(ldexp(a, 34) + 0.5) * ldexp(1.0, -34); }
+
+/* The frame of a part, for that of its own points. */
+static void peri__take_frame(const peri__domain *part, peri__model *m, int32_t dim, double *mean_volume) {
+    m->length = part->desc.length;
+    *mean_volume = part->desc.mean_volume;
+    for (int32_t d = 0; d < dim; ++d) m->origin[d] = part->desc.origin[d];
+}
+
 /* The units of the model, and the positions and volumes in them: a lattice's coordinates are exact half-integers when it is
    the body's first piece. */
 static void peri__scale_points(const peri_body *b, peri__model *m, double *x) {
@@ -346,6 +391,7 @@ static void peri__scale_points(const peri_body *b, peri__model *m, double *x) {
         for (int64_t i = 0; !first->lattice && i < first->count; ++i)
             if (s->local[i * dim + d] < m->origin[d]) m->origin[d] = s->local[i * dim + d];
     }
+    if (s->part) peri__take_frame(s->part, m, dim, &total);
     const double unit = m->length * m->length * (dim == 3 ? m->length : 1.0);
     m->spacing = pow(total / unit, 1.0 / dim); /* a pure number before the root: the same in all units that are powers of two */
     m->horizon = b->desc.horizon / m->length;
@@ -354,9 +400,9 @@ static void peri__scale_points(const peri_body *b, peri__model *m, double *x) {
         for (int64_t i = piece->first; i < piece->first + piece->count; ++i)
             for (int32_t d = 0; d < dim; ++d) {
                 double local = s->local[i * dim + d];
-                x[i * dim + d] = piece->lattice ? (piece->origin[d] - m->origin[d]) / m->length
-                                                      + local * (piece->cell[d] / m->length)
-                                                : (local - m->origin[d]) / m->length;
+                double from = (piece->origin[d] - m->origin[d]) / m->length, cell = piece->cell[d] / m->length;
+                if (s->part) from = peri__snapped(from), cell = peri__snapped(cell);
+                x[i * dim + d] = piece->lattice ? from + local * cell : (local - m->origin[d]) / m->length;
                 if (fabs(x[i * dim + d]) > m->extent) m->extent = fabs(x[i * dim + d]);
             }
     }

@@ -77,7 +77,7 @@ static void PERI_FN(force_list)(const peri__operands *o, int64_t begin, int64_t 
         else if (o->fields && !tensors) by_row = PERI_BY_VECTORS(m, list_fielded)(o, k, f);
         else if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
         else if (!tensors) by_row = PERI_BY_VECTORS(m, list_ordinary)(o, k, f);
-        else by_row = o->central[i / PERI_GROUP] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
+        else by_row = o->central[i / peri__central_of(m)] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
         if (by_row) {
             PERI_FN(force_rows)(o, i, i + 1, sums);
             for (int d = 0; d < PERI_D; ++d) f[d] = 0;
@@ -132,7 +132,9 @@ static uint32_t PERI_FN(group_force)(const peri__operands *o, int64_t g, peri_r 
     if (m->pairwise) return rows | PERI_BY_VECTORS(m, pairwise)(o, g, f);
     if (m->stencil.ends) return rows | PERI_BY_VECTORS(m, mixed)(o, g, f);
     if (!(m->gathers & PERI__GRADIENT)) return rows | PERI_BY_VECTORS(m, ordinary)(o, g, f);
-    return o->central[g] ? 0xFFFFu : rows | PERI_BY_VECTORS(m, tensor)(o, g, f);
+    for (int l = 0; m->part && l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l)
+        rows |= (uint32_t)o->central[g * PERI_GROUP + l] << l;
+    return !m->part && o->central[g] ? 0xFFFFu : rows | PERI_BY_VECTORS(m, tensor)(o, g, f);
 }
 
 /* The points of group g whose bits are set are done by rows, the others get f. */
@@ -289,6 +291,6 @@ static void PERI_FN(energy)(void *context, int64_t begin, int64_t end, peri__sum
         if (!columns) peri__row_of(m, i, &row);
         const double density = columns ? group[i % PERI_GROUP] : PERI_FN(point_energy)(o, i, &row);
         if (o->out) o->out[i] = density;
-        sums->a += density * m->volume[i];
+        if (!o->ghost || !o->ghost[i]) sums->a += density * m->volume[i];
     }
 }

@@ -290,7 +290,7 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
 }
 
 /* The force density of the bonds of point i is added to f. sums: a energy of bonds that broke, n the (directed) number of those that broke
-   or are to. */
+   or are to; a without, b the number of pairwise bonds of ghosts. */
 static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, peri__sums *sums) {
     const peri__model *m = s->model;
     peri_r impulse[PERI_D] = { 0 };
@@ -304,8 +304,13 @@ static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, 
         else sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 0);
         return;
     }
+    const double lost = sums->a;
     const int32_t broke = plain ? PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0, 1)
                                 : PERI_FN(row_force)(s, i, &row, f, impulse, &sums->a, 1, 0, 0);
+    if (s->ghost && s->ghost[i]) {
+        sums->a = lost;
+        sums->b += broke;
+    }
     for (int d = 0; broke && s->closing && d < PERI_D; ++d) ((peri_r *)s->closing)[d * m->stride + i] = impulse[d];
     sums->n += broke;
 }

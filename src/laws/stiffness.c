@@ -99,7 +99,7 @@ PERI_INLINE double peri__row_sum_of(const peri_body *b, int32_t dim, int64_t i) 
         if (!peri__is_alive(b, i, k)) continue;
         peri__bond_of(m, b->f32, i, j, xi);
         if (tensors && (peri__get_constant(b, i, PERI__SPRING) > 0.0 || peri__get_constant(b, j, PERI__SPRING) > 0.0))
-            b->central[i / PERI_GROUP] = 1;
+            b->central[i / peri__central_of(b->model)] = 1;
         const double along = 2.0 * (own * peri__spring(b, i, j, bond) + back * peri__spring(b, j, i, bond));
         double round = even ? along : 0.0;
         if (tensors)
@@ -223,7 +223,8 @@ static void peri__row_sums_block(void *context, int64_t begin, int64_t end, peri
 static void peri__find_largest_row_sum(peri_body *b) {
     b->largest_row_sum = 0.0;
     for (int64_t i = 0; i < b->model->points; ++i)
-        if (!(b->row_sum[i] <= b->largest_row_sum)) b->largest_row_sum = b->row_sum[i]; /* NaN, too: it is refused */
+        if (!(b->row_sum[i] <= b->largest_row_sum) && !peri__is_ghost(b->model, i))
+            b->largest_row_sum = b->row_sum[i]; /* NaN, too: it is refused */
 }
 
 /* Brings the constants up to date with the bonds that are left. */
@@ -231,9 +232,10 @@ static void peri__refresh(peri_body *b) {
     peri__refresher r;
     if (!(b->now.stale & PERI__STALE_CONSTANTS)) return;
     r.body = b;
-    r.whole = b->model->stencil.columns > 0 && b->now.cut == 0 && b->now.broken == 0 && !b->stiffness;
+    r.whole = b->model->stencil.columns > 0 && b->now.cut == 0 && b->now.broken == 0 && !b->stiffness
+          && !b->model->part; /* of which some may be whole and others not */
     if (r.whole) peri__find_equal_groups(b);
-    if (b->central) memset(b->central, 0, (size_t)(b->model->points / PERI_GROUP + 1));
+    if (b->central) memset(b->central, 0, (size_t)(b->model->points / peri__central_of(b->model) + 1));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__constants_block, &r, NULL);
     if (r.whole) peri__copy_equal_groups(b, peri__constant_planes(b->model));
     peri__for_points(b, b->model->points, 4 * b->model->width, peri__row_sums_block, &r, NULL);

@@ -325,6 +325,7 @@ static int32_t peri__save_section(peri__saver *s, uint64_t name, uint64_t number
 
 PERI_API int32_t peri_save_state_to(peri_body *b, peri_write_fn write, void *user) {
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_save_state_to");
     PERI_NEED(b, write, "write");
     const int32_t status = b->running ? PERI_OK : peri__check_whole(b);
     if (status < 0) return status;
@@ -476,6 +477,7 @@ static int32_t peri__load_all(peri__loader *l, peri__section *list, int64_t coun
 
 PERI_API int32_t peri_load_state_from(peri_body *b, peri_read_fn read, void *user) {
     PERI_NEED_IDLE(b);
+    PERI_NEED_WHOLE(b, "peri_load_state_from");
     PERI_NEED(b, read, "read");
     const int64_t most = peri__most_sections(b);
     uint64_t words[PERI__STATE_WORDS];

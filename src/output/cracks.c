@@ -200,6 +200,7 @@ static int32_t peri__check_cracks(peri_body *b, const peri_cracks_desc *d) {
 PERI_API int32_t peri_cracks_create(peri_body *b, const peri_cracks_desc *desc, peri_cracks **cracks) {
     if (cracks) *cracks = NULL;
     PERI_NEED_BUILT(b);
+    PERI_NEED_WHOLE(b, "peri_cracks_create");
     PERI_NEED(b, cracks, "cracks");
     const int32_t status = peri__check_cracks(b, desc);
     if (status < 0) return status;

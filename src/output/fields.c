@@ -316,15 +316,39 @@ PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, i
     return PERI_OK;
 }
 
+/* The ledger of all parts, of which *e has what this one stores. */
+static int32_t peri__share_energy(peri_body *b, int32_t status, peri_energy *e) {
+    const peri__ledger *l = &b->now.ledger;
+    const double unit = b->model->energy;
+    double sum[7] = { e->kinetic, e->elastic, l->fracture * unit, l->external * unit, l->obstacle * unit, l->damping * unit,
+                      l->initial * unit };
+    if (b->now.stale & PERI__STALE_LEDGER) sum[6] += e->kinetic + e->elastic - l->before * unit;
+    status = peri__share_total(b, status, 7, sum);
+    memset(e, 0, sizeof *e);
+    if (status < 0) return status;
+    e->kinetic = sum[0];
+    e->elastic = sum[1];
+    e->fracture = sum[2];
+    if (!b->desc.ledger) return PERI_OK;
+    e->external = sum[3];
+    e->obstacle = sum[4];
+    e->damping = sum[5];
+    e->initial = sum[6];
+    e->error = e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->damping - e->fracture;
+    return PERI_OK;
+}
+
 PERI_API int32_t peri_get_energy(peri_body *b, peri_energy *e) {
     PERI_NEED_BUILT(b);
     PERI_NEED(b, e, "energy");
     const peri__ledger *l = &b->now.ledger;
     double unit = b->model->energy;
     memset(e, 0, sizeof *e);
+    int32_t status = b->running > PERI__IN_FRAME ? PERI_OK : peri__share_ghosts(b);
     e->kinetic = peri__kinetic_energy(b) * unit;
     e->elastic = peri__elastic_energy(b, NULL) * unit;
-    const int32_t status = peri__heed_laws(b);
+    if (status == PERI_OK) status = peri__heed_laws(b);
+    if (b->model->part) return peri__share_energy(b, status, e);
     if (status < 0) return status;
     if (b->contact && !peri__ready_contact(b)) return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
     e->contact = peri__contact_energy(b) * unit;
@@ -350,6 +374,7 @@ PERI_API int32_t peri_get_momentum(peri_body *b, double *linear, double *angular
     (void)peri__stored_view(b, PERI_FIELD_VELOCITY, &v);
     for (int64_t i = 0; i < m->points; ++i) {
         double y[3] = { 0.0, 0.0, 0.0 }, p[3] = { 0.0, 0.0, 0.0 }, mass = peri__mass(b, i) * unit, cross[3];
+        if (peri__is_ghost(m, i)) continue;
         for (int32_t d = 0; d < m->dim; ++d) {
             y[d] = peri__view_at(&x, i, d) + peri__view_at(&u, i, d);
             p[d] = mass * peri__view_at(&v, i, d);
@@ -358,6 +383,11 @@ PERI_API int32_t peri_get_momentum(peri_body *b, double *linear, double *angular
         peri__cross(y, p, cross);
         for (int d = 0; d < 3; ++d) turn[d] += cross[d];
     }
+    double both[6] = { total[0], total[1], total[2], turn[0], turn[1], turn[2] };
+    const int32_t status = peri__share_total(b, PERI_OK, 6, both);
+    if (status < 0) return status;
+    memcpy(total, both, sizeof total);
+    memcpy(turn, both + 3, sizeof turn);
     if (linear) memcpy(linear, total, (size_t)m->dim * sizeof(double));
     if (angular && m->dim == 3) memcpy(angular, turn, sizeof turn);
     if (angular && m->dim == 2) *angular = turn[2];

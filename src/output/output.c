@@ -73,11 +73,13 @@ static void peri__emit_length(peri__writer *w, int64_t bytes) {
     peri__emit(w, &length, sizeof length);
 }
 
-/* The fragment of each point, known before anything is written. A body that was never asked for them keeps nothing. */
+/* The fragment of each point, known before anything is written. A body that was never asked for them keeps nothing. Parts have none: 0 of
+   points that are owned, and -1 of ghosts, to tell them apart by. */
 static int32_t peri__fill_fragments(peri_body *b, double *out) {
     const int known = b->fragment_of != NULL;
-    const int32_t status = peri__label_fragments(b);
-    if (status < 0) return status;
+    for (int64_t i = 0; b->model->part && i < b->model->points; ++i) out[i] = -peri__is_ghost(b->model, i);
+    const int32_t status = b->model->part ? PERI_OK : peri__label_fragments(b);
+    if (status < 0 || b->model->part) return status;
     peri__compute(b, PERI_FIELD_FRAGMENT, out);
     peri__forget_fragments(b, known);
     return PERI_OK;
@@ -186,9 +188,9 @@ PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write
         peri__emit(&w, text, (size_t)(peri__put_double(text, numbers[k]) - text));
     }
     peri__emit_text(&w, ",");
-    peri__emit_integer(&w, b->now.broken / 2);
+    peri__emit_integer(&w, peri_broken_count(b));
     peri__emit_text(&w, ",");
-    peri__emit_integer(&w, b->now.cut / 2);
+    peri__emit_integer(&w, peri_cut_count(b));
     peri__emit_text(&w, "\n");
     return peri__finish(b, &w);
 }

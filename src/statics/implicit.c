@@ -248,6 +248,7 @@ PERI_API int32_t peri_advance_implicit(peri_body *b, const peri_advance_desc *ad
     peri_advance_desc r;
     if (report) memset(report, 0, sizeof *report);
     PERI_NEED_IDLE(b);
+    PERI_NEED_WHOLE(b, "peri_advance_implicit");
     peri_solve_desc_init(&settings);
     int32_t status = peri__check_implicit(b, advance, solve ? solve : &settings, rho);
     if (status < 0) return status;

@@ -236,6 +236,7 @@ static int32_t peri__assemble(peri_body *b, const peri__memory *memory, peri_mat
 PERI_API int32_t peri_matrix_create(peri_body *b, peri_matrix **matrix) {
     if (matrix) *matrix = NULL;
     PERI_NEED_BUILT(b);
+    PERI_NEED_WHOLE(b, "peri_matrix_create");
     PERI_NEED(b, matrix, "matrix");
     if (b->model->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
     if (b->model->inelastic) return peri__fail(b, PERI_ERROR_LAW, "peri_matrix_create", -1, 0.0);

@@ -182,6 +182,7 @@ static void peri__count_stray(peri__solver *s) {
 
 PERI_API int32_t peri_solve(peri_body *b, const peri_solve_desc *st, peri_solve_report *report) {
     PERI_NEED_IDLE(b);
+    PERI_NEED_WHOLE(b, "peri_solve");
     peri__solver s;
     int32_t status = peri__check_statics(b, st);
     if (status == PERI_OK) status = peri__check_whole(b);

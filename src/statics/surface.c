@@ -179,6 +179,7 @@ PERI_API int32_t peri_apply_traction(peri_body *b, int32_t id, double area, cons
     peri__surface f;
     double unit[3];
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_apply_traction");
     PERI_NEED_NUMBER(b, area > 0.0, area);
     PERI_NEED_VECTOR(b, normal);
     PERI_NEED(b, value || fn, "value");
@@ -196,6 +197,7 @@ PERI_API int32_t peri_apply_pressure(peri_body *b, int32_t id, double pressure, 
     peri__surface f;
     const double value[3] = { pressure, 0.0, 0.0 };
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_apply_pressure");
     PERI_NEED_NUMBER(b, 1, pressure);
     const int32_t set = peri__find_set(b, id);
     if (set < 0) return set;
@@ -207,6 +209,7 @@ PERI_API int32_t peri_apply_pressure(peri_body *b, int32_t id, double pressure, 
 PERI_API int32_t peri_apply_bond_pressure_for_comparison(peri_body *b, int32_t id, double pressure, peri_load_fn fn, void *user) {
     const double value[3] = { pressure, 0.0, 0.0 };
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_apply_bond_pressure_for_comparison");
     PERI_NEED_NUMBER(b, 1, pressure);
     const int32_t set = peri__find_set(b, id);
     if (set < 0) return set;

@@ -259,6 +259,7 @@ static int32_t peri__multiply_there(peri_body *b, peri__product *product, const 
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
     peri__product product;
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_multiply_stiffness");
     int32_t status = peri__check_product(b, &product, in, out, count);
     if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE); /* the response is then that of u */
     if (status == PERI_OK && b->model->inelastic) return peri__multiply_there(b, &product, NULL);
@@ -310,6 +311,7 @@ static int32_t peri__multiply_there(peri_body *b, peri__product *product, const 
 PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displacement, const double *in, double *out, int64_t count) {
     peri__product product;
     PERI_NEED_CHANGEABLE(b);
+    PERI_NEED_WHOLE(b, "peri_multiply_stiffness_at");
     PERI_NEED(b, displacement, "displacement");
     int32_t status = peri__check_product(b, &product, in, out, count);
     if (status == PERI_OK) status = peri__check_state(b, b->u, displacement, count, b->model->length, "displacement");

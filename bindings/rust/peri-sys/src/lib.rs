@@ -90,6 +90,8 @@ pub const PERI_ERROR_WRITE: i32 = -36;
 pub const PERI_ERROR_LEFT_OUT: i32 = -37;
 /// no saved state of such a body, or damaged; value: the byte
 pub const PERI_ERROR_STATE: i32 = -38;
+/// not of a part of a body; or its ghosts are not as owned
+pub const PERI_ERROR_PART: i32 = -39;
 
 // peri_kind
 pub const PERI_KIND_MATERIAL: i32 = 2201;
@@ -249,6 +251,10 @@ pub const PERI_SOFTENING_TABLE: i32 = 2904;
 pub const PERI_UNLOADING_SECANT: i32 = 3001;
 /// as stiff as new: a stretch stays
 pub const PERI_UNLOADING_ELASTIC: i32 = 3002;
+
+// peri_reduction
+pub const PERI_REDUCTION_SUM: i32 = 3901;
+pub const PERI_REDUCTION_MAX: i32 = 3902;
 
 // peri_standing
 /// an initial crack: stays at peri\_reset. Only before the first step
@@ -467,6 +473,11 @@ pub type peri_bond_law_fn = Option<unsafe extern "C" fn(user: *mut c_void, row: 
 pub type peri_write_fn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i64) -> i32>;
 /// Writes the next \`count\` bytes to \`bytes\`; all but 0 is a failure, as where fewer are left.
 pub type peri_read_fn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *mut c_void, count: i64) -> i32>;
+/// plane\[k\]\[i\], of type PERI\_TYPE\_F64 or \_F32, is of point i: send those of your points to where they are ghosts, and write
+/// those of ghosts. Once per step; \`planes\` is alike on all parts.
+pub type peri_exchange_fn = Option<unsafe extern "C" fn(user: *mut c_void, r#type: i32, planes: i32, plane: *mut *const c_void) -> i32>;
+/// values\[count\] become their sums or maxima. Once per step, and in most calls.
+pub type peri_reduce_fn = Option<unsafe extern "C" fn(user: *mut c_void, reduction: i32, count: i64, values: *mut f64) -> i32>;
 /// Every frame\_steps steps and at the end of a run; at each equilibrium of peri\_solve. \> 0 stops. It may also cut, select, set
 /// no-fail zones and contact, add or remove loads and obstacles.
 pub type peri_frame_fn = Option<unsafe extern "C" fn(user: *mut c_void, body: *mut peri_body) -> i32>;
@@ -662,6 +673,34 @@ pub struct peri_softening_desc {
     pub count: i64,
     /// \[count\*2\] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
     pub table: *const f64,
+}
+
+/// Ghosts: copies of points that other parts own, peri\_ghost\_depth horizons deep. They bear no load and are in no set, sum or
+/// count. Give them all else that their owners have: cuts, motion.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct peri_part_desc {
+    /// set by init
+    pub cookie: u64,
+    /// \[L\] this, and the next two: any, alike on all parts. Required
+    pub origin: [f64; 3],
+    /// \[L\] \> 0: the spacing
+    pub length: f64,
+    /// \[L^3\] \> 0, planes \[L^2\], of a point
+    pub mean_volume: f64,
+    /// Default 0
+    pub ghost_count: i64,
+    /// \[ghost\_count\] points, ascending
+    pub ghosts: *const i32,
+    /// \[ghost\_count\] the point that it is an image of in a periodic body, or -1. Default NULL: none is
+    pub owners: *const i32,
+    /// \[points\] in the whole body, ascending. Default NULL: 0, 1, ...
+    pub ids: *const i64,
+    /// where another part owns ghosts. Default NULL
+    pub exchange: peri_exchange_fn,
+    /// of several parts. Default NULL
+    pub reduce: peri_reduce_fn,
+    pub user: *mut c_void,
 }
 
 /// A rigid body of point masses; in 2D vectors end with 0.
@@ -1188,6 +1227,15 @@ unsafe extern "C" {
     /// Families of yours instead of a search: ibond\[points\*width\] as in \[T\] 3.11, row i padded with i. Membership must be
     /// mutual. Weights are computed as for found families, of whose horizon they must be.
     pub fn peri_set_families(body: *mut peri_body, width: i32, ibond: *const i32) -> i32;
+    pub fn peri_part_desc_init(desc: *mut peri_part_desc);
+    /// After the points, before peri\_build. All parts make the same calls.
+    pub fn peri_set_part(body: *mut peri_body, desc: *const peri_part_desc) -> i32;
+    /// 1 or 2, before peri\_build; the deepest that its materials need.
+    pub fn peri_ghost_depth(body: *const peri_body) -> i32;
+    /// H\[dim\*dim\] \[-\] by rows: images have their owner's displacement + H (distance). Default 0
+    pub fn peri_set_mean_gradient(body: *mut peri_body, gradient: *const f64) -> i32;
+    /// Of the cells of peri\_add\_box those from first\[dim\] to before last\[dim\].
+    pub fn peri_add_box_part(body: *mut peri_body, material: i32, lo: *const f64, hi: *const f64, spacing: f64, first: *const i32, last: *const i32) -> i64;
     /// Finds the families, computes weights and constants, takes the state. Warns of rows of points, and of sheets of them in 3D: no
     /// constants are for these. After a failure the body is as it was: add what is missing and build again.
     pub fn peri_build(body: *mut peri_body) -> i32;

@@ -270,6 +270,8 @@ pub const ERROR_WRITE: i32 = sys::PERI_ERROR_WRITE;
 pub const ERROR_LEFT_OUT: i32 = sys::PERI_ERROR_LEFT_OUT;
 /// no saved state of such a body, or damaged; value: the byte
 pub const ERROR_STATE: i32 = sys::PERI_ERROR_STATE;
+/// not of a part of a body; or its ghosts are not as owned
+pub const ERROR_PART: i32 = sys::PERI_ERROR_PART;
 pub const KIND_MATERIAL: i32 = sys::PERI_KIND_MATERIAL;
 pub const KIND_SET: i32 = sys::PERI_KIND_SET;
 /// supports included
@@ -399,6 +401,8 @@ pub const SOFTENING_TABLE: i32 = sys::PERI_SOFTENING_TABLE;
 pub const UNLOADING_SECANT: i32 = sys::PERI_UNLOADING_SECANT;
 /// as stiff as new: a stretch stays
 pub const UNLOADING_ELASTIC: i32 = sys::PERI_UNLOADING_ELASTIC;
+pub const REDUCTION_SUM: i32 = sys::PERI_REDUCTION_SUM;
+pub const REDUCTION_MAX: i32 = sys::PERI_REDUCTION_MAX;
 /// an initial crack: stays at peri\_reset. Only before the first step
 pub const CUT_INITIAL: i32 = sys::PERI_CUT_INITIAL;
 /// counts as broken, whole again at peri\_reset
@@ -877,6 +881,95 @@ impl<'a> SofteningDesc<'a> {
         raw.table = self.table.as_ptr();
         raw.count = self.table.len() as i64 / 2;
         raw
+    }
+}
+
+/// Ghosts: copies of points that other parts own, peri\_ghost\_depth horizons deep. They bear no load and are in no set, sum or
+/// count. Give them all else that their owners have: cuts, motion.
+pub struct PartDesc<'a> {
+    /// \[L\] this, and the next two: any, alike on all parts. Required
+    pub origin: [f64; 3],
+    /// \[L\] \> 0: the spacing
+    pub length: f64,
+    /// \[L^3\] \> 0, planes \[L^2\], of a point
+    pub mean_volume: f64,
+    /// \[ghost\_count\] points, ascending
+    pub ghosts: &'a [i32],
+    /// \[ghost\_count\] the point that it is an image of in a periodic body, or -1. Default NULL: none is
+    pub owners: &'a [i32],
+    /// \[points\] in the whole body, ascending. Default NULL: 0, 1, ...
+    pub ids: &'a [i64],
+    /// where another part owns ghosts. Default NULL (type, planes, plane)
+    pub exchange: Option<Box<dyn Fn(i32, i32, &[u8]) -> i32 + Send + Sync>>,
+    /// of several parts. Default NULL (reduction, values)
+    pub reduce: Option<Box<dyn Fn(i32, &mut [f64]) -> i32 + Send + Sync>>,
+}
+
+impl<'a> PartDesc<'a> {
+    /// The defaults.
+    pub fn new() -> Self {
+        let raw = Self::start();
+        Self {
+            origin: raw.origin,
+            length: raw.length,
+            mean_volume: raw.mean_volume,
+            ghosts: &[],
+            owners: &[],
+            ids: &[],
+            exchange: None,
+            reduce: None,
+        }
+    }
+    fn start() -> sys::peri_part_desc {
+        let mut raw = std::mem::MaybeUninit::<sys::peri_part_desc>::zeroed();
+        unsafe {
+            sys::peri_part_desc_init(raw.as_mut_ptr());
+            raw.assume_init()
+        }
+    }
+    #[allow(unused_mut)]
+    fn raw(&self, _dim: i64) -> sys::peri_part_desc {
+        let mut raw = Self::start();
+        raw.origin = self.origin;
+        raw.length = self.length;
+        raw.mean_volume = self.mean_volume;
+        raw.ghosts = self.ghosts.as_ptr();
+        raw.ghost_count = self.ghosts.len() as i64 / 1;
+        raw.owners = self.owners.as_ptr();
+        raw.ghost_count = self.owners.len() as i64 / 1;
+        raw.ids = self.ids.as_ptr();
+        raw
+    }
+}
+
+impl<'a> Default for PartDesc<'a> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+struct PartDescUser {
+    exchange: Option<Box<dyn Fn(i32, i32, &[u8]) -> i32 + Send + Sync>>,
+    reduce: Option<Box<dyn Fn(i32, &mut [f64]) -> i32 + Send + Sync>>,
+}
+
+impl PartDescUser {
+    unsafe extern "C" fn exchange_c(user: *mut c_void, r#type: i32, planes: i32, plane: *mut *const c_void) -> i32 {
+        let this = unsafe { &*(user as *const PartDescUser) };
+        guarded(|| unsafe { if let Some(f) = this.exchange.as_ref() { f(r#type, planes, slice(plane as *const u8, count)) } else { -1 } })
+    }
+    unsafe extern "C" fn reduce_c(user: *mut c_void, reduction: i32, count: i64, values: *mut f64) -> i32 {
+        let this = unsafe { &*(user as *const PartDescUser) };
+        guarded(|| unsafe { if let Some(f) = this.reduce.as_ref() { f(reduction, slice_mut(values, count)) } else { -1 } })
+    }
+    fn fill(&self, raw: &mut sys::peri_part_desc, user: *mut c_void) {
+        raw.user = user;
+        if self.exchange.is_some() {
+            raw.exchange = Some(Self::exchange_c);
+        }
+        if self.reduce.is_some() {
+            raw.reduce = Some(Self::reduce_c);
+        }
     }
 }
 /// A rigid body of point masses; in 2D vectors end with 0.
@@ -1772,6 +1865,40 @@ impl Body {
         sized(ibond.len(), self.point_count()*i64::from(width), "ibond")?;
         let result = unsafe { sys::peri_set_families(self.handle, width, ibond.as_ptr()) };
         self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// After the points, before peri\_build. All parts make the same calls.
+    pub fn set_part(&self, desc: PartDesc) -> Result<i32> {
+        let dim = i64::from(self.dimension());
+        let mut desc_raw = desc.raw(dim);
+        let user_holder = Arc::new(PartDescUser { exchange: desc.exchange, reduce: desc.reduce });
+        user_holder.fill(&mut desc_raw, Arc::as_ptr(&user_holder) as *mut c_void);
+        keep(&self.keep, user_holder);
+        let result = unsafe { sys::peri_set_part(self.handle, &desc_raw) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// 1 or 2, before peri\_build; the deepest that its materials need.
+    pub fn ghost_depth(&self) -> Result<i32> {
+        let result = unsafe { sys::peri_ghost_depth(self.handle) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// H\[dim\*dim\] \[-\] by rows: images have their owner's displacement + H (distance). Default 0
+    pub fn set_mean_gradient(&self, gradient: &[f64]) -> Result<i32> {
+        sized(gradient.len(), i64::from(self.dimension()), "gradient")?;
+        let result = unsafe { sys::peri_set_mean_gradient(self.handle, gradient.as_ptr()) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// Of the cells of peri\_add\_box those from first\[dim\] to before last\[dim\].
+    pub fn add_box_part(&self, material: i32, lo: &[f64], hi: &[f64], spacing: f64, first: &[i32], last: &[i32]) -> Result<i64> {
+        sized(lo.len(), i64::from(self.dimension()), "lo")?;
+        sized(hi.len(), i64::from(self.dimension()), "hi")?;
+        sized(first.len(), i64::from(self.dimension()), "first")?;
+        sized(last.len(), i64::from(self.dimension()), "last")?;
+        let result = unsafe { sys::peri_add_box_part(self.handle, material, lo.as_ptr(), hi.as_ptr(), spacing, first.as_ptr(), last.as_ptr()) };
+        self.check(result)?;
         Ok(result)
     }
     /// Finds the families, computes weights and constants, takes the state. Warns of rows of points, and of sheets of them in 3D: no
