@@ -518,7 +518,7 @@ PERI_API int32_t peri_set_families(peri_body *body, int32_t width, const int32_t
 
 /* plane[k][i], of type PERI_TYPE_F64 or _F32, is of point i: send those of your points to where
    they are ghosts, and write those of ghosts. Once per step; `planes` is alike on all parts. */
-typedef int32_t (*peri_exchange_fn)(void *user, int32_t type, int32_t planes, void *const *plane);
+typedef int32_t (*peri_exchange_fn)(void *user, int32_t type, int32_t planes, void **plane);
 
 typedef enum peri_reduction { /* over all parts */
     PERI_REDUCTION_SUM = 3901,

@@ -50,7 +50,7 @@ static inline int world_meet(world *w) {
     return hung;
 }
 
-static inline int32_t rank_exchange(void *user, int32_t type, int32_t planes, void *const *plane) {
+static inline int32_t rank_exchange(void *user, int32_t type, int32_t planes, void **plane) {
     rank *r = (rank *)user;
     world *w = r->w;
     const size_t size = type == PERI_TYPE_F32 ? 4 : 8;

@@ -53,7 +53,7 @@ class Run(C.Structure):
 
 class Statics(C.Structure):
     _fields_ = ([("cookie", C.c_uint64)]
-                + [(n, C.c_int32) for n in ("method", "preconditioner", "loose", "fracture", "control", "curve_load")]
+                + [(n, C.c_int32) for n in ("method", "preconditioner", "loose", "fracture", "control", "curve_load", "keep", "reserved")]
                 + [(n, C.c_double) for n in ("criticality", "tolerance", "energy_tolerance")]
                 + [(n, C.c_int64) for n in ("iterations", "newton", "breaks")]
                 + [("load_from", C.c_double), ("load_to", C.c_double), ("steps", C.c_int64), ("duration", C.c_double),

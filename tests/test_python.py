@@ -320,7 +320,16 @@ def exceptions_pass_through():
         body.displacement = np.stack([1e-3 * body.position[:, 0], np.zeros(24)], axis=1)
         body.advance(steps=1)
 
+    def part(**hook):
+        body = unbuilt()
+        body.add_box([0, 0], [1.2, 0.2], 0.1)
+        body.set_part(origin=[0, 0, 0], length=0.1, mean_volume=0.01, **hook)
+        body.build()
+        body.advance(steps=1)
+
     kinds = {
+        "exchange": lambda: part(exchange=fail, reduce=lambda reduction, values: 0),
+        "reduce": lambda: part(exchange=lambda kind, planes, plane: 0, reduce=fail),
         "bond_law": lambda: inner(fail, "bond_based"),
         "stress": lambda: inner(None, "correspondence", poisson=0.3, stress=fail),
         "allocate": lambda: peri.Body(space="solid", horizon=1, allocate=fail, release=lambda pointer, size: None),

@@ -309,6 +309,8 @@ def roles(api):
             elif p["type"] in kinds["structs"]:
                 p["role"] = "struct in" if p["const"] else "struct out"
                 p["entries"] = length(f["name"], p, f["params"], f["doc"]) if not p["const"] else "1"
+            elif p["type"] == "void" and p["pointer"] == 2:
+                p["role"] = "value" # addresses: what is there is for the caller to know
             elif p["type"] == "void" and p["pointer"]:
                 p["role"] = "user" if p["name"] in ("user", "context") else "bytes"
             elif p["type"] == "char":

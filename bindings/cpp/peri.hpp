@@ -187,7 +187,7 @@ typedef std::function<int32_t(span<const unsigned char>)> write_fn;
 typedef std::function<int32_t(span<unsigned char>)> read_fn;
 /* plane[k][i], of type PERI_TYPE_F64 or _F32, is of point i: send those of your points to where they are ghosts,
    and write those of ghosts. Once per step; `planes` is alike on all parts. (type, planes, plane) */
-typedef std::function<int32_t(int32_t, int32_t, span<const unsigned char>)> exchange_fn;
+typedef std::function<int32_t(int32_t, int32_t, void **)> exchange_fn;
 /* values[count] become their sums or maxima. Once per step, and in most calls. (reduction, count, values) */
 typedef std::function<int32_t(int32_t, span<double>)> reduce_fn;
 /* Every frame_steps steps and at the end of a run; at each equilibrium of peri_solve. > 0 stops. It may also
@@ -344,7 +344,7 @@ struct part_desc : peri_part_desc {
     /* where another part owns ghosts. Default NULL plane[k][i], of type PERI_TYPE_F64 or _F32, is of point i:
        send those of your points to where they are ghosts, and write those of ghosts. Once per step; `planes` is
        alike on all parts. (type, planes, plane) */
-    std::function<int32_t(int32_t, int32_t, span<const unsigned char>)> exchange;
+    std::function<int32_t(int32_t, int32_t, void **)> exchange;
     /* of several parts. Default NULL values[count] become their sums or maxima. Once per step, and in most
        calls. (reduction, count, values) */
     std::function<int32_t(int32_t, span<double>)> reduce;
@@ -353,10 +353,10 @@ struct part_desc : peri_part_desc {
 namespace detail {
 struct part_desc_user {
     int dim;
-    std::function<int32_t(int32_t, int32_t, span<const unsigned char>)> exchange;
-    static int32_t exchange_c(void *user_, int32_t type_, int32_t planes_, const void **plane_) {
+    std::function<int32_t(int32_t, int32_t, void **)> exchange;
+    static int32_t exchange_c(void *user_, int32_t type_, int32_t planes_, void **plane_) {
         part_desc_user &self = *static_cast<part_desc_user *>(user_);
-        return guarded([&]() -> int32_t { return self.exchange(type_, planes_, span<const unsigned char>(static_cast<const unsigned char *>(plane_), std::size_t(count_))); });
+        return guarded([&]() -> int32_t { return self.exchange(type_, planes_, plane_); });
     }
     std::function<int32_t(int32_t, span<double>)> reduce;
     static int32_t reduce_c(void *user_, int32_t reduction_, int64_t count_, double *values_) {
@@ -647,9 +647,9 @@ public:
     int32_t add_material(const material_desc &desc_) {
         peri_material_desc desc_raw = desc_;
         if (desc_.stress) {
-            std::shared_ptr<detail::material_desc_stress_user> stress_user_context_(new detail::material_desc_stress_user{dimension(), desc_.stress});
-            detail::material_desc_stress_user::fill(desc_raw, stress_user_context_.get());
-            keep_->keep(stress_user_context_);
+            std::shared_ptr<detail::material_desc_stress_user> desc_stress_user_context_(new detail::material_desc_stress_user{dimension(), desc_.stress});
+            detail::material_desc_stress_user::fill(desc_raw, desc_stress_user_context_.get());
+            keep_->keep(desc_stress_user_context_);
         }
         const int32_t result_ = peri_add_material(handle_, &desc_raw);
         check(result_);
@@ -661,9 +661,9 @@ public:
     int32_t set_interface(int32_t i_, int32_t j_, const material_desc &desc_) {
         peri_material_desc desc_raw = desc_;
         if (desc_.stress) {
-            std::shared_ptr<detail::material_desc_stress_user> stress_user_context_(new detail::material_desc_stress_user{dimension(), desc_.stress});
-            detail::material_desc_stress_user::fill(desc_raw, stress_user_context_.get());
-            keep_->keep(stress_user_context_);
+            std::shared_ptr<detail::material_desc_stress_user> desc_stress_user_context_(new detail::material_desc_stress_user{dimension(), desc_.stress});
+            detail::material_desc_stress_user::fill(desc_raw, desc_stress_user_context_.get());
+            keep_->keep(desc_stress_user_context_);
         }
         const int32_t result_ = peri_set_interface(handle_, i_, j_, &desc_raw);
         check(result_);
@@ -775,9 +775,9 @@ public:
     int32_t set_part(const part_desc &desc_) {
         peri_part_desc desc_raw = desc_;
         if (desc_.exchange || desc_.reduce) {
-            std::shared_ptr<detail::part_desc_user> user_context_(new detail::part_desc_user{dimension(), desc_.exchange, desc_.reduce});
-            detail::part_desc_user::fill(desc_raw, user_context_.get());
-            keep_->keep(user_context_);
+            std::shared_ptr<detail::part_desc_user> desc_user_context_(new detail::part_desc_user{dimension(), desc_.exchange, desc_.reduce});
+            detail::part_desc_user::fill(desc_raw, desc_user_context_.get());
+            keep_->keep(desc_user_context_);
         }
         const int32_t result_ = peri_set_part(handle_, &desc_raw);
         check(result_);
@@ -1226,9 +1226,9 @@ public:
     int32_t add_obstacle(const obstacle_desc &desc_) {
         peri_obstacle_desc desc_raw = desc_;
         if (desc_.distance || desc_.motion) {
-            std::shared_ptr<detail::obstacle_desc_user> user_context_(new detail::obstacle_desc_user{dimension(), desc_.distance, desc_.motion});
-            detail::obstacle_desc_user::fill(desc_raw, user_context_.get());
-            keep_->keep(user_context_);
+            std::shared_ptr<detail::obstacle_desc_user> desc_user_context_(new detail::obstacle_desc_user{dimension(), desc_.distance, desc_.motion});
+            detail::obstacle_desc_user::fill(desc_raw, desc_user_context_.get());
+            keep_->keep(desc_user_context_);
         }
         const int32_t result_ = peri_add_obstacle(handle_, &desc_raw);
         check(result_);
@@ -1280,8 +1280,8 @@ public:
        load or obstacle (index: the point): it ended within a step; read it, then reset or destroy it. */
     int32_t advance(const advance_desc &desc_) {
         peri_advance_desc desc_raw = desc_;
-        detail::advance_desc_user user_context_ = {this, dimension(), desc_.on_frame};
-        if (desc_.on_frame) detail::advance_desc_user::fill(desc_raw, &user_context_);
+        detail::advance_desc_user desc_user_context_ = {this, dimension(), desc_.on_frame};
+        if (desc_.on_frame) detail::advance_desc_user::fill(desc_raw, &desc_user_context_);
         const int32_t result_ = peri_advance(handle_, &desc_raw);
         check(result_);
         return result_;
@@ -1303,8 +1303,8 @@ public:
        PERI_ENDED_SEVERED. */
     int32_t solve(const solve_desc &desc_, peri_solve_report &report_) {
         peri_solve_desc desc_raw = desc_;
-        detail::solve_desc_user user_context_ = {this, dimension(), desc_.on_iteration, desc_.on_step};
-        if (desc_.on_iteration || desc_.on_step) detail::solve_desc_user::fill(desc_raw, &user_context_);
+        detail::solve_desc_user desc_user_context_ = {this, dimension(), desc_.on_iteration, desc_.on_step};
+        if (desc_.on_iteration || desc_.on_step) detail::solve_desc_user::fill(desc_raw, &desc_user_context_);
         const int32_t result_ = peri_solve(handle_, &desc_raw, &report_);
         check(result_);
         return result_;
@@ -1320,11 +1320,11 @@ public:
        be NULL. */
     int32_t advance_implicit(const advance_desc &advance_, const solve_desc &solve_, double rho_, peri_solve_report &report_) {
         peri_advance_desc advance_raw = advance_;
-        detail::advance_desc_user user_context_ = {this, dimension(), advance_.on_frame};
-        if (advance_.on_frame) detail::advance_desc_user::fill(advance_raw, &user_context_);
+        detail::advance_desc_user advance_user_context_ = {this, dimension(), advance_.on_frame};
+        if (advance_.on_frame) detail::advance_desc_user::fill(advance_raw, &advance_user_context_);
         peri_solve_desc solve_raw = solve_;
-        detail::solve_desc_user user_context_ = {this, dimension(), solve_.on_iteration, solve_.on_step};
-        if (solve_.on_iteration || solve_.on_step) detail::solve_desc_user::fill(solve_raw, &user_context_);
+        detail::solve_desc_user solve_user_context_ = {this, dimension(), solve_.on_iteration, solve_.on_step};
+        if (solve_.on_iteration || solve_.on_step) detail::solve_desc_user::fill(solve_raw, &solve_user_context_);
         const int32_t result_ = peri_advance_implicit(handle_, &advance_raw, &solve_raw, rho_, &report_);
         check(result_);
         return result_;
@@ -1509,14 +1509,14 @@ inline body body_create(const body_desc &desc_) {
     peri_body_desc desc_raw = desc_;
     std::shared_ptr<detail::keeper> keep = std::make_shared<detail::keeper>();
     if (desc_.influence_fn) {
-        std::shared_ptr<detail::body_desc_influence_user> influence_user_context_(new detail::body_desc_influence_user{desc_.space == PERI_SPACE_SOLID ? 3 : 2, desc_.influence_fn});
-        detail::body_desc_influence_user::fill(desc_raw, influence_user_context_.get());
-        keep->keep(influence_user_context_);
+        std::shared_ptr<detail::body_desc_influence_user> desc_influence_user_context_(new detail::body_desc_influence_user{desc_.space == PERI_SPACE_SOLID ? 3 : 2, desc_.influence_fn});
+        detail::body_desc_influence_user::fill(desc_raw, desc_influence_user_context_.get());
+        keep->keep(desc_influence_user_context_);
     }
     if (desc_.log) {
-        std::shared_ptr<detail::body_desc_log_user> log_user_context_(new detail::body_desc_log_user{desc_.space == PERI_SPACE_SOLID ? 3 : 2, desc_.log});
-        detail::body_desc_log_user::fill(desc_raw, log_user_context_.get());
-        keep->keep(log_user_context_);
+        std::shared_ptr<detail::body_desc_log_user> desc_log_user_context_(new detail::body_desc_log_user{desc_.space == PERI_SPACE_SOLID ? 3 : 2, desc_.log});
+        detail::body_desc_log_user::fill(desc_raw, desc_log_user_context_.get());
+        keep->keep(desc_log_user_context_);
     }
     peri_body *made_ = nullptr;
     peri_error error_ = detail::plain(0, "");

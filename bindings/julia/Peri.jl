@@ -886,7 +886,7 @@ pointer_of_stress_fn_stress() = @cfunction(stress_fn_stress, Int32, (Ptr{Cvoid},
 
 function exchange_fn_exchange(user::Ptr{Cvoid}, type_::Int32, planes::Int32, plane::Ptr{Ptr{Cvoid}})
     context = unsafe_pointer_to_objref(user)::Context
-    result = guarded(() -> context.calls[:exchange](type_, planes, unsafe_wrap(Array, Ptr{UInt8}(plane), count)))
+    result = guarded(() -> context.calls[:exchange](type_, planes, plane))
     return result
 end
 pointer_of_exchange_fn_exchange() = @cfunction(exchange_fn_exchange, Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Ptr{Cvoid}},))
@@ -994,17 +994,17 @@ pointer_of_read_fn_call() = @cfunction(read_fn_call, Int32, (Ptr{Cvoid}, Ptr{Cvo
 """
 function body_create(desc::Desc{peri_body_desc})
     keep = Any[]
-    context_influence_user = Context(copy(getfield(desc, :calls)), nothing, desc.space == SPACE_SOLID ? 3 : 2)
-    setfield!(getfield(desc, :raw), :influence_user, pointer_from_objref(context_influence_user))
+    context_desc_influence_user = Context(copy(getfield(desc, :calls)), nothing, desc.space == SPACE_SOLID ? 3 : 2)
+    setfield!(getfield(desc, :raw), :influence_user, pointer_from_objref(context_desc_influence_user))
     setfield!(getfield(desc, :raw), :influence_fn, desc.influence_fn === nothing ? C_NULL : pointer_of_influence_fn_influence_fn())
-    push!(keep, context_influence_user)
-    context_log_user = Context(copy(getfield(desc, :calls)), nothing, desc.space == SPACE_SOLID ? 3 : 2)
-    setfield!(getfield(desc, :raw), :log_user, pointer_from_objref(context_log_user))
+    push!(keep, context_desc_influence_user)
+    context_desc_log_user = Context(copy(getfield(desc, :calls)), nothing, desc.space == SPACE_SOLID ? 3 : 2)
+    setfield!(getfield(desc, :raw), :log_user, pointer_from_objref(context_desc_log_user))
     setfield!(getfield(desc, :raw), :log, desc.log === nothing ? C_NULL : pointer_of_log_fn_log())
-    push!(keep, context_log_user)
+    push!(keep, context_desc_log_user)
     made = Ref{Ptr{Cvoid}}(C_NULL)
     record = Ref{peri_error}(blank(0, ""))
-    result = GC.@preserve desc context_influence_user context_log_user ccall((:peri_body_create, LIB), Int32, (Ptr{peri_body_desc}, Ptr{Ptr{Cvoid}}, Ref{peri_error}), Ptr{peri_body_desc}(pointer_from_objref(getfield(desc, :raw))), made, record)
+    result = GC.@preserve desc context_desc_influence_user context_desc_log_user ccall((:peri_body_create, LIB), Int32, (Ptr{peri_body_desc}, Ptr{Ptr{Cvoid}}, Ref{peri_error}), Ptr{peri_body_desc}(pointer_from_objref(getfield(desc, :raw))), made, record)
     check(result, record[])
     return Body(made[], keep)
 end
@@ -1045,11 +1045,11 @@ end
 Adds a material, before peri_build; at most 120. Returns its id, or an error.
 """
 function add_material(body::Body, desc::Desc{peri_material_desc})
-    context_stress_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
-    setfield!(getfield(desc, :raw), :stress_user, pointer_from_objref(context_stress_user))
+    context_desc_stress_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
+    setfield!(getfield(desc, :raw), :stress_user, pointer_from_objref(context_desc_stress_user))
     setfield!(getfield(desc, :raw), :stress, desc.stress === nothing ? C_NULL : pointer_of_stress_fn_stress())
-    push!(body.keep, context_stress_user)
-    result = GC.@preserve body desc context_stress_user ccall((:peri_add_material, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_material_desc}), body.handle, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
+    push!(body.keep, context_desc_stress_user)
+    result = GC.@preserve body desc context_desc_stress_user ccall((:peri_add_material, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_material_desc}), body.handle, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -1059,11 +1059,11 @@ Bonds between i and j break, and of bond-based i and j act, as if of `desc`, bef
 not bond-based unless both are. Default: harmonic mean of the micromoduli, the criteria of both.
 """
 function set_interface(body::Body, i, j, desc::Desc{peri_material_desc})
-    context_stress_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
-    setfield!(getfield(desc, :raw), :stress_user, pointer_from_objref(context_stress_user))
+    context_desc_stress_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
+    setfield!(getfield(desc, :raw), :stress_user, pointer_from_objref(context_desc_stress_user))
     setfield!(getfield(desc, :raw), :stress, desc.stress === nothing ? C_NULL : pointer_of_stress_fn_stress())
-    push!(body.keep, context_stress_user)
-    result = GC.@preserve body desc context_stress_user ccall((:peri_set_interface, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{peri_material_desc}), body.handle, i, j, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
+    push!(body.keep, context_desc_stress_user)
+    result = GC.@preserve body desc context_desc_stress_user ccall((:peri_set_interface, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{peri_material_desc}), body.handle, i, j, Ptr{peri_material_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -1203,12 +1203,12 @@ end
 After the points, before peri_build. All parts make the same calls.
 """
 function set_part(body::Body, desc::Desc{peri_part_desc})
-    context_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
-    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_user))
+    context_desc_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
+    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_desc_user))
     setfield!(getfield(desc, :raw), :exchange, desc.exchange === nothing ? C_NULL : pointer_of_exchange_fn_exchange())
     setfield!(getfield(desc, :raw), :reduce, desc.reduce === nothing ? C_NULL : pointer_of_reduce_fn_reduce())
-    push!(body.keep, context_user)
-    result = GC.@preserve body desc context_user ccall((:peri_set_part, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_part_desc}), body.handle, Ptr{peri_part_desc}(pointer_from_objref(getfield(desc, :raw))))
+    push!(body.keep, context_desc_user)
+    result = GC.@preserve body desc context_desc_user ccall((:peri_set_part, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_part_desc}), body.handle, Ptr{peri_part_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -1859,12 +1859,12 @@ end
 A mesh is copied, and must be closed.
 """
 function add_obstacle(body::Body, desc::Desc{peri_obstacle_desc})
-    context_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
-    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_user))
+    context_desc_user = Context(copy(getfield(desc, :calls)), nothing, dimension(body))
+    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_desc_user))
     setfield!(getfield(desc, :raw), :distance, desc.distance === nothing ? C_NULL : pointer_of_distance_fn_distance())
     setfield!(getfield(desc, :raw), :motion, desc.motion === nothing ? C_NULL : pointer_of_motion_fn_motion())
-    push!(body.keep, context_user)
-    result = GC.@preserve body desc context_user ccall((:peri_add_obstacle, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_obstacle_desc}), body.handle, Ptr{peri_obstacle_desc}(pointer_from_objref(getfield(desc, :raw))))
+    push!(body.keep, context_desc_user)
+    result = GC.@preserve body desc context_desc_user ccall((:peri_add_obstacle, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_obstacle_desc}), body.handle, Ptr{peri_obstacle_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -1920,10 +1920,10 @@ a peri_frame_fn or peri_break_fn. PERI_ERROR_UNSTABLE, and PERI_ERROR_CALLBACK o
 within a step; read it, then reset or destroy it.
 """
 function advance(body::Body, desc::Desc{peri_advance_desc})
-    context_user = Context(copy(getfield(desc, :calls)), body, dimension(body))
-    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_user))
+    context_desc_user = Context(copy(getfield(desc, :calls)), body, dimension(body))
+    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_desc_user))
     setfield!(getfield(desc, :raw), :on_frame, desc.on_frame === nothing ? C_NULL : pointer_of_frame_fn_on_frame())
-    result = GC.@preserve body desc context_user ccall((:peri_advance, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_advance_desc}), body.handle, Ptr{peri_advance_desc}(pointer_from_objref(getfield(desc, :raw))))
+    result = GC.@preserve body desc context_desc_user ccall((:peri_advance, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_advance_desc}), body.handle, Ptr{peri_advance_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -1945,12 +1945,12 @@ prescribed velocities at rest; bonds over their limit break until none does. A l
 the last equilibrium, or, after breaks, how far it came; so does PERI_ENDED_SEVERED.
 """
 function solve(body::Body, desc::Desc{peri_solve_desc})
-    context_user = Context(copy(getfield(desc, :calls)), body, dimension(body))
-    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_user))
+    context_desc_user = Context(copy(getfield(desc, :calls)), body, dimension(body))
+    setfield!(getfield(desc, :raw), :user, pointer_from_objref(context_desc_user))
     setfield!(getfield(desc, :raw), :on_iteration, desc.on_iteration === nothing ? C_NULL : pointer_of_iteration_fn_on_iteration())
     setfield!(getfield(desc, :raw), :on_step, desc.on_step === nothing ? C_NULL : pointer_of_frame_fn_on_step())
     report = Ref{peri_solve_report}()
-    result = GC.@preserve body desc context_user ccall((:peri_solve, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_solve_desc}, Ref{peri_solve_report}), body.handle, Ptr{peri_solve_desc}(pointer_from_objref(getfield(desc, :raw))), report)
+    result = GC.@preserve body desc context_desc_user ccall((:peri_solve, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_solve_desc}, Ref{peri_solve_report}), body.handle, Ptr{peri_solve_desc}(pointer_from_objref(getfield(desc, :raw))), report)
     check(result, result < 0 ? last_error(body) : nothing)
     return report[]
 end
@@ -1961,15 +1961,15 @@ modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on_itera
 step that fails leaves the last one. report may be NULL.
 """
 function advance_implicit(body::Body, advance::Desc{peri_advance_desc}, solve::Desc{peri_solve_desc}, rho)
-    context_user = Context(copy(getfield(advance, :calls)), body, dimension(body))
-    setfield!(getfield(advance, :raw), :user, pointer_from_objref(context_user))
+    context_advance_user = Context(copy(getfield(advance, :calls)), body, dimension(body))
+    setfield!(getfield(advance, :raw), :user, pointer_from_objref(context_advance_user))
     setfield!(getfield(advance, :raw), :on_frame, advance.on_frame === nothing ? C_NULL : pointer_of_frame_fn_on_frame())
-    context_user = Context(copy(getfield(solve, :calls)), body, dimension(body))
-    setfield!(getfield(solve, :raw), :user, pointer_from_objref(context_user))
+    context_solve_user = Context(copy(getfield(solve, :calls)), body, dimension(body))
+    setfield!(getfield(solve, :raw), :user, pointer_from_objref(context_solve_user))
     setfield!(getfield(solve, :raw), :on_iteration, solve.on_iteration === nothing ? C_NULL : pointer_of_iteration_fn_on_iteration())
     setfield!(getfield(solve, :raw), :on_step, solve.on_step === nothing ? C_NULL : pointer_of_frame_fn_on_step())
     report = Ref{peri_solve_report}()
-    result = GC.@preserve body advance context_user solve context_user ccall((:peri_advance_implicit, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_advance_desc}, Ptr{peri_solve_desc}, Float64, Ref{peri_solve_report}), body.handle, Ptr{peri_advance_desc}(pointer_from_objref(getfield(advance, :raw))), Ptr{peri_solve_desc}(pointer_from_objref(getfield(solve, :raw))), rho, report)
+    result = GC.@preserve body advance context_advance_user solve context_solve_user ccall((:peri_advance_implicit, LIB), Int32, (Ptr{Cvoid}, Ptr{peri_advance_desc}, Ptr{peri_solve_desc}, Float64, Ref{peri_solve_report}), body.handle, Ptr{peri_advance_desc}(pointer_from_objref(getfield(advance, :raw))), Ptr{peri_solve_desc}(pointer_from_objref(getfield(solve, :raw))), rho, report)
     check(result, result < 0 ? last_error(body) : nothing)
     return report[]
 end
@@ -2271,21 +2271,21 @@ choice, from a measured table; the rest stays. body needs its space, material it
 value is what is in reach. error may be NULL.
 """
 function choose(desc::Desc{peri_choose_desc}, body::Desc{peri_body_desc}, material::Desc{peri_material_desc})
-    context_influence_user = Context(copy(getfield(body, :calls)), nothing, desc.dim)
-    setfield!(getfield(body, :raw), :influence_user, pointer_from_objref(context_influence_user))
+    context_body_influence_user = Context(copy(getfield(body, :calls)), nothing, desc.dim)
+    setfield!(getfield(body, :raw), :influence_user, pointer_from_objref(context_body_influence_user))
     setfield!(getfield(body, :raw), :influence_fn, body.influence_fn === nothing ? C_NULL : pointer_of_influence_fn_influence_fn())
-    push!(keep, context_influence_user)
-    context_log_user = Context(copy(getfield(body, :calls)), nothing, desc.dim)
-    setfield!(getfield(body, :raw), :log_user, pointer_from_objref(context_log_user))
+    push!(keep, context_body_influence_user)
+    context_body_log_user = Context(copy(getfield(body, :calls)), nothing, desc.dim)
+    setfield!(getfield(body, :raw), :log_user, pointer_from_objref(context_body_log_user))
     setfield!(getfield(body, :raw), :log, body.log === nothing ? C_NULL : pointer_of_log_fn_log())
-    push!(keep, context_log_user)
-    context_stress_user = Context(copy(getfield(material, :calls)), nothing, desc.dim)
-    setfield!(getfield(material, :raw), :stress_user, pointer_from_objref(context_stress_user))
+    push!(keep, context_body_log_user)
+    context_material_stress_user = Context(copy(getfield(material, :calls)), nothing, desc.dim)
+    setfield!(getfield(material, :raw), :stress_user, pointer_from_objref(context_material_stress_user))
     setfield!(getfield(material, :raw), :stress, material.stress === nothing ? C_NULL : pointer_of_stress_fn_stress())
-    push!(keep, context_stress_user)
+    push!(keep, context_material_stress_user)
     report = Ref{peri_choose_report}()
     record = Ref{peri_error}(blank(0, ""))
-    result = GC.@preserve desc body context_influence_user context_log_user material context_stress_user ccall((:peri_choose, LIB), Int32, (Ptr{peri_choose_desc}, Ptr{peri_body_desc}, Ptr{peri_material_desc}, Ref{peri_choose_report}, Ref{peri_error}), Ptr{peri_choose_desc}(pointer_from_objref(getfield(desc, :raw))), Ptr{peri_body_desc}(pointer_from_objref(getfield(body, :raw))), Ptr{peri_material_desc}(pointer_from_objref(getfield(material, :raw))), report, record)
+    result = GC.@preserve desc body context_body_influence_user context_body_log_user material context_material_stress_user ccall((:peri_choose, LIB), Int32, (Ptr{peri_choose_desc}, Ptr{peri_body_desc}, Ptr{peri_material_desc}, Ref{peri_choose_report}, Ref{peri_error}), Ptr{peri_choose_desc}(pointer_from_objref(getfield(desc, :raw))), Ptr{peri_body_desc}(pointer_from_objref(getfield(body, :raw))), Ptr{peri_material_desc}(pointer_from_objref(getfield(material, :raw))), report, record)
     check(result, record[])
     return report[]
 end

@@ -54,7 +54,7 @@ typedef int32_t (*peri_break_fn)(void *user, int32_t i, int32_t j, double time, 
 typedef int32_t (*peri_bond_law_fn)(void *user, const peri_bond_row *row);
 typedef int32_t (*peri_write_fn)(void *user, const void *bytes, int64_t count);
 typedef int32_t (*peri_read_fn)(void *user, void *bytes, int64_t count);
-typedef int32_t (*peri_exchange_fn)(void *user, int32_t type, int32_t planes, const void **plane);
+typedef int32_t (*peri_exchange_fn)(void *user, int32_t type, int32_t planes, void **plane);
 typedef int32_t (*peri_reduce_fn)(void *user, int32_t reduction, int64_t count, double *values);
 typedef int32_t (*peri_frame_fn)(void *user, peri_body *body);
 typedef int32_t (*peri_iteration_fn)(void *user, int64_t iteration, double residual);
@@ -1219,7 +1219,7 @@ function Body:set_part(desc)
     desc_c, desc_f = plain(desc, "peri_part_desc")
     if desc_f.exchange then
         local call = desc_f.exchange
-        keep[#keep + 1] = ffi.cast("peri_exchange_fn", guard(function(_, type, planes, plane) return call(type, planes, ffi.string(plane, count)) end))
+        keep[#keep + 1] = ffi.cast("peri_exchange_fn", guard(function(_, type, planes, plane) return call(type, planes, plane) end))
         desc_c[0].exchange = keep[#keep]
     end
     if desc_f.reduce then

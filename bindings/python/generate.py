@@ -458,6 +458,14 @@ class Function:
             self.takes(p["name"], camel(p["type"]))
             self.arguments.append("C.byref(%s)" % p["name"])
             return
+        owner = "self" if self.handle else "None"
+        if self.desc is not None:  # the first has its fields as keywords; another is one by itself
+            name = safe(p["name"])
+            self.optional.append("%s: %s | None = None" % (name, camel(p["type"])))
+            self.do("%s = described(%s, %s, {}, %s)" % (name, camel(p["type"]), name, owner))
+            self.arguments.append("C.byref(%s)" % name)
+            self.keep.append(name)
+            return
         fields = self.w.keywords(struct)
         initial = [q["name"] for q in self.w.functions[p["type"] + "_init"]["params"][1:]]
         for f in fields:
@@ -468,7 +476,6 @@ class Function:
                                           if f["name"] not in initial]
         self.docs += self.w.field_docs(fields)
         given = "{%s}" % ", ".join('"%s": %s' % (f["name"], safe(f["name"])) for f in fields)
-        owner = "self" if self.handle else "None"
         if p.get("optional"):
             self.do("given = %s" % given)
             self.do("desc = None if desc is None and all(v is None for v in given.values()) else described(%s, desc, given, %s)"

@@ -122,7 +122,7 @@ static inline void part_of_box(part *p, int32_t dim, const int64_t *cells, int32
 
 static inline int32_t part_takes(void *user, int64_t index, const double *x) { return (void)x, ((const part *)user)->mine[index] != 0; }
 
-static inline int32_t exchange(void *user, int32_t type, int32_t planes, void *const *plane) {
+static inline int32_t exchange(void *user, int32_t type, int32_t planes, void **plane) {
     part *p = (part *)user;
     const size_t size = type == PERI_TYPE_F32 ? 4 : 8, point = size * (size_t)planes;
     int requests = 0, failed = 0;

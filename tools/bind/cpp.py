@@ -193,7 +193,7 @@ class Cpp:
             return p["type"] + " &" if p.get("entries") == "1" and not p["const"] else "span<%s%s>" % (const, p["type"])
         if p["role"].startswith("struct"):
             return const + p["type"] + " &"
-        return "const char *" if p["role"] == "text" else p["type"]
+        return "const char *" if p["role"] == "text" else p["type"] + (" " + "*" * p["pointer"] if p["pointer"] else "")
 
     def closure_doc(self, c):
         names = [p["name"] for p in c["params"] if p.get("kind") != "user"]
@@ -385,7 +385,7 @@ class Cpp:
         some = " || ".join("%s_.%s" % (p["name"], g["name"]) for g in fields)
         values = (["this"] if handle else []) + [self.dim_of(f)] + ["%s_.%s" % (p["name"], g["name"]) for g in fields]
         make = "{" + ", ".join(values) + "}"
-        name = user + "_context_"
+        name = "%s_%s_context_" % (p["name"], user)
         if all(g["type"] in __import__("model").PASSING for g in fields):
             return ["%s %s = %s;" % (holder, name, make),
                     "if (%s) %s::fill(%s_raw, &%s);" % (some, holder, p["name"], name)]

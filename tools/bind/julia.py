@@ -292,7 +292,7 @@ class Julia:
                     for g in m.calls(p["type"]):
                         groups.setdefault(g["user"], []).append(g)
                     for user, fields in groups.items():
-                        context = "context_" + user
+                        context = "context_%s_%s" % (own, user)
                         before += ["%s = Context(copy(getfield(%s, :calls)), %s, %s)" % (context, own, given[0].split("::")[0] if self.has_handle(fields) else "nothing", self.dim_of(f)),
                                    "setfield!(%s, :%s, pointer_from_objref(%s))" % (raw, user, context)]
                         for g in fields:

@@ -100,7 +100,7 @@ class Rust:
             return "&%s%s" % (mut, TYPES[p["type"]] if one else "[%s]" % TYPES[p["type"]])
         if p["role"].startswith("struct"):
             return "&%ssys::%s" % (mut, p["type"])
-        return "&str" if p["role"] == "text" else TYPES[p["type"]]
+        return "&str" if p["role"] == "text" else self.c_type(p)
 
     def signature(self, name):
         c = self.m.callbacks[name]

@@ -475,7 +475,7 @@ pub type peri_write_fn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *
 pub type peri_read_fn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *mut c_void, count: i64) -> i32>;
 /// plane\[k\]\[i\], of type PERI\_TYPE\_F64 or \_F32, is of point i: send those of your points to where they are ghosts, and write
 /// those of ghosts. Once per step; \`planes\` is alike on all parts.
-pub type peri_exchange_fn = Option<unsafe extern "C" fn(user: *mut c_void, r#type: i32, planes: i32, plane: *mut *const c_void) -> i32>;
+pub type peri_exchange_fn = Option<unsafe extern "C" fn(user: *mut c_void, r#type: i32, planes: i32, plane: *mut *mut c_void) -> i32>;
 /// values\[count\] become their sums or maxima. Once per step, and in most calls.
 pub type peri_reduce_fn = Option<unsafe extern "C" fn(user: *mut c_void, reduction: i32, count: i64, values: *mut f64) -> i32>;
 /// Every frame\_steps steps and at the end of a run; at each equilibrium of peri\_solve. \> 0 stops. It may also cut, select, set

@@ -900,7 +900,7 @@ pub struct PartDesc<'a> {
     /// \[points\] in the whole body, ascending. Default NULL: 0, 1, ...
     pub ids: &'a [i64],
     /// where another part owns ghosts. Default NULL (type, planes, plane)
-    pub exchange: Option<Box<dyn Fn(i32, i32, &[u8]) -> i32 + Send + Sync>>,
+    pub exchange: Option<Box<dyn Fn(i32, i32, *mut *mut c_void) -> i32 + Send + Sync>>,
     /// of several parts. Default NULL (reduction, values)
     pub reduce: Option<Box<dyn Fn(i32, &mut [f64]) -> i32 + Send + Sync>>,
 }
@@ -949,14 +949,14 @@ impl<'a> Default for PartDesc<'a> {
 }
 
 struct PartDescUser {
-    exchange: Option<Box<dyn Fn(i32, i32, &[u8]) -> i32 + Send + Sync>>,
+    exchange: Option<Box<dyn Fn(i32, i32, *mut *mut c_void) -> i32 + Send + Sync>>,
     reduce: Option<Box<dyn Fn(i32, &mut [f64]) -> i32 + Send + Sync>>,
 }
 
 impl PartDescUser {
-    unsafe extern "C" fn exchange_c(user: *mut c_void, r#type: i32, planes: i32, plane: *mut *const c_void) -> i32 {
+    unsafe extern "C" fn exchange_c(user: *mut c_void, r#type: i32, planes: i32, plane: *mut *mut c_void) -> i32 {
         let this = unsafe { &*(user as *const PartDescUser) };
-        guarded(|| unsafe { if let Some(f) = this.exchange.as_ref() { f(r#type, planes, slice(plane as *const u8, count)) } else { -1 } })
+        guarded(|| unsafe { if let Some(f) = this.exchange.as_ref() { f(r#type, planes, plane) } else { -1 } })
     }
     unsafe extern "C" fn reduce_c(user: *mut c_void, reduction: i32, count: i64, values: *mut f64) -> i32 {
         let this = unsafe { &*(user as *const PartDescUser) };
