@@ -32,10 +32,14 @@
 #include "src/laws/law.h"          /* what laws differ in, and the list of them                                    */
 #include "src/laws/criteria.h"     /* when bonds break, and the list of criteria                              */
 #include "src/base/base.c"         /* the instruction set, constants, small arithmetic                             */
+PERI_SMALL
 #include "src/base/text.c"         /* numbers to text                                                              */
+PERI_SMALL_END
 #include "src/base/real.c"         /* access to reals of either precision                                          */
+PERI_SMALL
 #include "src/base/status.c"       /* status texts, the error record, the log                                      */
 #include "src/base/ids.c"          /* ids of materials, sets, loads, obstacles                                        */
+PERI_SMALL_END
 #include "src/base/memory.c"       /* the allocator hook, aligned arrays, growing arrays                           */
 #include "src/base/parallel.c"     /* one loop over blocks of points; sums in a fixed order                        */
 #include "src/base/tensor.c"       /* symmetric matrices, small linear systems                                     */
@@ -59,10 +63,14 @@
 #include "src/families/span.c"       /* families                      -> do they span the space?                   */
 
 /* ---- laws: what materials make of live families ---------------------------------------- */
+PERI_SMALL
 #include "src/laws/material.c"     /* engineering constants           -> those of the laws, critical values        */
+PERI_SMALL_END
 #include "src/laws/calibration.c"  /* live families                   -> constants of state-based laws             */
 #include "src/laws/bond_laws.c"    /* stretches and histories of bonds -> forces, where bonds are not linear          */
+PERI_SMALL
 #include "src/laws/softening.c"    /* strength, fracture energy, families -> tables of bonds that soften              */
+PERI_SMALL_END
 #include "src/laws/traction.c"     /* the stress of points             -> what planes of bonds bear                       */
 #include "src/laws/stiffness.c"    /* live families                   -> row sums that bound the frequency            */
 
@@ -103,12 +111,16 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/contact/tangent.c"   /* and                           -> tangent                                     */
 
 /* ---- body: what there is, and what may be done to it ----------------------------------- */
+PERI_SMALL
 #include "src/body/arrays.c"       /* what a body keeps                                                            */
+PERI_SMALL_END
 #include "src/body/flow.c"         /* inelastic extensions of bonds -> force, energy, tangent                         */
 #include "src/body/part.c"         /* parts of larger bodies, periodic cells: what they ask each other              */
+PERI_SMALL
 #include "src/body/body.c"         /* create, build, destroy                                                       */
 #include "src/body/clone.c"        /* copies; counts                                                               */
 #include "src/body/sets.c"         /* selections of points                                                         */
+PERI_SMALL_END
 #include "src/body/own_stress.c"   /* stresses of the caller        -> force, energy, tangent                         */
 #include "src/body/state.c"        /* units; the force of bonds, energies                                          */
 #include "src/body/loads.c"        /* loads and supports            -> force, work                                 */
@@ -118,11 +130,13 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/body/sides.c"        /* adjacent points, when their bonds broke                                        */
 #include "src/body/motion.c"       /* displacement and velocity from outside, reset                                */
 #include "src/body/cracks.c"       /* initial cracks, no-fail zones, break events                                  */
+PERI_SMALL
 #include "src/body/callbacks.c"    /* how runs begin and end; a body that a callback was left in by a jump          */
 #include "src/body/boundary.c"     /* supports and loads, added and removed                                        */
 #include "src/body/obstacle_desc.c" /* obstacles, added, removed, read and set                                     */
 #include "src/body/contact_desc.c" /* contact between materials, declared                                          */
 #include "src/body/point_fields.c" /* eigenstrain, strength, stiffness and density by point, strength by bond   */
+PERI_SMALL_END
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
 #include "src/body/fragments.c"    /* points joined by live bonds; what they are as rigid bodies                      */
 #include "src/body/strain.c"       /* dilatation, strain and stress of points                                      */
@@ -158,20 +172,26 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 
 /* ---- output ---------------------------------------------------------------------------- */
 #include "src/output/fields.c"     /* fields by copy and by view, the ledger                                       */
+PERI_SMALL
 #include "src/output/checkpoint.c" /* the state                     -> bytes, and back                             */
+PERI_SMALL_END
 #ifndef PERI_NO_OUTPUT
+PERI_SMALL
 #include "src/output/output.c"     /* VTU, CSV                                                                     */
 #include "src/output/paths.c"      /* broken bonds                  -> cracks and tips in 2D                       */
 #include "src/output/cracks.c"     /* and in 3D; VTP                                                               */
 #include "src/output/outline.c"    /* fragments                     -> closed polygons and triangle meshes           */
+PERI_SMALL_END
 #endif
 
 /* ---- advice ---------------------------------------------------------------------------- */
 #ifndef PERI_NO_ADVICE
+PERI_SMALL
 #include "src/advice/estimate.c"     /* a body that is only described  -> its bonds and columns                      */
 #include "src/advice/plan_step.c"    /* its stable step                                                             */
 #include "src/advice/plan.c"       /* what a scene would cost                                                      */
 #include "src/advice/choose.c"     /* the knobs for an accuracy or a budget                                        */
+PERI_SMALL_END
 #endif
 
 /* ---- what a build leaves out, answering that it is ------------------------------------- */

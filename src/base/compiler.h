@@ -35,6 +35,23 @@
 #define PERI_INLINE static
 #endif
 
+/* PERI_RARE: a function of kernels that few bonds come by, which is not copied into each of its callers. */
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__)
+#define PERI_RARE __attribute__((noinline, cold))
+#else
+#define PERI_RARE
+#endif
+
+/* PERI_SMALL ... PERI_SMALL_END: what runs once in the life of a body, or in none, is optimised for size by gcc (clang has no such pragma).
+   The arithmetic is the same. */
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__TINYC__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+#define PERI_SMALL _Pragma("GCC push_options") _Pragma("GCC optimize(\"Os\")")
+#define PERI_SMALL_END _Pragma("GCC pop_options")
+#else
+#define PERI_SMALL
+#define PERI_SMALL_END
+#endif
+
 /* PERI_SHARED: what the kernels and the rest call of each other. The library is one unit, but for developers the kernels are objects of
    their own (PERI_SPLIT), which an edit elsewhere leaves alone. */
 #ifndef PERI_SPLIT

@@ -52,8 +52,8 @@ PERI_INLINE int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri_
    - q), q = e0/e: 1 at the end of the step, below 0 in its first half. A bond that is beyond its limit when the step begins breaks
    then. Energies of nodes are not known at the start of the step: of a bond that meets its criterion while it gets shorter the moment
    is the middle. Both ends come to the same numbers, up to centroids. */
-PERI_INLINE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k,
-                                         const PERI_FN(bond) *bond) {
+static PERI_RARE peri__parting PERI_FN(part)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k,
+                                              const PERI_FN(bond) *bond) {
     const int64_t j = row->ids[k], stride = s->model->stride;
     const peri_r *v = (const peri_r *)s->v;
     const double length = (double)bond->length, now = (double)bond->along / (double)bond->reach;

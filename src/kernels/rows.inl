@@ -271,7 +271,8 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
                 if (pairwise) {
                     const double c = PERI_FN(pair)(s, i, row->ids[k])->c * (double)PERI_FN(stiffness_between)(s, i, row->ids[k]);
                     const double weight = (double)((const peri_b *)row->weight)[k];
-                    const peri__parting parting = PERI_FN(part)(s, i, row, k, &bond);
+                    const PERI_FN(bond) parted = bond; /* a copy, so that the others stay in registers */
+                    const peri__parting parting = PERI_FN(part)(s, i, row, k, &parted);
                     const double stretch = parting.met * (double)bond.along / ((double)bond.reach * (double)bond.length);
                     *lost += 0.25 * (double)(peri_b)c * weight * stretch * stretch * (double)bond.length
                            * (m->volume[i] * (double)portion);
