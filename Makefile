@@ -96,12 +96,12 @@ uninstall:
 # a trap half the time of a message: SANITIZE="-g1 -Og -fsanitize=address,undefined" says what was undefined. -ffast-math is tried by make validate with gcc
 # where there is one, on the vectors of 16 bytes that other machines have; the core's arithmetic is as written by the same pragma, and what
 # it would fold is folded without optimisation, too. OWN_ of a directory: the kernels that are compiled so; the others are those of the
-# library. make validate compiles all, and the core as the kernels (tests/run.sh); and with the checks of sums of pointers and of sizes of
-# objects, which take a third of the time, and see little that the address sanitizer does not.
+# library. make validate compiles all, and the core as the kernels (tests/run.sh); and with the checks of null pointers, of alignment, of
+# sums of pointers and of sizes of objects, which take half of the time, and see little that the address sanitizer does not.
 OWN_san = d2 d3
 OWN_clang = d3 f2
 OWN_fast = f2
-SANITIZE ?= -g1 $(if $(findstring clang,$(CC)),-O0,-Og) -fsanitize=address,undefined -fno-sanitize=pointer-overflow,object-size \
+SANITIZE ?= -g1 $(if $(findstring clang,$(CC)),-O0,-Og) -fsanitize=address,undefined -fno-sanitize=pointer-overflow,object-size,null,alignment \
     -fsanitize-undefined-trap-on-error
 build/san/%.o: OTHER = $(CC) $(STRICT) $(SANITIZE) $(OPENMP)
 build/clang/%.o: OTHER = clang $(STRICT) -O1 -DPERI_KERNELS=1 -DPERI_NO_STDIO

@@ -42,6 +42,13 @@
 #define PERI_RARE
 #endif
 
+/* PERI_APART: one that many may come by, and that is too large for copies. */
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__)
+#define PERI_APART __attribute__((noinline))
+#else
+#define PERI_APART
+#endif
+
 /* PERI_SMALL ... PERI_SMALL_END: what runs once in the life of a body, or in none, is optimised for size by gcc (clang has no such pragma).
    The arithmetic is the same. */
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__TINYC__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)

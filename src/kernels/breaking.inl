@@ -33,12 +33,15 @@ PERI_INLINE double PERI_FN(stretching)(const peri__operands *s, int64_t i, int64
 #include "../laws/criteria.inl"
 #undef PERI_CRITERION_ROLE_OVER
 
-/* Does bond k of row i meet a criterion? `plain`: all are seen by stretch, and there are no centroids. */
-PERI_INLINE int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
-                                 const int plain) {
+/* Does bond k of row i meet a criterion? The stretch alone, where there are no centroids: */
+PERI_INLINE int PERI_FN(is_overstretched)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
+    return bond->along > (peri_b)PERI_FN(pair)(s, i, row->ids[k])->s0 * bond->length * bond->reach;
+}
+
+/* any of them. */
+static PERI_APART int PERI_FN(is_over)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond) {
     const uint32_t used = s->model->criteria;
     int over = 0;
-    if (plain) return bond->along > (peri_b)PERI_FN(pair)(s, i, row->ids[k])->s0 * bond->length * bond->reach;
 #define PERI_CASE(name, number) if (used >> ((number) - peri__first_criterion) & 1) over |= PERI_FN(over_##name)(s, i, row, k, bond);
     PERI_CRITERION_LIST(PERI_CASE)
 #undef PERI_CASE

@@ -265,7 +265,7 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
             else pull = PERI_FN(ordinary_pull)(s, i, row, k, &bond, plain ? 0 : s->linear);
             for (int d = 0; d < PERI_D; ++d) force[d] = mixed ? t[d] + pull * bond.y[d] : pull * bond.y[d];
             if (!pairwise && !plain && s->working) PERI_FN(count_work)(s, i, row, k, bond.eta, force, portion);
-            if (breaking && PERI_FN(is_over)(s, i, row, k, &bond, plain)) {
+            if (breaking && (plain ? PERI_FN(is_overstretched)(s, i, row, k, &bond) : PERI_FN(is_over)(s, i, row, k, &bond))) {
                 dead |= (uint32_t)1 << n;
                 over++;
                 if (pairwise) {
