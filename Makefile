@@ -306,7 +306,7 @@ EMCC ?= emcc
 WASM = $(EMCC) -std=c99 -msimd128 -mnontrapping-fptoint -mbulk-memory -msign-ext -DPERI_NO_STDIO -I.
 WASM_2D = -DPERI_NO_3D -DPERI_NO_F64 -DPERI_NO_MIXED -DPERI_NO_STATICS -DPERI_NO_ADVICE -DPERI_NO_OUTPUT
 WASM_LINK = $(EMCC) -Oz --no-entry -s STANDALONE_WASM=1 -s ALLOW_MEMORY_GROWTH=1 -s MALLOC=emmalloc -Wl,--growable-table,--export-table \
-    -s EXPORTED_FUNCTIONS=@build/wasm/calls.txt
+    -s EXPORTED_FUNCTIONS=@build/wasm/$(or $(CALLS),calls).txt
 
 build/wasm/calls.txt: peri.h
 	@mkdir -p $(@D)
@@ -334,7 +334,12 @@ build/js/peri.wasm: build/wasm/core.o $(KERNELS:%=build/wasm/%.o) build/wasm/cal
 	@mkdir -p $(@D)
 	$(WASM_LINK) $(filter %.o,$^) -o $@
 
-build/js/peri2d.wasm: build/wasm/plane.o build/wasm/calls.txt
+# a page is no part of a body on several processes
+build/wasm/calls_2d.txt: build/wasm/calls.txt
+	grep -v -e part -e ghost -e mean_gradient $< > $@
+
+build/js/peri2d.wasm: CALLS = calls_2d
+build/js/peri2d.wasm: build/wasm/plane.o build/wasm/calls_2d.txt
 	@mkdir -p $(@D)
 	$(WASM_LINK) $(filter %.o,$^) -o $@
 
