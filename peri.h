@@ -1026,7 +1026,7 @@ PERI_API int32_t peri_solve(peri_body *body, const peri_solve_desc *desc,
 /* peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho
    [0, 1]: what is left of the highest modes per step; 1 keeps the energy. solve: tolerance,
    fracture, limits, on_iteration; NULL: defaults. No obstacles or contact. A step that fails leaves
-   the last one. report may be NULL. */
+   the last one, less the bonds that broke in it. report may be NULL. */
 PERI_API int32_t peri_advance_implicit(peri_body *body, const peri_advance_desc *advance,
     const peri_solve_desc *solve, double rho, peri_solve_report *report);
 

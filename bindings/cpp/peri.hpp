@@ -1316,8 +1316,8 @@ public:
     }
     /* peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho [0, 1]: what
        is left of the highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits,
-       on_iteration; NULL: defaults. No obstacles or contact. A step that fails leaves the last one. report may
-       be NULL. */
+       on_iteration; NULL: defaults. No obstacles or contact. A step that fails leaves the last one, less the
+       bonds that broke in it. report may be NULL. */
     int32_t advance_implicit(const advance_desc &advance_, const solve_desc &solve_, double rho_, peri_solve_report &report_) {
         peri_advance_desc advance_raw = advance_;
         detail::advance_desc_user advance_user_context_ = {this, dimension(), advance_.on_frame};

@@ -5029,7 +5029,7 @@ contains
 
     ! peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho [0, 1]: what is left of the
     ! highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on_iteration; NULL: defaults. No
-    ! obstacles or contact. A step that fails leaves the last one. report may be NULL.
+    ! obstacles or contact. A step that fails leaves the last one, less the bonds that broke in it. report may be NULL.
     subroutine peri_advance_implicit(body, advance, solve, rho, report, stat, errmsg)
         type(peri_body), intent(in) :: body
         type(peri_advance_desc), intent(in) :: advance

@@ -1954,7 +1954,7 @@ end
 
 -- peri_advance by implicit steps, `time_step` > 0 of any size (generalised alpha, order 2). rho [0, 1]: what is left of the highest
 -- modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on_iteration; NULL: defaults. No obstacles or contact. A
--- step that fails leaves the last one. report may be NULL.
+-- step that fails leaves the last one, less the bonds that broke in it. report may be NULL.
 function Body:advance_implicit(advance, solve, rho)
     local here = {}
     local advance_c, advance_f

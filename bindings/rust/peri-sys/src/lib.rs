@@ -1407,7 +1407,7 @@ unsafe extern "C" {
     pub fn peri_solve(body: *mut peri_body, desc: *const peri_solve_desc, report: *mut peri_solve_report) -> i32;
     /// peri\_advance by implicit steps, \`time\_step\` \> 0 of any size (generalised alpha, order 2). rho \[0, 1\]: what is left of
     /// the highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on\_iteration; NULL: defaults. No
-    /// obstacles or contact. A step that fails leaves the last one. report may be NULL.
+    /// obstacles or contact. A step that fails leaves the last one, less the bonds that broke in it. report may be NULL.
     pub fn peri_advance_implicit(body: *mut peri_body, advance: *const peri_advance_desc, solve: *const peri_solve_desc, rho: f64, report: *mut peri_solve_report) -> i32;
     /// out = K in \[M L T^-2\], the tangent at the present displacement times in\[count\], count = points\*dim; without supports,
     /// obstacles and contact. out may be in. The first call takes memory (peri\_memory.state).

@@ -2500,7 +2500,7 @@ impl Body {
     }
     /// peri\_advance by implicit steps, \`time\_step\` \> 0 of any size (generalised alpha, order 2). rho \[0, 1\]: what is left of
     /// the highest modes per step; 1 keeps the energy. solve: tolerance, fracture, limits, on\_iteration; NULL: defaults. No
-    /// obstacles or contact. A step that fails leaves the last one. report may be NULL.
+    /// obstacles or contact. A step that fails leaves the last one, less the bonds that broke in it. report may be NULL.
     pub fn advance_implicit(&self, advance: AdvanceDesc, mut solve: SolveDesc, rho: f64) -> Result<SolveReport> {
         let mut advance_raw = advance.raw();
         let mut user_holder = AdvanceDescUser { owner: self, on_frame: advance.on_frame };
