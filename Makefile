@@ -334,9 +334,12 @@ build/js/peri.wasm: build/wasm/core.o $(KERNELS:%=build/wasm/%.o) build/wasm/cal
 	@mkdir -p $(@D)
 	$(WASM_LINK) $(filter %.o,$^) -o $@
 
-# a page is no part of a body on several processes
-build/wasm/calls_2d.txt: build/wasm/calls.txt
-	grep -v -e part -e ghost -e mean_gradient $< > $@
+# what a page does without: parts of bodies on several processes, states as bytes, forces for solvers of the caller's, copies, contact of
+# points, cuts through solids, and what the switches leave out
+build/wasm/calls_2d.txt: build/wasm/calls.txt Makefile
+	grep -v -e part -e ghost -e mean_gradient -e state_ -e evaluate -e clone -e contact -e disc -e triangle -e rectangle -e perturbed \
+	    -e set_families -e solve -e implicit -e matrix -e multiply -e plan -e choose -e outline -e _cracks -e export -e pressure \
+	    -e apply_traction $< > $@
 
 build/js/peri2d.wasm: CALLS = calls_2d
 build/js/peri2d.wasm: build/wasm/plane.o build/wasm/calls_2d.txt

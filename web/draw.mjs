@@ -304,7 +304,7 @@ export class Ledger {
         this.rows.push([time, energy]);
         if (this.rows.length > 400) this.rows = this.rows.filter((_, k) => k % 2 === 0 || k === this.rows.length - 1);
     }
-    paint(ink) {
+    paint(ink, brief) {
         const { canvas, rows } = this,
             context = canvas.getContext("2d"),
             box = canvas.getBoundingClientRect();
@@ -320,7 +320,7 @@ export class Ledger {
                 lo = Math.min(lo, e[name]);
                 hi = Math.max(hi, e[name]);
             }
-        const pad = 6 * scale,
+        const pad = 17 * scale,
             y = v => height - pad - ((v - lo) / (hi - lo)) * (height - 2 * pad),
             last = rows.at(-1)?.[0] || 1;
         context.strokeStyle = ink;
@@ -340,6 +340,13 @@ export class Ledger {
             context.stroke();
         }
         context.setLineDash([]);
+        context.fillStyle = ink;
+        context.font = `${11 * scale}px system-ui, sans-serif`;
+        context.textAlign = "left";
+        if (hi > 1e-30) context.fillText(`${brief(hi)} J`, 0, 11 * scale);
+        context.fillText("0", 0, height - 3 * scale);
+        context.textAlign = "right";
+        if (rows.length > 1) context.fillText(`${brief(last * 1e6)} µs`, width, height - 3 * scale);
         return [lo, hi];
     }
 }

@@ -416,10 +416,11 @@ function showEnergy(data) {
     const way = Object.keys(TERMS)
         .map(name => [name, Math.abs(e[name] - (energyBefore?.[name] ?? 0))])
         .sort((a, b) => b[1] - a[1])[0];
+    energyBefore = e;
+    if (way[1] === 0 && data.steps > 0) return; // no time has passed: what was at work is still told
     const works = way[1] > 0 && data.steps > 0 ? TERMS[way[0]] : null;
     for (const term of document.querySelectorAll(".term")) term.classList.toggle("works", term.dataset.term === works?.[0]);
     $("term-text").textContent = works?.[1] ?? "";
-    energyBefore = e;
 }
 
 let barOf = "",
@@ -440,7 +441,7 @@ function show() {
     if (last.ms) $("ms").textContent = last.ms.toPrecision(2);
     if (last.energy) {
         showEnergy(last);
-        ledger.paint(getComputedStyle(document.body).color);
+        ledger.paint(getComputedStyle(document.body).color, brief);
         if (settings.body === "beam") dots($("dots"), tried, getComputedStyle(document.body).color, dark.matches ? "#ffb27a" : "#a63a14");
     }
 }

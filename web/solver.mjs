@@ -158,7 +158,9 @@ class Scene {
                 away = body.view_field(peri.FIELD_CURRENT_POSITION);
             let top = 0;
             for (let i = 0; i < away.count; ++i) {
-                if (Math.hypot(away.at(i, 0) - at[0], away.at(i, 1) - at[1]) < r) top = Math.max(top, away.at(i, 2));
+                const dx = away.at(i, 0) - at[0],
+                    dy = away.at(i, 1) - at[1];
+                if (dx * dx + dy * dy < r * r) top = Math.max(top, away.at(i, 2));
             }
             this.balls ??= [];
             while (this.balls.length > 3) body.remove_obstacle(this.balls.shift());
@@ -180,9 +182,11 @@ class Scene {
             v = 8 * strength * e0 * c;
         for (let i = 0; i < x.length; i += dim) {
             const away = [x[i] - at[0], x[i + 1] - at[1]],
-                r = Math.hypot(...away);
+                r = Math.sqrt(away[0] * away[0] + away[1] * away[1]);
             if (r > 2 * radius || r === 0) continue;
-            const kick = v * (r / radius) * Math.exp(-(r * r) / (radius * radius));
+            const q = r / radius,
+                fading = 1 - (q * q) / 4, // to the fourth power nearly exp(-q^2), whose bits differ among browsers
+                kick = v * q * (fading * fading) * (fading * fading);
             velocity[i] += (kick * away[0]) / r;
             velocity[i + 1] += (kick * away[1]) / r;
         }

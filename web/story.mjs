@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // story.mjs - what was done to a body since it was made, for links: { pull, acts }, an act [letter, ...values] as solver.mjs takes it;
-// of frames "a", [a, steps of each, how many]. Done again, in the same kind of browser, it ends in the same state to the last bit.
+// of frames "a", [a, steps of each, how many]. Done again, it ends in the same state to the last bit: what acts on a body is
+// computed by WebAssembly and by sums, products and square roots alone, which have the same bits everywhere.
 const LETTERS = { a: 2, s: 2, h: 4, f: 0, c: 3, p: 1, r: 0 }; // and how many values
 
 const isValue = v => (Array.isArray(v) ? v.length < 4 && v.every(Number.isFinite) : Number.isFinite(v) || v === "drag" || v === "load");

@@ -596,9 +596,13 @@ export function instantiate(module) {
     };
     const peri = { ...api.constants, Body: machine.classes.peri_body, PeriError };
     for (const f of Object.values(api.functions)) {
-        if (!(f.name in exports) || f.hidden) continue;
-        if (f.of) addMethod(machine, machine.classes[f.of].prototype, f, true);
-        else addMethod(machine, peri, f, false);
+        if (f.hidden) continue;
+        const on = f.of ? machine.classes[f.of].prototype : peri;
+        if (f.name in exports) addMethod(machine, on, f, Boolean(f.of));
+        else
+            on[f.js] = () => {
+                throw new PeriError(api.codes.ERROR_LEFT_OUT, f.js);
+            };
     }
     addViews(machine, machine.classes.peri_body);
     Object.defineProperty(peri, "memory", { get: () => exports.memory });

@@ -63,6 +63,17 @@ test("the small build: size, single precision, the same motion to single precisi
     const error = thrown(() => bar(plane));
     assert.equal(error.status, "PERI_ERROR_LEFT_OUT");
     assert.equal(error.field, "PERI_NO_F64");
+    const body = bar(plane, { precision: plane.PRECISION_SINGLE });
+    for (const [call, name] of [
+        [() => body.solve({}), "solve"],
+        [() => body.clone(), "clone"],
+        [() => plane.plan({}, [], []), "plan"],
+    ]) {
+        const left = thrown(call);
+        assert.equal(left.status, "PERI_ERROR_LEFT_OUT");
+        assert.equal(left.field, name);
+    }
+    body.destroy();
 });
 
 test("errors: status, field, index, value", () => {

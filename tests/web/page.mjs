@@ -6,11 +6,13 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
 const [page = "build/web/index.html", pictures = "build/web-test"] = process.argv.slice(2),
     address = "file://" + resolve(page);
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const { pack, unpack } = await import(pathToFileURL(resolve("web/story.mjs")));
 const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
     args: [
@@ -74,6 +76,9 @@ const tests = {
         const said = await tab.locator("#live").textContent();
         assert.match(said, /Pane of glass, 9800 points\. After [\d.]+ microseconds \d+ of \d+ bonds are broken\. Largest damage 0\.\d+\./);
         assert.ok(Number(said.match(/damage (0\.\d+)/)[1]) > 0.3);
+        // the term at work stays marked
+        assert.equal(await tab.locator(".term.works").first().count(), 1);
+        assert.match(await tab.locator("#term-text").textContent(), /^At work: /);
         // the ledger closes
         const joules = async name => Number((await tab.locator(`#energy-${name}`).textContent()).replace(" J", ""));
         assert.ok(Math.abs(await joules("error")) < 0.02 * (await joules("external")));
@@ -177,9 +182,25 @@ const tests = {
         const link = new URL(tab.url()).hash,
             before = await state(tab);
         assert.ok(link.length < 8000 && before.broken > 20);
-        const other = await open(link);
-        await other.waitForFunction(n => globalThis.shown().steps >= n && document.getElementById("run").textContent === "Run", before.steps);
+        const again = async hash => {
+            const opened = await open(hash);
+            await opened.waitForFunction(
+                n => globalThis.shown()?.steps >= n && document.getElementById("run").textContent === "Run",
+                before.steps,
+            );
+            return opened;
+        };
+        const other = await again(link);
         assert.deepEqual(await state(other), before);
+        // what is looked at changes nothing, what was done does
+        const looked = await again(`${link}&field=stress`);
+        assert.deepEqual(await state(looked), before);
+        await looked.close();
+        const told = await unpack(new URLSearchParams(link.slice(1)).get("story"));
+        told.acts.find(([letter]) => letter === "s")[2] += 0.25;
+        const changed = await again(`${link.replace(/story=.*/, "story=")}${await pack(told)}`);
+        assert.notEqual((await state(changed)).hash, before.hash);
+        await changed.close();
         // told on, it is the same story
         await other.getByRole("button", { name: "Copy a link" }).click();
         await other.waitForFunction(() => document.getElementById("share").textContent !== "Copy a link to this state");
@@ -190,6 +211,27 @@ const tests = {
             await until(wrong, "time", 0.2);
             await wrong.close();
         }
+    },
+    async "each lesson runs, with what a step costs and what it is worth"() {
+        const tab = await open("#lesson=branching");
+        for (const name of ["Waves", "Poisson’s ratio", "Criteria", "Horizon", "Impact", "Branching"]) {
+            await tab.locator("#lessons label", { hasText: name }).click();
+            await tab.waitForFunction(() => globalThis.shown()?.steps > 10 && parseFloat(document.getElementById("ms").textContent) > 0);
+            assert.match(await tab.locator("#error").textContent(), /\d %$/, name);
+            assert.ok((await tab.locator("#lesson-text").textContent()).length > 80);
+        }
+    },
+    async "the page is there within two seconds"() {
+        const times = [];
+        for (let k = 0; k < 3; ++k) {
+            const start = Date.now(),
+                tab = await open("#lesson=branching");
+            await tab.waitForFunction(() => globalThis.shown());
+            times.push(Date.now() - start);
+            await tab.close();
+        }
+        console.log(`     ${times.join(", ")} ms to the first picture`);
+        assert.ok(Math.min(...times) < 2000);
     },
     async "choices of peri_choose fill the settings"() {
         const tab = await open("#lesson=branching");
