@@ -41,8 +41,10 @@ fn compiled() -> PathBuf {
     println!("cargo:rerun-if-changed={}", source.join("src").display());
     let object = out.join("peri.o");
     let flags = env::var("CFLAGS").unwrap_or_default();
-    let mut cc = Command::new(env::var("CC").unwrap_or_else(|_| "cc".into()));
-    cc.args(["-std=c99", "-O2", "-fPIC"]).args(flags.split_whitespace());
+    let named = env::var("CC").unwrap_or_else(|_| "cc".into());
+    let mut words = named.split_whitespace(); // as in "ccache gcc"
+    let mut cc = Command::new(words.next().unwrap_or("cc"));
+    cc.args(words).args(["-std=c99", "-O2", "-fPIC"]).args(flags.split_whitespace());
     run(cc.arg("-c").arg(source.join("peri_impl.c")).arg("-o").arg(&object));
     let library = out.join("libperi.a");
     let _ = std::fs::remove_file(Path::new(&library));
