@@ -74,8 +74,8 @@ const tests = {
         assert.ok((await darkPixels(tab)) > 500);
         await tab.getByRole("button", { name: "Pause" }).click();
         const said = await tab.locator("#live").textContent();
-        assert.match(said, /Pane of glass, 9800 points\. After [\d.]+ microseconds \d+ of \d+ bonds are broken\. Largest damage 0\.\d+\./);
-        assert.ok(Number(said.match(/damage (0\.\d+)/)[1]) > 0.3);
+        assert.match(said, /Pane of glass, 9800 points\. After [\d.]+ microseconds \d+ of \d+ bonds are broken\. Largest damage [01]\.\d+\./);
+        assert.ok(Number(said.match(/damage ([01]\.\d+)/)[1]) > 0.3);
         // the term at work stays marked
         assert.equal(await tab.locator(".term.works").first().count(), 1);
         assert.match(await tab.locator("#term-text").textContent(), /^At work: /);
