@@ -6,6 +6,7 @@
 # make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
 # make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, more than an hour
 # make examples  builds and runs every example
+# make run       build/run/peri_run, which runs the scene of a text file: tools/run/README.md
 # make gallery   the experiments and figures of the source texts, some minutes -> docs/gallery.md and its pictures
 # make lib       build/libperi.a and build/libperi.so (with WERROR= where a compiler warns of what ours do not)
 # make install   header, single file, libraries, pkg-config and CMake files, licence: PREFIX=/usr/local, DESTDIR=, INCLUDEDIR=, LIBDIR=
@@ -44,7 +45,7 @@ TESTS = $(basename $(notdir $(wildcard tests/test_*.c)))
 GALLERY = $(basename $(notdir $(wildcard examples/gallery/*.c)))
 EXTREMES = $(basename $(notdir $(wildcard tests/extremes/*.c)))
 
-.PHONY: all demo programs test validate bench tradeoff machines examples gallery lib install uninstall dist mutants fuzz bindings python lessons lint clean
+.PHONY: all demo run programs test validate bench tradeoff machines examples gallery lib install uninstall dist mutants fuzz bindings python lessons lint clean
 all: lib
 
 # The library is one unit (peri_impl.c). Here the kernels of each precision and dimension are objects of their own, compiled side by side
@@ -142,6 +143,18 @@ build/tests/%.o: tests/%.c peri.h $(wildcard tests/*.h)
 	@mkdir -p $(@D)
 	$(COMPILE) $(UNOPTIMISED) -c $< -o $@
 
+# peri_run; the tests of its parts include them
+RUN_PARTS = $(basename $(notdir $(wildcard tools/run/*.c)))
+build/run/%.o: tools/run/%.c tools/run/run.h peri.h extras/peri_view.h
+	@mkdir -p $(@D)
+	$(COMPILE) -c $< -o $@
+
+build/run/peri_run: $(RUN_PARTS:%=build/run/%.o) build/libperi.a
+	$(CC) $(OPENMP) $^ -o $@ -lm
+
+run: build/run/peri_run
+build/tests/test_run.o build/tests/test_run_meshes.o: $(wildcard tools/run/*.[ch]) extras/peri_view.h
+
 build/gallery/%.o: examples/gallery/%.c peri.h examples/example.h $(wildcard examples/gallery/*.h)
 	@mkdir -p $(@D)
 	$(COMPILE) -c $< -o $@
@@ -203,7 +216,7 @@ gallery: $(GALLERY:%=build/gallery/%)
 	echo "gallery: no python3 has matplotlib (Debian: python3-matplotlib): out/gallery has the tables, the pictures and the page are as they were"
 
 programs: $(TESTS:%=build/tests/%) build/tests/extremes $(EXAMPLES:%=build/examples/%) build/libperi.so \
-    build/tests/binding_scenes $(if $(shell command -v python3),python)
+    build/tests/binding_scenes build/run/peri_run $(if $(shell command -v python3),python)
 
 test:
 	@mkdir -p build

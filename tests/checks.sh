@@ -61,6 +61,7 @@ queue install "sh tests/check_install.sh"
 queue docs "sh tests/check_docs.sh"
 queue migrate "sh tests/check_migrate.sh"
 queue tools "sh tests/check_tools.sh"
+queue run "CC='$CC' OPENMP='$OPENMP' OMP_WAIT_POLICY=passive sh tests/check_run.sh"
 queue mpi "OPENMP='$OPENMP' sh tests/check_mpi.sh"
 queue promises "CC='$CC' OPENMP='$OPENMP' sh tests/check_promises.sh"
 if command -v tcc > /dev/null; then

@@ -8,7 +8,8 @@ strict="-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef -Werror -
 
 for compiler in gcc clang; do
     command -v $compiler > /dev/null || { echo "lint: no $compiler, skipped"; continue; }
-    for file in peri_impl.c examples/*.c examples/gallery/*.c tests/*.c tests/extremes/*.c tests/promises/*.c bench/*.c; do
+    for file in peri_impl.c examples/*.c examples/gallery/*.c tests/*.c tests/extremes/*.c tests/promises/*.c bench/*.c \
+        tools/run/*.c; do
         $compiler $strict "$file" || fail "$compiler: $file"
     done
 done
@@ -18,12 +19,12 @@ if command -v cppcheck > /dev/null; then
 else
     echo "lint: no cppcheck, skipped"
 fi
-for file in src/*/* peri_impl.c examples/*.[ch] examples/gallery/* tests/*.c tests/*.h tests/extremes/* tests/promises/* bench/*; do
+for file in src/*/* peri_impl.c examples/*.[ch] examples/gallery/* tests/*.c tests/*.h tests/extremes/* tests/promises/* bench/* tools/run/*.[ch]; do
     lines=$(wc -l < "$file")
     [ "$lines" -le 600 ] || fail "$file: $lines lines, more than 600"
 done
 awk 'length > 140 { printf "lint: %s:%d: longer than 140\n", FILENAME, FNR; bad = 1 } END { exit bad }' \
-    peri_impl.c src/*/* examples/*.[ch] examples/gallery/* extras/* tests/*.c tests/*.h tests/extremes/* tests/promises/*.c bench/* || status=1
+    peri_impl.c src/*/* examples/*.[ch] examples/gallery/* extras/* tests/*.c tests/*.h tests/extremes/* tests/promises/*.c bench/* tools/run/*.[ch] || status=1
 # peri.h is read in ten minutes
 awk 'length > 100 { printf "lint: peri.h:%d: longer than 100\n", FNR; bad = 1 }
     { size += length + 1; rest = $0
@@ -37,7 +38,7 @@ awk 'length > 100 { printf "lint: peri.h:%d: longer than 100\n", FNR; bad = 1 }
     END { if (size > 80000) { printf "lint: peri.h: %d bytes, more than 80,000\n", size; bad = 1 }
           if (said > 0.55 * size) { printf "lint: peri.h: comments are %.1f %% of it, more than 55\n", 100 * said / size; bad = 1 }
           exit bad }' peri.h || status=1
-grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* extras/* examples/*.[ch] examples/gallery/* tests/*.* tests/extremes/* tests/promises/* bench/* tools/*.* tools/bind/*.* Makefile README.md && fail "trailing blanks"
+grep -nE '[[:space:]]+$' peri.h peri_impl.c src/*/* extras/* examples/*.[ch] examples/gallery/* tests/*.* tests/extremes/* tests/promises/* bench/* tools/*.* tools/bind/*.* tools/run/*.* tools/run/decks/* Makefile README.md && fail "trailing blanks"
 grep -nE '\b(printf|exit|abort|assert)[[:space:]]*\(' src/*/* && fail "the library prints or exits"
 # no state: every variable of the library is const or local
 grep -nE '^static [a-z_0-9]+ [a-z_0-9]+(\[.*\])? *(=|;)' src/*/* | grep -v const && fail "global state"
