@@ -293,7 +293,8 @@ typedef enum peri_correction {
     PERI_CORRECTION_NONE = 701,   /* the constants of an infinite body */
     PERI_CORRECTION_VOLUME = 702, /* bond-based, by volumes (Le, Bobaru 2018): for comparison */
     PERI_CORRECTION_ENERGY = 703, /* bond-based: right energy of isotropic strain and mean shear */
-    PERI_CORRECTION_MOMENT = 704  /* weights, as little as makes uniform strain exact on lattices */
+    PERI_CORRECTION_MOMENT = 704, /* weights, as little as makes uniform strain exact on lattices */
+    PERI_CORRECTION_EQUILIBRIUM = 705 /* and in equilibrium inside on any cloud; not of parts */
 } peri_correction;
 
 typedef enum peri_moments { /* which bonds calibrate LPS and Oterkus */

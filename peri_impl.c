@@ -57,6 +57,8 @@ PERI_SMALL_END
 #include "src/families/weights.c" /* bonds                         -> lengths and weights                       */
 #include "src/families/neighbors.c"  /* points                        -> families (Ibond)                          */
 #include "src/families/agreement.c"  /* families of the caller       -> do they belong to the horizon?              */
+#include "src/families/moments.c"    /* directions of bonds           -> tensors, moments of families             */
+#include "src/families/balance.c"    /* weights                       -> weights that balance uniform strain         */
 #include "src/families/correction.c" /* weights                       -> weights that surfaces need                */
 #include "src/families/stencil.c"      /* points of lattices            -> families by columns, Ibond compressed     */
 #include "src/families/rows.c"       /* the family of a point, wherever it is stored                               */

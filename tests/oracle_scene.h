@@ -98,7 +98,7 @@ static void choose_desc(scene *s) {
     d->quadrature = peri__first_quadrature + below(s, s->dim == 3 ? 3 : peri__count_quadrature);
     if (is_exact(d->quadrature) && below(s, s->dim == 3 ? 10 : 4)) d->quadrature = PERI_QUADRATURE_FULL; /* parts of cells take long */
     d->correction = is_planar(d->quadrature) ? PERI_CORRECTION_NONE : peri__first_correction + below(s, peri__count_correction);
-    if (d->correction == PERI_CORRECTION_MOMENT && below(s, s->dim == 3 ? 4 : 2)) d->correction = PERI_CORRECTION_NONE; /* so do fits */
+    if (d->correction >= PERI_CORRECTION_MOMENT && below(s, s->dim == 3 ? 4 : 2)) d->correction = PERI_CORRECTION_NONE; /* so do fits */
     d->break_timing = peri__first_break_timing + below(s, peri__count_break_timing);
     d->kernel = peri__first_kernel + below(s, peri__count_kernel);
     d->instructions = peri__first_instructions + below(s, peri__count_instructions);

@@ -31,7 +31,7 @@ static void drop(program *p, int s) {
 static void fill_desc(program *p, int s, peri_body_desc *d) {
     /* less the first of each */
     static const int32_t influences[] = {0, 0, 0, 0, 0, 0, 0, 2, 2, 1, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 15};
-    static const int32_t quadratures[] = {0, 0, 0, 0, 1, 2, 2, 4, 3, 1}, corrections[] = {0, 0, 0, 1, 2, 3, 3, 0}, kernels[] = {0, 0, 1, 2};
+    static const int32_t quadratures[] = {0, 0, 0, 0, 1, 2, 2, 4, 3, 1}, corrections[] = {0, 0, 0, 1, 2, 3, 4, 0}, kernels[] = {0, 0, 1, 2};
     static const int32_t precisions[] = {PERI_PRECISION_DOUBLE, PERI_PRECISION_DOUBLE, PERI_PRECISION_SINGLE, PERI_PRECISION_MIXED};
     static const double lengths[] = {1.0, 1.0, 1e-9, 3e4}, stresses[] = {1.0, 7e10}, densities[] = {1.0, 2440.0};
     slot *o = &p->slots[s];
@@ -48,7 +48,7 @@ static void fill_desc(program *p, int s, peri_body_desc *d) {
     d->influence = p->mood == MOOD_CHOICES ? choice(p, PERI_INFLUENCE_CONSTANT, 16) : PERI_INFLUENCE_CONSTANT + influences[below(p, 24)];
     if (p->mood == MOOD_CHOICES) d->quadrature = choice(p, PERI_QUADRATURE_FULL, 5);
     else d->quadrature = PERI_QUADRATURE_FULL + quadratures[below(p, o->dim == 3 ? 7 : 10)];
-    d->correction = p->mood == MOOD_CHOICES ? choice(p, PERI_CORRECTION_NONE, 4) : PERI_CORRECTION_NONE + corrections[more % 8];
+    d->correction = p->mood == MOOD_CHOICES ? choice(p, PERI_CORRECTION_NONE, 5) : PERI_CORRECTION_NONE + corrections[more % 8];
     if (p->mood == 0 && d->quadrature >= PERI_QUADRATURE_PARTIAL_CENTROID) d->correction = PERI_CORRECTION_NONE;
     d->break_timing = p->mood == MOOD_CHOICES ? choice(p, PERI_BREAK_WITHIN_STEP, 2) : PERI_BREAK_WITHIN_STEP + more / 8 % 2;
     d->moments = p->mood == MOOD_CHOICES ? choice(p, PERI_MOMENTS_LIVE, 2) : PERI_MOMENTS_LIVE + more / 4 % 2;
@@ -68,7 +68,7 @@ static void fill_desc(program *p, int s, peri_body_desc *d) {
     if (more / 64 == 2) d->log = on_log;
     d->log_user = p;
     o->quadrature = d->quadrature;
-    o->heavy = o->dim == 3 && (d->quadrature == PERI_QUADRATURE_PARTIAL || d->correction == PERI_CORRECTION_MOMENT);
+    o->heavy = o->dim == 3 && (d->quadrature == PERI_QUADRATURE_PARTIAL || d->correction >= PERI_CORRECTION_MOMENT);
     if (p->nulls == 2) d->cookie ^= 1;
     if (p->trace)
         printf("    space %d precision %d geometry %d influence %d quadrature %d correction %d kernel %d horizon %g, %g long\n", d->space,

@@ -10,7 +10,7 @@ typedef struct solid {
     double  nu, stabilization, ratio, spacing; /* stabilization < 0: the default; ratio = horizon/spacing                   */
 } solid;
 
-static const char *const correction_name[] = {"", "none", "volume", "energy", "moment"};
+static const char *const correction_name[] = {"", "none", "volume", "energy", "moment", "equilibrium"};
 
 static inline int parts_of(int dim) { return dim == 3 ? 6 : 3; }
 

@@ -200,7 +200,7 @@ static errors errors_of(beam b, int kind, double zone) {
 /* ---- cases --------------------------------------------------------------------------------------------------------- */
 
 static const char *const law_name[] = {"", "bond-based", "LPS", "Oterkus", "correspondence"};
-static const char *const correction_name[] = {"", "none", "volume", "energy", "moment"};
+static const char *const correction_name[] = {"", "none", "volume", "energy", "moment", "equilibrium"};
 
 /* All three, printed in %: at the end (largest). Returns the largest of all; NaN where one is. */
 static double row(const beam *b, double zone, errors *e) {

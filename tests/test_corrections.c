@@ -93,14 +93,15 @@ static void uniform_strains(int32_t space, double ratio, int cells) {
         for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction) {
             solid s = solid_of(space, law, correction);
             errors e;
-            int ordinary = law == PERI_LAW_LPS || law == PERI_LAW_OTERKUS, moment = correction == PERI_CORRECTION_MOMENT;
+            int ordinary = law == PERI_LAW_LPS || law == PERI_LAW_OTERKUS, balanced = correction == PERI_CORRECTION_EQUILIBRIUM;
+            int moment = correction == PERI_CORRECTION_MOMENT || (balanced && law == PERI_LAW_LPS);
             if (correction == PERI_CORRECTION_VOLUME && law != PERI_LAW_BOND_BASED) continue;
             s.ratio = ratio;
             e = errors_of(&s, cells);
             print_errors(&s, &e);
             if (correction == PERI_CORRECTION_NONE) plain = e;
             for (k = FACE; k < PLACES && (moment || law == PERI_LAW_BOND_BASED); ++k) CHECK(e.mean[k] <= plain.mean[k] + 1e-12);
-            if (law == PERI_LAW_BOND_BASED && correction >= PERI_CORRECTION_ENERGY) CHECK(e.isotropic[BULK] < 1e-12);
+            if (law == PERI_LAW_BOND_BASED && correction >= PERI_CORRECTION_ENERGY) CHECK(e.isotropic[BULK] < (balanced ? 1e-9 : 1e-12));
             if (ordinary) CHECK(e.everywhere < 1e-12);
             if (moment) CHECK(e.most[BULK] < 1e-10);
             if (moment && ordinary) CHECK(e.most[FACE] < (law == PERI_LAW_LPS ? 1e-10 : 0.01));
@@ -273,13 +274,14 @@ static void clouds_conserve_in_planes(void) {
 static void clouds_conserve_in_solids(void) { clouds_conserve(PERI_SPACE_SOLID); }
 
 /* Weights are not negative: point j moved along xi pulls its neighbour i along xi and puts no pressure on it, the others of the
-   family being at rest. With A = 0 no other bond of i feels it. The trace of the force stress is the half that i gives. */
+   family being at rest. With A = 0 no other bond of i feels it. The trace of the force stress is the half that i gives. The weights of the
+   equilibrium correction may be negative, of which it tells. */
 static void no_bond_pushes_when_pulled(void) {
     int32_t space, law, correction;
     int kind, way;
     for (space = PERI_SPACE_PLANE_STRESS; space < peri__end_space; ++space)
         for (law = PERI_LAW_BOND_BASED; law <= PERI_LAW_LPS; ++law)
-            for (correction = PERI_CORRECTION_VOLUME; correction < peri__end_correction; ++correction)
+            for (correction = PERI_CORRECTION_VOLUME; correction <= PERI_CORRECTION_MOMENT; ++correction)
                 for (kind = BOX; kind < CLOUDS; ++kind) {
                     solid s = solid_of(space, law, correction);
                     int dim = dim_of(space), a, parts = parts_of(dim), pulls = 0;
@@ -432,7 +434,7 @@ static void beams(void) {
                 for (k = 0; k < 2; ++k) CHECK(ratio[k] > 0.925 && ratio[k] < 1.025);
             if (law == PERI_LAW_BOND_BASED && correction == PERI_CORRECTION_NONE) memcpy(plain, ratio, sizeof plain);
             else if (law <= PERI_LAW_LPS) {
-                times = correction == PERI_CORRECTION_MOMENT ? 1 : 3;
+                times = correction >= PERI_CORRECTION_MOMENT ? 1 : 3;
                 for (k = 0; k < 2; ++k) CHECK(times * fabs(ratio[k] - 1) <= fabs(plain[k] - 1));
             }
         }
@@ -440,12 +442,13 @@ static void beams(void) {
 
 /* Thicker strips at a horizon of 2 cells, which is refinement: where every uniform strain is right the error is that of the
    surface layer, of first order at least: halved by each doubling, below 5 % at 16 cells (--long). Uncorrected, the moduli of
-   the lattice sum stay wrong: LPS more than 10 % at any thickness. Correspondence, exact without, is to converge, too. */
+   the lattice sum stay wrong: LPS more than 10 % at any thickness. Correspondence, exact without, is to converge, too. The equilibrium
+   correction is for clouds: it spoils the symmetry of lattices near faces. */
 static void beams_converge(void) {
     int32_t law, correction;
     int thick;
     for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law)
-        for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction) {
+        for (correction = PERI_CORRECTION_NONE; correction <= PERI_CORRECTION_MOMENT; ++correction) {
             solid s = solid_of(PERI_SPACE_PLANE_STRESS, law, correction);
             int sound = (correction == PERI_CORRECTION_MOMENT) == (law != PERI_LAW_CORRESPONDENCE);
             double last = 0, error;

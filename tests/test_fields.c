@@ -407,7 +407,8 @@ static void static_pull(void) {
             printf("    %-14s %-6s force/(E eps A) %.3f, force stress in the middle/(E eps) %.3f\n", law_name[law % 100],
                    correction_name[correction % 100], force[1][0] / want, bulk / (YOUNG * PULL));
             if (correction == PERI_CORRECTION_MOMENT) CHECK_NEAR(force[1][0], want, 0.03, 0);
-            if (law == PERI_LAW_CORRESPONDENCE) CHECK_NEAR(force[1][0], want, 1e-9, 0);
+            if (law == PERI_LAW_CORRESPONDENCE) /* on a lattice other weights than equal ones spoil the balance at faces */
+                CHECK_NEAR(force[1][0], want, correction == PERI_CORRECTION_EQUILIBRIUM ? 0.03 : 1e-9, 0);
             memset(&t, 0, sizeof t);
             (void)MUST(b, peri_export_vtu_to(b, keep, &t));
             CHECK(strstr(t.head, "<VTKFile") && strstr(t.head, "NumberOfPoints=\"240\"") && strstr(t.tail, "</VTKFile>"));

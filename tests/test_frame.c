@@ -180,10 +180,11 @@ static double apart(const double *a, const double *b, int n) {
     return size > 0 ? most / size : most;
 }
 
-/* Poles take w'/w to 60 and more; the moment correction solves a system. */
+/* Poles take w'/w to 60 and more; the moment correction solves a system, that of the equilibrium one of the whole body, to 1e-12. */
 static double bound_of(const scene *s) {
     const int pole = s->influence >= PERI_INFLUENCE_POLE_EDGE && s->influence <= PERI_INFLUENCE_POLE_QUARTER;
-    return (pole ? 1e-10 : 1e-12) * (s->correction == PERI_CORRECTION_MOMENT ? 100 : 1);
+    const double solved = s->correction == PERI_CORRECTION_MOMENT ? 100 : s->correction == PERI_CORRECTION_EQUILIBRIUM ? 1000 : 1;
+    return (pole ? 1e-10 : 1e-12) * solved;
 }
 
 static void compare(const scene *s, int kind, const cloud *c, const answer *a, const answer *b) {

@@ -211,12 +211,13 @@ static void bulk_of_mixture(const scene *s) {
     peri_body_destroy(b);
 }
 
-/* The corrections that change nothing in the bulk (expect) are looked at with the first function only where bodies are large. */
+/* The corrections that change nothing in the bulk (expect) are looked at with the first function only where bodies are large. The weights
+   of the equilibrium correction are those of the whole body, not of a lattice: test_balance.c. */
 static void bulk_sweep(int32_t space, int influences, const int32_t *functions, double reach) {
     int k;
     for (k = 0; k < influences; ++k) {
         scene s = scene_of(space, PERI_GEOMETRY_LINEAR, functions[k], PERI_CORRECTION_NONE, reach);
-        for (; s.correction < peri__end_correction; ++s.correction) {
+        for (; s.correction <= PERI_CORRECTION_MOMENT; ++s.correction) {
             int same = s.correction == PERI_CORRECTION_VOLUME || s.correction == PERI_CORRECTION_ENERGY, large = space == PERI_SPACE_SOLID;
             if (large && same && !test_long) continue; /* planes have them */
             if (!(same && large && k > 0)) bulk_of_mixture(&s);
@@ -234,7 +235,7 @@ static void print_table(int32_t space, double reach) {
     int law, correction;
     for (law = PERI_LAW_BOND_BASED; law < peri__end_law; ++law) {
         printf("    %-13s m = %.0f  %-15s", space_name[space % 100], reach, law_name[law % 100]);
-        for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction)
+        for (correction = PERI_CORRECTION_NONE; correction <= PERI_CORRECTION_MOMENT; ++correction)
             printf("  %s %.1e", names[correction % 100], table[space % 100][law % 100][correction % 100][(int)(reach + 0.5)]);
         printf("\n");
     }
@@ -265,7 +266,7 @@ static void pure(int32_t space, int32_t correction) {
 }
 static void bulk_pure_plane(void) {
     int32_t correction;
-    for (correction = PERI_CORRECTION_NONE; correction < peri__end_correction; ++correction) {
+    for (correction = PERI_CORRECTION_NONE; correction <= PERI_CORRECTION_MOMENT; ++correction) {
         pure(PERI_SPACE_PLANE_STRESS, correction);
         pure(PERI_SPACE_PLANE_STRAIN, correction);
     }

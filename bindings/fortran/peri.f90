@@ -179,6 +179,8 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_CORRECTION_ENERGY = 703
     ! weights, as little as makes uniform strain exact on lattices
     integer(c_int32_t), parameter :: PERI_CORRECTION_MOMENT = 704
+    ! and in equilibrium inside on any cloud; not of parts
+    integer(c_int32_t), parameter :: PERI_CORRECTION_EQUILIBRIUM = 705
 
     ! those left: they take over what others carried
     integer(c_int32_t), parameter :: PERI_MOMENTS_LIVE = 2501

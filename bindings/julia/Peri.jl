@@ -95,6 +95,7 @@ const CORRECTION_NONE = Int32(701) # the constants of an infinite body
 const CORRECTION_VOLUME = Int32(702) # bond-based, by volumes (Le, Bobaru 2018): for comparison
 const CORRECTION_ENERGY = Int32(703) # bond-based: right energy of isotropic strain and mean shear
 const CORRECTION_MOMENT = Int32(704) # weights, as little as makes uniform strain exact on lattices
+const CORRECTION_EQUILIBRIUM = Int32(705) # and in equilibrium inside on any cloud; not of parts
 const MOMENTS_LIVE = Int32(2501) # those left: they take over what others carried
 const MOMENTS_WHOLE = Int32(2502) # all, broken and cut ones included
 const KERNEL_BEST = Int32(801) # columns on lattices where that serves, else a list

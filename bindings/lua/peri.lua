@@ -614,6 +614,7 @@ local peri = {
     CORRECTION_VOLUME = 702, -- bond-based, by volumes (Le, Bobaru 2018): for comparison
     CORRECTION_ENERGY = 703, -- bond-based: right energy of isotropic strain and mean shear
     CORRECTION_MOMENT = 704, -- weights, as little as makes uniform strain exact on lattices
+    CORRECTION_EQUILIBRIUM = 705, -- and in equilibrium inside on any cloud; not of parts
     MOMENTS_LIVE = 2501, -- those left: they take over what others carried
     MOMENTS_WHOLE = 2502, -- all, broken and cut ones included
     KERNEL_BEST = 801, -- columns on lattices where that serves, else a list

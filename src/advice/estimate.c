@@ -257,7 +257,8 @@ static int peri__estimate_stencil(peri__estimate *s) {
     peri__stencil *l = &s->model.stencil;
     peri__model *m = &s->model;
     double rows = 0.0;
-    if (desc->quadrature == PERI_QUADRATURE_PARTIAL_CENTROID || (s->corrected && !m->pairwise)) return -1;
+    if (desc->quadrature == PERI_QUADRATURE_PARTIAL_CENTROID || (s->corrected && !m->pairwise)
+        || desc->correction == PERI_CORRECTION_EQUILIBRIUM) return -1;
     if (desc->kernel != PERI_KERNEL_BEST) return -1;
     if (s->jitter > 0.0 || s->vector_count == 0 || s->width > PERI_VECTOR_LIMIT) return 0;
     l->groups = (m->points + PERI_GROUP - 1) / PERI_GROUP;

@@ -58,7 +58,7 @@ static int32_t peri__lay_out_estimate(peri__estimate *s) {
     s->volume[0] = s->volume[1] = volume;
     peri__note_law(m, &m->laws[0], material->criterion);
     peri__note_inelastic(m, 0, material);
-    s->corrected = b->desc.correction == PERI_CORRECTION_MOMENT || (m->pairwise && b->desc.correction != PERI_CORRECTION_NONE);
+    s->corrected = b->desc.correction >= PERI_CORRECTION_MOMENT || (m->pairwise && b->desc.correction != PERI_CORRECTION_NONE);
 
     memset(&s->cloud, 0, sizeof s->cloud);
     s->cloud.body = b;
@@ -223,6 +223,7 @@ static void peri__plan_bytes(peri__estimate *s, const peri_plan_desc *plan, peri
     if (listed) {
         peri__mark_list(s, there, other);
         int64_t factors = s->corrected ? (int64_t)peri__scratch_bytes(m->entries, sizeof(double)) : 0;
+        if (s->body.desc.correction == PERI_CORRECTION_EQUILIBRIUM) factors += peri__balance_bytes(m->points, m->entries, m->dim);
         const int64_t bytes = peri__model_bytes(s) + (s->corrected && builder > factors ? builder : factors);
         if (bytes > most) most = bytes;
     }

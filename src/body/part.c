@@ -238,6 +238,7 @@ static int32_t peri__agree_on_points(peri_body *b, peri__model *m, uint8_t *used
 /* What this part cannot be. */
 static int32_t peri__check_part(peri_body *b, const peri__model *m) {
     if (b->setup.ibond) return peri__fail(b, PERI_ERROR_PART, "peri_set_families", -1, 0.0);
+    if (b->desc.correction == PERI_CORRECTION_EQUILIBRIUM) return peri__fail(b, PERI_ERROR_PART, "correction", -1, b->desc.correction);
     if (b->bond_law_count > 0) return peri__fail(b, PERI_ERROR_PART, "peri_set_bond_law", -1, 0.0);
     if (m->inelastic) return peri__fail(b, PERI_ERROR_PART, "peri_add_material", -1, 0.0);
     if (m->seen_by & (PERI__BY_STRESS | PERI__AND_LEAST | PERI__BY_NODE_ENERGY | PERI__BY_WORK))

@@ -8,61 +8,7 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-#define PERI_QUARTICS 15 /* components of a symmetric tensor of rank 4 that differ: 5 in 2D, 15 in 3D                       */
-#define PERI_FIT_SOFT 0.01 /* weight of |lambda|^2 in a compromise                                                         */
 #define PERI_FIT_MOST 10.0 /* the factor from which on an exact fit gives way to a compromise                              */
-
-/* Root of how often the component of p times x, q times y and 4 - p - q times z occurs: of 4!/(p! q! r!). */
-static const double peri__quartic_root[5][5] = { { 1.0, 2.0, 2.449489742783178, 2.0, 1.0 },
-                                                 { 2.0, 3.4641016151377544, 3.4641016151377544, 2.0, 0.0 },
-                                                 { 2.449489742783178, 3.4641016151377544, 2.449489742783178, 0.0, 0.0 },
-                                                 { 2.0, 2.0, 0.0, 0.0, 0.0 },
-                                                 { 1.0, 0.0, 0.0, 0.0, 0.0 } };
-
-/* The tensor n n n n by its components, each times that root: then sums of products are contractions, and no rotation changes them. Returns
-   their number. n has three entries. */
-static int peri__quartics(int32_t dim, const double *n, double *component) {
-    double power[3][5];
-    int count = 0;
-    for (int d = 0; d < 3; ++d) {
-        power[d][0] = 1.0;
-        for (int k = 1; k < 5; ++k) power[d][k] = power[d][k - 1] * n[d];
-    }
-    for (int p = 4; p >= 0; --p)
-        for (int q = 4 - p; q >= (dim == 2 ? 4 - p : 0); --q)
-            component[count++] = peri__quartic_root[p][q] * power[0][p] * power[1][q] * power[2][4 - p - q];
-    return count;
-}
-
-/* Its mean over all directions n. */
-static void peri__isotropic_quartic(int32_t dim, double *component) {
-    for (int p = 4; p >= 0; --p)
-        for (int q = 4 - p; q >= (dim == 2 ? 4 - p : 0); --q) {
-            const int r = 4 - p - q, odd = p % 2 || q % 2 || r % 2, pure = p == 4 || q == 4 || r == 4;
-            *component++ = odd ? 0.0 : peri__quartic_root[p][q] * (pure ? 3.0 : 1.0) / (dim * (dim + 2));
-        }
-}
-
-typedef struct peri__fitter {
-    peri__cloud *cloud;
-    double      *factor; /* [entries] of the own half of each bond                                                       */
-    double       full;   /* sum w |xi| V over a full horizon                                                             */
-    double       whole;  /* its volume                                                                                   */
-} peri__fitter;
-
-/* What bond k of point i adds to m, and its direction. */
-static double peri__stiff(const peri__fitter *f, int64_t i, int64_t k, double *n) {
-    const peri__model *m = f->cloud->model;
-    int64_t at = m->start[i] + k, j = m->ids[at];
-    double bond = 0.0, weight = peri__weight_of(m, i, m->weight, at);
-    for (int32_t d = 0; d < m->dim; ++d) {
-        n[d] = f->cloud->x[j * m->dim + d] - f->cloud->x[i * m->dim + d];
-        bond += n[d] * n[d];
-    }
-    bond = sqrt(bond);
-    for (int32_t d = 0; d < m->dim; ++d) n[d] /= bond;
-    return m->laws[m->material[i]].pairwise ? weight * bond : weight * bond * bond;
-}
 
 /* Factors x_k = max(0, 1 + lambda.n^4) of row i, nearest to 1 in the mean weighted by the bonds, whose fourth moment is isotropic: where
        phi = sum a_k x_k^2/2 - lambda.I + soft |lambda|^2/2
@@ -156,7 +102,7 @@ static void peri__fit_block(void *context, int64_t begin, int64_t end, peri__sum
             continue;
         }
         if (!(total > 0.0)) continue; /* refused later */
-        if (b->desc.correction == PERI_CORRECTION_MOMENT && least >= 0.0) {
+        if (b->desc.correction >= PERI_CORRECTION_MOMENT && least >= 0.0) {
             if (fitted >= 0 && !m->part && peri__same_family(f, i, fitted)) {
                 memcpy(x, &f->factor[m->start[fitted]], (size_t)m->count[i] * sizeof *x);
                 continue;
@@ -192,7 +138,7 @@ static int peri__corrects(const peri_body *b, const peri__model *m) {
     int bonds = 0;
     for (int64_t i = 0; i < m->points; ++i) bonds |= m->laws[m->material[i]].pairwise;
     if (m->part) bonds = m->pairwise || m->mixed; /* of all parts */
-    return b->desc.correction == PERI_CORRECTION_MOMENT || (bonds && b->desc.correction != PERI_CORRECTION_NONE);
+    return b->desc.correction >= PERI_CORRECTION_MOMENT || (bonds && b->desc.correction != PERI_CORRECTION_NONE);
 }
 
 /* Corrects the weights as the descriptor asks. Influence functions were checked to have moments where bond-based materials are. */
@@ -217,7 +163,8 @@ static int32_t peri__correct(peri_body *b, peri__cloud *c, peri__sums *sums) {
     peri__for_points(b, m->points, 64 * m->width, peri__fit_block, &f, sums);
     missed = peri__total(sums, m->points).n;
     if (missed > 0) peri__log(b, 0, "moment correction: some families near surfaces have no isotropic weights; the nearest are taken");
-    peri__for_points(b, m->points, 8 * m->width, peri__apply_block, &f, sums);
+    const int32_t status = b->desc.correction == PERI_CORRECTION_EQUILIBRIUM ? peri__balance_weights_of(b, &f, sums) : PERI_OK;
+    if (status == PERI_OK) peri__for_points(b, m->points, 8 * m->width, peri__apply_block, &f, sums);
     peri__delete(&b->scratch, f.factor, m->entries, sizeof *f.factor);
-    return PERI_OK;
+    return status;
 }

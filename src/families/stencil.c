@@ -483,6 +483,7 @@ static int32_t peri__build_stencil(peri_body *b, peri__cloud *c) {
     int32_t status = PERI_ERROR_MEMORY;
     if (b->desc.quadrature == PERI_QUADRATURE_PARTIAL_CENTROID) return 0;
     if (b->desc.kernel != PERI_KERNEL_BEST || b->bond_law_count > 0) return 0; /* laws of bonds go by rows               */
+    if (b->desc.correction == PERI_CORRECTION_EQUILIBRIUM) return 0; /* no two families are alike                         */
     if (m->ids ? m->back != m->weight : b->setup.ibond || peri__corrects(b, m)) return 0;
     peri__builder *d = (peri__builder *)peri__new(&b->scratch, 1, sizeof *d);
     l->groups = (m->points + PERI_GROUP - 1) / PERI_GROUP;

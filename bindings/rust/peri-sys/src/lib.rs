@@ -182,6 +182,8 @@ pub const PERI_CORRECTION_VOLUME: i32 = 702;
 pub const PERI_CORRECTION_ENERGY: i32 = 703;
 /// weights, as little as makes uniform strain exact on lattices
 pub const PERI_CORRECTION_MOMENT: i32 = 704;
+/// and in equilibrium inside on any cloud; not of parts
+pub const PERI_CORRECTION_EQUILIBRIUM: i32 = 705;
 
 // peri_moments
 /// those left: they take over what others carried

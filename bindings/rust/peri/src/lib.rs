@@ -346,6 +346,8 @@ pub const CORRECTION_VOLUME: i32 = sys::PERI_CORRECTION_VOLUME;
 pub const CORRECTION_ENERGY: i32 = sys::PERI_CORRECTION_ENERGY;
 /// weights, as little as makes uniform strain exact on lattices
 pub const CORRECTION_MOMENT: i32 = sys::PERI_CORRECTION_MOMENT;
+/// and in equilibrium inside on any cloud; not of parts
+pub const CORRECTION_EQUILIBRIUM: i32 = sys::PERI_CORRECTION_EQUILIBRIUM;
 /// those left: they take over what others carried
 pub const MOMENTS_LIVE: i32 = sys::PERI_MOMENTS_LIVE;
 /// all, broken and cut ones included
