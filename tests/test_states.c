@@ -108,7 +108,7 @@ static void combinations_refused(void) {
             peri_body_desc d = plan(PERI_SPACE_PLANE_STRESS);
             peri_body *b = NULL;
             peri_error e;
-            int bad = c < PERI_CORRECTION_NONE || c > PERI_CORRECTION_MOMENT
+            int bad = c < PERI_CORRECTION_NONE || c >= peri__end_correction
                     || (q >= PERI_QUADRATURE_PARTIAL_CENTROID && c > PERI_CORRECTION_NONE);
             int32_t r;
             d.quadrature = q;
