@@ -4,6 +4,10 @@ of sides of a box; what the body itself says of its cracks; a run without pictur
 import contextlib
 import io
 import os
+import shutil
+import subprocess
+import sys
+import types
 
 import matplotlib
 import numpy as np
@@ -96,6 +100,43 @@ def films(check, peri):
     with open(page) as f:
         text = f.read()
     check(text.startswith("<!DOCTYPE html>") and text.count("data:image/png;base64") == 3, "a page with three pictures")
+    if not (shutil.which("ffmpeg") and shutil.which("ffprobe")):
+        print("    skip: no ffmpeg here, MP4 is not tried")
+        return
+    film = moving().animate(os.path.join(OUT, "film.mp4"), steps=4, time_step=0.1, frames=2, dpi=30)
+    told = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-of", "csv=p=0", "-show_entries", "stream=nb_read_frames", film],
+                          stdout=subprocess.PIPE, check=True).stdout
+    check(int(told.split(b",")[0]) == 3, "a film with three pictures: %s" % told)
+
+
+def handed_over(check, peri):
+    """To meshio, and to a stand-in of pyvista, which Debian lacks: a vertex per point at its place, with the fields."""
+    body = plate(peri)
+    body.velocity = np.arange(48.0).reshape(24, 2)
+    x, v = (np.pad(body.field(name), ((0, 0), (0, 1))) for name in ("position", "velocity"))
+
+    class PolyData:
+        def __init__(self, points):
+            self.points, self.point_data = points, {}
+    modules = {"pyvista": types.SimpleNamespace(PolyData=PolyData)}
+    try:
+        import meshio  # noqa: F401
+    except ImportError:
+        print("    skip: no meshio here")
+        modules["meshio"] = None
+    before = sys.modules.get("pyvista")
+    sys.modules["pyvista"] = modules["pyvista"]
+    meshes = [body.to_pyvista()] + ([] if "meshio" in modules else [body.to_meshio()])
+    if before is None:
+        del sys.modules["pyvista"]
+    else:
+        sys.modules["pyvista"] = before
+    for mesh in meshes:
+        same = np.array_equal(mesh.points, x) and np.array_equal(mesh.point_data["velocity"], v)
+        check(same and np.array_equal(mesh.point_data["volume"], np.ones(24)), "places and fields of a mesh")
+    if "meshio" not in modules:
+        cells = meshes[1].cells[0]
+        check(cells.type == "vertex" and np.array_equal(cells.data[:, 0], np.arange(24)), "a vertex per point")
 
 
 def progress(check, peri):
@@ -117,5 +158,6 @@ def run(check, raises, peri):
     numbers_of_fields(check, raises, peri)
     cracks_and_pieces(check, peri)
     films(check, peri)
+    handed_over(check, peri)
     progress(check, peri)
     plt.close("all")

@@ -12,13 +12,14 @@ node tests/web/grows.mjs "${EMCC:-emcc}" || exit 1
 command -v npm > /dev/null || { echo "web-test: no npm on this machine, types and the page are skipped"; exit 0; }
 mkdir -p build/web-test
 cp tests/web/page.mjs tests/web/types.mts build/web-test/
-if [ ! -d build/web-test/node_modules/typescript ]; then
+if [ ! -d build/web-test/node_modules/tree-sitter-julia ]; then
     (cd build/web-test && { [ -f package.json ] || npm init -y > /dev/null; } && \
-        npm install --no-audit --no-fund playwright-core@1 axe-core@4 typescript@5 > npm.log 2>&1) || \
-        { tail -n 3 build/web-test/npm.log; echo "web-test: playwright-core, axe-core and typescript cannot be had, types and the page are skipped"; exit 0; }
+        npm install --no-audit --no-fund --ignore-scripts playwright-core@1 axe-core@4 typescript@5 web-tree-sitter@0.27 tree-sitter-julia@0.23 \
+            > npm.log 2>&1) || { tail -n 3 build/web-test/npm.log; echo "web-test: no packages of npm, types, Julia and the page are skipped"; exit 0; }
 fi
 (cd build/web-test && node node_modules/typescript/bin/tsc --noEmit --strict --target es2022 --module nodenext types.mts) || exit 1
 echo "ok   types"
+node tests/web/julia.mjs build/web-test bindings/julia/Peri.jl bindings/julia/glass.jl || exit 1
 CHROMIUM=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || command -v google-chrome)}
 [ -n "$CHROMIUM" ] || { echo "web-test: no Chromium on this machine, the page is skipped"; exit 0; }
 make --no-print-directory web || exit 1
