@@ -533,8 +533,8 @@ typedef int32_t (*peri_reduce_fn)(void *user, int32_t reduction, int64_t count, 
    and are in no set, sum or count. Give them all else that their owners have: cuts, motion. */
 typedef struct peri_part_desc {
     uint64_t cookie;           /* set by init */
-    double origin[3];          /* [L] this, and the next two: any, alike on all parts. Required */
-    double length;             /* [L] > 0: the spacing */
+    double origin[3];          /* [L] any; this and the next two alike on all parts. Required */
+    double length;             /* [L] > 0: the spacing; that of boxes to a factor of 16 */
     double mean_volume;        /* [L^3] > 0, planes [L^2], of a point */
     int64_t ghost_count;       /* Default 0 */
     const int32_t *ghosts;     /* [ghost_count] points, ascending */

@@ -309,6 +309,59 @@ static int32_t stop_there(void *user, int64_t iteration, double residual) {
     w->iterations = iteration;
     return w->stop_at > 0 && iteration >= w->stop_at;
 }
+static int32_t put_wall(void *user, peri_body *b) {
+    return peri_add_obstacle(b, (const peri_obstacle_desc *)user) < 0 ? -1 : 0;
+}
+
+/* A step that fails after bonds broke takes their energy as fracture: the first law goes on. What a frame adds is refused as at first, and
+   so are criteria that go by how long and how fast. */
+static void failures_are_paid_for(void) {
+    const double from[2] = {8 * H, -H}, to[2] = {8 * H, 2.25 * H};
+    static const int32_t timed[2] = {PERI_CRITERION_RATE_STRETCH, PERI_CRITERION_DELAYED_STRETCH};
+    int k;
+    bar p;
+    double step, pull[2] = {0, 0};
+    peri_energy e;
+    peri_solve_desc s = statics_of(1e-9);
+    peri_advance_desc r;
+    peri_obstacle_desc o;
+    bar_of(&p, PERI_GEOMETRY_LINEAR, 16, 6, 0.02);
+    (void)MUST(p.body, peri_cut_segment(p.body, PERI_CUT_INITIAL, from, to));
+    step = 20 * peri_stable_step(p.body);
+    pull[0] = 0.04 * 16 * H / (60 * step);
+    (void)MUST(p.body, peri_prescribe_velocity(p.body, slab(p.body, 0, 14 * H, 16 * H), PERI_AXIS_X, pull, NULL, NULL));
+    s.breaks = 1;
+    r = steps_of(step, 60);
+    CHECK(peri_advance_implicit(p.body, &r, &s, 1, NULL) == PERI_ERROR_CONVERGENCE && peri_broken_count(p.body) > 0);
+    e = energy_of(p.body);
+    CHECK(e.fracture > 0 && fabs(e.error) <= 1e-6 * e.external);
+    peri_obstacle_desc_init(&o, PERI_SHAPE_BALL);
+    o.place[0] = -9 * H;
+    o.radius = H;
+    o.stiffness = YOUNG / H / H;
+    s.breaks = 1000;
+    r = steps_of(step, 6);
+    r.frame_steps = 2;
+    r.on_frame = put_wall;
+    r.user = &o;
+    CHECK(peri_advance_implicit(p.body, &r, &s, 1, NULL) == PERI_ERROR_LAW);
+    close_bar(&p);
+    for (k = 0; k < 2; ++k) {
+        specimen t = specimen_of(PERI_SPACE_PLANE_STRESS, PERI_LAW_BOND_BASED, 0.25, H, 2.2, 6, 3, 1);
+        t.material.criterion = timed[k];
+        t.material.critical_stretch = 0.02;
+        if (k == 0) t.material.rate = 1;
+        else t.material.delay = 1;
+        peri_body *b = specimen_make(&t);
+        r = steps_of(peri_stable_step(b), 1);
+        CHECK(peri_advance_implicit(b, &r, NULL, 1, NULL) == PERI_ERROR_LAW);
+        s = statics_of(0);
+        s.fracture = 0;
+        (void)MUST(b, peri_advance_implicit(b, &r, &s, 1, NULL));
+        peri_body_destroy(b);
+    }
+}
+
 static void frames_stops_and_refusals(void) {
     bar p;
     double step, *u, *w;
@@ -429,6 +482,7 @@ int main(int argc, char **argv) {
     RUN(order_holds_in_large_motion);
     RUN(slow_loads_cost_little);
     RUN(bonds_break);
+    RUN(failures_are_paid_for);
     RUN(frames_stops_and_refusals);
     RUN(a_free_body_flies_on);
     RUN(memory_may_fail);

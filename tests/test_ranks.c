@@ -413,6 +413,7 @@ static void wrong_ghosts_are_refused(void) {
 #define WIDE (CELL + 2 * RIM)
 
 static pool *memory_of_cells; /* NULL: malloc                                                                            */
+static double critical_stretch;  /* of its bonds, where they break                                                      */
 static peri_body *periodic(int32_t law, int32_t correction, int32_t *owned) {
     static int32_t ghosts[WIDE * WIDE], owners[WIDE * WIDE];
     const double h = 1.0 / 8, lo[2] = {0, 0}, hi[2] = {WIDE * h, WIDE * h};
@@ -420,6 +421,7 @@ static peri_body *periodic(int32_t law, int32_t correction, int32_t *owned) {
     peri_part_desc p;
     int64_t count = 0, own = 0;
     s.desc.geometry = PERI_GEOMETRY_LINEAR, s.desc.correction = correction;
+    if (critical_stretch > 0) s.material.critical_stretch = critical_stretch;
     if (memory_of_cells) hook(&s.desc, memory_of_cells);
     peri_body *b = specimen_start(&s);
     MUST(b, peri_add_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, h));
@@ -559,6 +561,7 @@ static void parts_refuse_what_they_cannot(void) {
     owners[0] = owners[1] = -1, refused(PERI_ERROR_ARGUMENT, peri_set_part(b, &p));
     owners[0] = owners[1] = 8, p.ids = ids, refused(PERI_ERROR_INDEX, peri_set_part(b, &p));
     p.ids = NULL, p.length = 0, refused(PERI_ERROR_RANGE, peri_set_part(b, &p));
+    p.length = 1e3, refused(PERI_ERROR_RANGE, peri_set_part(b, &p));
     p.length = 1, p.mean_volume = NAN, refused(PERI_ERROR_RANGE, peri_set_part(b, &p));
     p.mean_volume = 1, p.cookie++, refused(PERI_ERROR_DESCRIPTOR, peri_set_part(b, &p));
     CHECK(peri_ghost_depth(b) == 2 && peri_ghost_depth(NULL) == PERI_ERROR_ARGUMENT);
@@ -580,6 +583,45 @@ static void parts_refuse_what_they_cannot(void) {
     peri_body_destroy(b);
 }
 
+static int32_t read_energy(void *user, double time, int64_t count, const int32_t *points, double *value) {
+    peri_energy e;
+    (void)time, (void)count, (void)points, (void)value;
+    return peri_get_energy((peri_body *)user, &e) < 0 ? -1 : 0;
+}
+
+/* What a load reads changes nothing; a field of bonds is the same whatever was read before; after a reset, under the mean strain that stays,
+   the ledger is closed. */
+static void cells_do_not_feel_readers(void) {
+    static double u[2][WIDE * WIDE * 2], strain[2][WIDE * WIDE * 3], f[WIDE * WIDE * 2];
+    const double mean[4] = {2e-3, 1e-3, 1e-3, -1e-3}, v[2] = {3, 0.02}, none[2] = {0, 0};
+    int64_t broken[2];
+    critical_stretch = 0.1;
+    for (int k = 0; k < 2; ++k) {
+        int32_t owned[CELL * CELL];
+        peri_energy e;
+        peri_advance_desc a;
+        peri_body *b = periodic(PERI_LAW_BOND_BASED, PERI_CORRECTION_NONE, owned);
+        const int32_t set = (int32_t)MUST(b, peri_select_points(b, NULL, 3, owned));
+        MUST(b, peri_set_mean_gradient(b, mean));
+        if (k) MUST(b, peri_get_field(b, PERI_FIELD_FORCE_DENSITY, f, WIDE * WIDE * 2));
+        MUST(b, peri_get_field(b, PERI_FIELD_STRAIN, strain[k], WIDE * WIDE * 3));
+        MUST(b, peri_add_velocity(b, set, v));
+        MUST(b, peri_apply_body_force(b, set, none, k ? read_energy : NULL, k ? b : NULL));
+        peri_advance_desc_init(&a), a.steps = 10;
+        MUST(b, peri_advance(b, &a));
+        MUST(b, peri_get_field(b, PERI_FIELD_DISPLACEMENT, u[k], WIDE * WIDE * 2));
+        broken[k] = peri_broken_count(b);
+        MUST(b, peri_reset(b));
+        MUST(b, peri_get_energy(b, &e));
+        CHECK(e.elastic > 0 && fabs(e.error) <= 1e-12 * e.elastic);
+        peri_body_destroy(b);
+    }
+    critical_stretch = 0;
+    printf("    %ld bonds broken\n", (long)broken[0]);
+    CHECK(broken[0] > 0 && broken[0] == broken[1]);
+    CHECK(memcmp(u[0], u[1], sizeof u[0]) == 0 && memcmp(strain[0], strain[1], sizeof strain[0]) == 0);
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(lattices_of_all_laws);
@@ -595,5 +637,6 @@ int main(int argc, char **argv) {
     RUN(waves_in_cells_disperse);
     RUN(cells_live_as_bodies_do);
     RUN(parts_refuse_what_they_cannot);
+    RUN(cells_do_not_feel_readers);
     return test_end("test_ranks");
 }

@@ -590,9 +590,9 @@ module peri_c
     type, bind(c) :: peri_part_desc
         ! set by init
         integer(c_int64_t) :: cookie = 0
-        ! [L] this, and the next two: any, alike on all parts. Required
+        ! [L] any; this and the next two alike on all parts. Required
         real(c_double) :: origin(3) = 0
-        ! [L] > 0: the spacing
+        ! [L] > 0: the spacing; that of boxes to a factor of 16
         real(c_double) :: length = 0
         ! [L^3] > 0, planes [L^2], of a point
         real(c_double) :: mean_volume = 0

@@ -316,8 +316,8 @@ Give them all else that their owners have: cuts, motion.
 """
 mutable struct peri_part_desc
     cookie::UInt64 # set by init
-    origin::NTuple{3,Float64} # [L] this, and the next two: any, alike on all parts. Required
-    length::Float64 # [L] > 0: the spacing
+    origin::NTuple{3,Float64} # [L] any; this and the next two alike on all parts. Required
+    length::Float64 # [L] > 0: the spacing; that of boxes to a factor of 16
     mean_volume::Float64 # [L^3] > 0, planes [L^2], of a point
     ghost_count::Int64 # Default 0
     ghosts::Ptr{Int32} # [ghost_count] points, ascending

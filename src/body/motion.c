@@ -100,7 +100,9 @@ PERI_API int32_t peri_reset(peri_body *b) {
     b->now = peri__at_start(b->now.cut);
     if (b->alive) peri__changed(b, PERI__BONDS);
     b->now.stale = (b->now.stale & ~(uint32_t)PERI__STALE_SHARP) | sharp;
-    if (b->eigenstrain) { /* the energy that it begins with is initial */
+    int strained = b->eigenstrain != NULL;
+    for (int32_t k = 0; k < 9; ++k) strained |= b->mean_gradient[k] != 0.0; /* of a periodic cell */
+    if (strained) { /* the energy that it begins with is initial */
         peri__changed(b, PERI__EIGENSTRAIN);
         b->now.ledger.before = 0.0;
     }

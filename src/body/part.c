@@ -98,6 +98,12 @@ PERI_API int32_t peri_set_part(peri_body *b, const peri_part_desc *desc) {
     for (int32_t d = 0; d < b->dim; ++d)
         if (!peri__finite(desc->origin[d])) return peri__fail(b, PERI_ERROR_RANGE, "origin", d, desc->origin[d]);
     PERI_NEED_NUMBER(b, desc->length > 0.0, desc->length);
+    for (int64_t k = 0; k < b->setup.piece_count; ++k) { /* coordinates of lattices are rounded in it: peri__snapped */
+        const peri__piece *piece = &b->setup.pieces[k];
+        for (int32_t d = 0; piece->lattice && d < b->dim; ++d)
+            if (!(piece->cell[d] >= desc->length / 16.0 && piece->cell[d] <= desc->length * 16.0))
+                return peri__fail(b, PERI_ERROR_RANGE, "length", -1, desc->length);
+    }
     PERI_NEED_NUMBER(b, desc->mean_volume > 0.0, desc->mean_volume);
     const int32_t status = peri__check_ghosts(b, desc, points);
     if (status < 0) return status;

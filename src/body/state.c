@@ -88,7 +88,6 @@ static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, 
 
 static double peri__kinetic_energy(peri_body *b) {
     peri__operands operands = peri__operands_of(b);
-    peri__still_ghosts(b);
     peri__for_points(b, b->model->points, 1, b->ops->kinetic, &operands, b->sums);
     return peri__total(b->sums, b->model->points).a;
 }

@@ -45,6 +45,7 @@ static void PERI_FN(kinetic)(void *context, int64_t begin, int64_t end, peri__su
     const peri__model *m = operands->model;
     for (int64_t i = begin; i < end; ++i) {
         double square = 0.0;
+        if (operands->ghost && operands->ghost[i]) continue;
         for (int d = 0; d < PERI_D; ++d) square += peri__square((double)((const peri_r *)operands->v)[d * m->stride + i]);
         sums->a += 0.5 * PERI_FN(density)(operands, i) * m->volume[i] * square;
     }

@@ -9,6 +9,8 @@
    peri__read_what computes all numbers; both leave the unit to the list. ensure: what a write or a cut leaves out of date, which is made up
    for first. */
 static int32_t peri__ensure_none(peri_body *b) { return (void)b, PERI_OK; }
+/* What is made of bonds wants ghosts that are where their owners are. */
+static int32_t peri__ensure_ghosts(peri_body *b) { return b->model->part ? peri__ensure_force(b) : PERI_OK; }
 static int32_t peri__ensure_fragments(peri_body *b) { return peri__label_fragments(b); }
 
 #define PERI_FIELD_LIST(X)                                                                                             \
@@ -21,12 +23,12 @@ static int32_t peri__ensure_fragments(peri_body *b) { return peri__label_fragmen
     X(FAMILY_SIZE, 2007, 1, 1.0, read, family_size, none)                                                                    \
     X(DAMAGE, 2008, 1, 1.0, read, damage, none)                                                                              \
     X(DAMAGE_GROWN, 2009, 1, 1.0, read, damage_grown, none)                                                                  \
-    X(ENERGY_DENSITY, 2010, 1, m->stress, read, energy_density, none)                                                       \
+    X(ENERGY_DENSITY, 2010, 1, m->stress, read, energy_density, ghosts)                                                       \
     X(CURRENT_POSITION, 2011, dim, 1.0, read, current, none) /* the sum of two views, which have their units */                      \
-    X(DILATATION, 2012, 1, 1.0, read, dilatation, none)                                                                     \
-    X(STRAIN, 2013, PERI_PACKED(dim), 1.0, read, strain, none)                                                              \
-    X(STRESS, 2014, PERI_PACKED(dim), m->stress, read, stress, none)                                                        \
-    X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, none)                                            \
+    X(DILATATION, 2012, 1, 1.0, read, dilatation, ghosts)                                                                     \
+    X(STRAIN, 2013, PERI_PACKED(dim), 1.0, read, strain, ghosts)                                                              \
+    X(STRESS, 2014, PERI_PACKED(dim), m->stress, read, stress, ghosts)                                                        \
+    X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, ghosts)                                            \
     X(REACTION, 2016, dim, peri__force_unit(m), read, reaction, force)                                                   \
     X(FRAGMENT, 2017, 1, 1.0, read, fragment, fragments)                                                        \
     X(MASS, 2018, 1, 1.0, read, point_mass, none)                                                                              \

@@ -189,14 +189,23 @@ static int32_t peri__settle_step(peri__implicit *t, double h) {
     }
 }
 
-/* A step that fails leaves the body at the one before. */
+static int32_t peri__check_untouched(peri_body *b) {
+    if (b->contact) return peri__fail(b, PERI_ERROR_LAW, "contact", -1, 0.0);
+    for (int64_t k = 0; k < b->obstacle_count; ++k)
+        if (b->obstacles[k].kind) return peri__fail(b, PERI_ERROR_LAW, "obstacle", k, 0.0);
+    return PERI_OK;
+}
+
+/* A step that fails leaves the body at the one before, less the bonds that broke in it: what these held there is fracture. */
 static int32_t peri__implicit_step(void *context, peri_body *b, double h, double next, double damping) {
     peri__implicit *t = (peri__implicit *)context;
     const double time = b->now.time;
     const int changed = t->step == 0.0 || (b->now.stale & PERI__STALE_BALANCE); /* at first, and by on_frame */
-    int32_t status = changed ? peri__start_motion(t, damping) : PERI_OK;
+    int32_t status = changed ? peri__check_untouched(b) : PERI_OK;
+    if (changed && status == PERI_OK) status = peri__start_motion(t, damping);
     if (status < 0) return status;
     b->now.time = next;
+    t->broke = 0;
     status = peri__start_step(t, h, damping);
     if (status == PERI_OK) status = peri__settle_step(t, h);
     if (status == PERI_OK) {
@@ -206,7 +215,17 @@ static int32_t peri__implicit_step(void *context, peri_body *b, double h, double
     memcpy(b->u, t->u, peri__vector_bytes(b));
     b->now.time = time;
     peri__changed(b, PERI__ACTION);
+    if (t->broke && b->desc.ledger) {
+        (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
+        b->now.ledger.fracture += t->elastic - peri__static_energy(b);
+    }
     return status;
+}
+
+/* Does a criterion go by how long, or how fast? */
+static int peri__uses_past(const peri__model *m) {
+    const uint32_t those = 1u << (PERI_CRITERION_RATE_STRETCH - peri__first_criterion) | 1u << (PERI_CRITERION_DELAYED_STRETCH - peri__first_criterion);
+    return (m->criteria & those) != 0;
 }
 
 static int32_t peri__check_implicit(peri_body *b, const peri_advance_desc *r, const peri_solve_desc *st, double rho) {
@@ -220,10 +239,9 @@ static int32_t peri__check_implicit(peri_body *b, const peri_advance_desc *r, co
     if (st->method != PERI_METHOD_NEWTON) return peri__fail(b, PERI_ERROR_LAW, "method", -1, st->method);
     if (st->control != PERI_CONTROL_LOAD) return peri__fail(b, PERI_ERROR_LAW, "control", -1, st->control);
     if (m->law_of || m->inelastic) return peri__fail(b, PERI_ERROR_LAW, "peri_advance_implicit", -1, 0.0);
-    if (b->contact) return peri__fail(b, PERI_ERROR_LAW, "contact", -1, 0.0);
-    for (int64_t k = 0; k < b->obstacle_count; ++k)
-        if (b->obstacles[k].kind) return peri__fail(b, PERI_ERROR_LAW, "obstacle", k, 0.0);
-    return peri__check_whole(b);
+    status = peri__check_untouched(b);
+    if (status == PERI_OK && st->fracture && m->breakable && peri__uses_past(m)) status = peri__fail(b, PERI_ERROR_LAW, "criterion", -1, 0.0);
+    return status == PERI_OK ? peri__check_whole(b) : status;
 }
 
 static int32_t peri__take_motion(peri__implicit *t) {

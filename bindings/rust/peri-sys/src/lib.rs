@@ -684,9 +684,9 @@ pub struct peri_softening_desc {
 pub struct peri_part_desc {
     /// set by init
     pub cookie: u64,
-    /// \[L\] this, and the next two: any, alike on all parts. Required
+    /// \[L\] any; this and the next two alike on all parts. Required
     pub origin: [f64; 3],
-    /// \[L\] \> 0: the spacing
+    /// \[L\] \> 0: the spacing; that of boxes to a factor of 16
     pub length: f64,
     /// \[L^3\] \> 0, planes \[L^2\], of a point
     pub mean_volume: f64,

@@ -889,9 +889,9 @@ impl<'a> SofteningDesc<'a> {
 /// Ghosts: copies of points that other parts own, peri\_ghost\_depth horizons deep. They bear no load and are in no set, sum or
 /// count. Give them all else that their owners have: cuts, motion.
 pub struct PartDesc<'a> {
-    /// \[L\] this, and the next two: any, alike on all parts. Required
+    /// \[L\] any; this and the next two alike on all parts. Required
     pub origin: [f64; 3],
-    /// \[L\] \> 0: the spacing
+    /// \[L\] \> 0: the spacing; that of boxes to a factor of 16
     pub length: f64,
     /// \[L^3\] \> 0, planes \[L^2\], of a point
     pub mean_volume: f64,
