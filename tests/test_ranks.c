@@ -589,8 +589,8 @@ static int32_t read_energy(void *user, double time, int64_t count, const int32_t
     return peri_get_energy((peri_body *)user, &e) < 0 ? -1 : 0;
 }
 
-/* What a load reads changes nothing; a field of bonds is the same whatever was read before; after a reset, under the mean strain that stays,
-   the ledger is closed. */
+/* What a load reads changes nothing; a field of bonds is the same whatever was read before; after a reset, under the mean strain that
+   stays, the ledger is closed. */
 static void cells_do_not_feel_readers(void) {
     static double u[2][WIDE * WIDE * 2], strain[2][WIDE * WIDE * 3], f[WIDE * WIDE * 2];
     const double mean[4] = {2e-3, 1e-3, 1e-3, -1e-3}, v[2] = {3, 0.02}, none[2] = {0, 0};

@@ -224,8 +224,9 @@ static int32_t peri__implicit_step(void *context, peri_body *b, double h, double
 
 /* Does a criterion go by how long, or how fast? */
 static int peri__uses_past(const peri__model *m) {
-    const uint32_t those = 1u << (PERI_CRITERION_RATE_STRETCH - peri__first_criterion) | 1u << (PERI_CRITERION_DELAYED_STRETCH - peri__first_criterion);
-    return (m->criteria & those) != 0;
+    const uint32_t rate = 1u << (PERI_CRITERION_RATE_STRETCH - peri__first_criterion);
+    const uint32_t delay = 1u << (PERI_CRITERION_DELAYED_STRETCH - peri__first_criterion);
+    return (m->criteria & (rate | delay)) != 0;
 }
 
 static int32_t peri__check_implicit(peri_body *b, const peri_advance_desc *r, const peri_solve_desc *st, double rho) {
@@ -240,7 +241,8 @@ static int32_t peri__check_implicit(peri_body *b, const peri_advance_desc *r, co
     if (st->control != PERI_CONTROL_LOAD) return peri__fail(b, PERI_ERROR_LAW, "control", -1, st->control);
     if (m->law_of || m->inelastic) return peri__fail(b, PERI_ERROR_LAW, "peri_advance_implicit", -1, 0.0);
     status = peri__check_untouched(b);
-    if (status == PERI_OK && st->fracture && m->breakable && peri__uses_past(m)) status = peri__fail(b, PERI_ERROR_LAW, "criterion", -1, 0.0);
+    if (status == PERI_OK && st->fracture && m->breakable && peri__uses_past(m))
+        status = peri__fail(b, PERI_ERROR_LAW, "criterion", -1, 0.0);
     return status == PERI_OK ? peri__check_whole(b) : status;
 }
 
