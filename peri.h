@@ -1128,7 +1128,7 @@ typedef struct peri_energy {
     double external; /* work of loads and supports; in peri_solve of obstacles, too */
     double obstacle; /* work of obstacles */
     double damping;  /* by damping and contact; in peri_solve what springs free as bonds break */
-    double fracture; /* elastic energy that went with bonds as they broke */
+    double fracture; /* elastic energy that went with bonds as they broke, less what contact got */
     double initial;  /* put in by setting motion, less what later cuts took out */
     double error;    /* what time steps, or load steps, left open */
 } peri_energy;

@@ -911,7 +911,7 @@ module peri_c
         real(c_double) :: obstacle = 0
         ! by damping and contact; in peri_solve what springs free as bonds break
         real(c_double) :: damping = 0
-        ! elastic energy that went with bonds as they broke
+        ! elastic energy that went with bonds as they broke, less what contact got
         real(c_double) :: fracture = 0
         ! put in by setting motion, less what later cuts took out
         real(c_double) :: initial = 0

@@ -520,7 +520,7 @@ struct peri_energy
     external::Float64 # work of loads and supports; in peri_solve of obstacles, too
     obstacle::Float64 # work of obstacles
     damping::Float64 # by damping and contact; in peri_solve what springs free as bonds break
-    fracture::Float64 # elastic energy that went with bonds as they broke
+    fracture::Float64 # elastic energy that went with bonds as they broke, less what contact got
     initial::Float64 # put in by setting motion, less what later cuts took out
     error::Float64 # what time steps, or load steps, left open
 end

@@ -15,8 +15,9 @@
    the tangential velocity. c = hold min(m_i, m_j)/(2 n), n the larger number of points that i or j touches: so no point loses its velocity
    faster than by the rate `hold`, which the stable step knows.
 
-   A pair whose bond lives does not touch. Bonds break by their criterion where they are longer than at rest, so that breaking makes no
-   jump; cuts by the caller may, and the ledger counts them as his. */
+   A pair whose bond lives does not touch. Where a bond breaks while it is longer than at rest, contact makes no jump. By criteria of stress
+   and of energy it may be shorter: the pair is then pressed at once, and what the spring holds comes out of what the bond had, and is not
+   counted as fracture. Cuts by the caller may do the same, and the ledger counts them as his. */
 #ifndef PERI_IMPL
 #error "a part of peri_impl.c; compile that"
 #endif
@@ -175,6 +176,40 @@ static int peri__ready_contact(peri_body *b) {
     if (c->listed && !joined && !peri__has_moved(b)) return 1;
     c->listed = c->listed && !joined; /* where no memory is left, of lists that lack points nothing is to be read */
     return peri__search_contact(b);
+}
+
+/* sums->a: the energy of springs half a step ago, to its second order, at the velocity of that moment. */
+static void peri__store_block(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__toucher *s = (const peri__toucher *)context;
+    const peri_body *b = s->body;
+    const peri__contact *c = b->contact;
+    for (int64_t p = begin; p < end; ++p)
+        for (int64_t e = c->begin[p]; e < c->begin[p] + c->open[p]; ++e) {
+            peri__pair_touch t;
+            double apart = 0.0;
+            if (!peri__meet(b, p, e, &t)) continue;
+            for (int32_t d = 0; d < b->dim; ++d) {
+                const int64_t at = d * b->model->stride;
+                apart += t.n[d] * (peri__get_real(b->v, b->f32, at + t.j) - peri__get_real(b->v, b->f32, at + c->member[p]));
+            }
+            sums->a += t.stiffness * t.pressed * (0.25 * t.pressed + 0.5 * s->half_step * apart);
+        }
+}
+
+static double peri__stored_energy(peri_body *b, double dt) {
+    peri__toucher toucher = { b, 0, 0.5 * dt };
+    if (!b->contact->listed) return 0.0;
+    peri__for_points(b, b->contact->members, 4, peri__store_block, &toucher, b->sums);
+    return peri__total(b->sums, b->contact->members).a;
+}
+
+/* peri__ready_contact after bonds broke in a step of dt. The kick that follows gives pairs that touch for that half a step of their force,
+   as if all had met in the middle of the step: the energy that they had then is not lost with the bonds. */
+static int peri__ready_after_breaks(peri_body *b, double dt) {
+    const double before = peri__stored_energy(b, dt);
+    if (!peri__ready_contact(b)) return 0;
+    b->now.ledger.fracture -= peri__stored_energy(b, dt) - before;
+    return 1;
 }
 
 /* Energy of all that touches, by lists that hold. */

@@ -235,6 +235,7 @@ static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, pe
     if (!(e->time_step > 0.0)) operands.closing = NULL;
     const int broke = peri__forces_and_breaks(b, &operands);
     int32_t status = peri__heed_laws(b);
+    if (status == PERI_OK && e->external && broke && b->contact) (void)peri__ready_after_breaks(b, operands.step);
     if (status == PERI_OK && e->external) status = peri__touch_now(b);
     if (b->desc.ledger) b->now.ledger.before -= b->now.ledger.fracture - fracture;
     peri__give_array(b, e, b->f, 1.0, e->force);

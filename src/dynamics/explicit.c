@@ -200,7 +200,7 @@ static int32_t peri__one_step(void *context, peri_body *b, double dt, double nex
     }
     if (broke && b->closing) peri__close_step(b);
     if (b->contact) {
-        listed = peri__ready_contact(b);
+        listed = broke ? peri__ready_after_breaks(b, dt) : peri__ready_contact(b);
         peri__apply_touch(b, dt, 1);
     }
     peri__hold_supports(b, dt, damping);

@@ -1026,7 +1026,7 @@ pub struct peri_energy {
     pub obstacle: f64,
     /// by damping and contact; in peri\_solve what springs free as bonds break
     pub damping: f64,
-    /// elastic energy that went with bonds as they broke
+    /// elastic energy that went with bonds as they broke, less what contact got
     pub fracture: f64,
     /// put in by setting motion, less what later cuts took out
     pub initial: f64,
