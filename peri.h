@@ -895,6 +895,43 @@ PERI_API void peri_advance_desc_init(peri_advance_desc *desc);
    then reset or destroy it. */
 PERI_API int32_t peri_advance(peri_body *body, const peri_advance_desc *desc);
 
+/* ---- worlds: bodies that advance together and touch (docs/laws.md) ----------- */
+
+typedef struct peri_world peri_world; /* opaque; its bodies remain yours, and leave as they die */
+
+typedef struct peri_world_desc {
+    uint64_t cookie;           /* set by init */
+    peri_allocate_fn allocate; /* Default NULL: malloc */
+    peri_release_fn release;   /* Default NULL: free */
+    void *memory_user;
+} peri_world_desc;
+
+PERI_API void peri_world_desc_init(peri_world_desc *desc);
+PERI_API int32_t peri_world_create(const peri_world_desc *desc, peri_world **world,
+    peri_error *error);
+PERI_API void peri_world_destroy(peri_world *world);
+PERI_API int64_t peri_world_bytes(const peri_world *world); /* it holds, beside its bodies */
+
+/* *body: whose error it is, or NULL. body may be NULL. */
+PERI_API int32_t peri_world_get_error(const peri_world *world, peri_error *error,
+    peri_body **body);
+
+/* Built bodies of one dimension. Points do not touch at the distance they have when added. */
+PERI_API int32_t peri_world_add(peri_world *world, peri_body *body);
+PERI_API int32_t peri_world_remove(peri_world *world, peri_body *body);
+
+/* Of bodies a and b, NULL: any, those yet to come too. desc NULL: none. Default: peri_contact_desc
+   with distance and spacing the mean of both spacings. */
+PERI_API int32_t peri_world_set_contact(peri_world *world, const peri_body *a,
+    const peri_body *b, const peri_contact_desc *desc);
+
+/* As peri_stable_step and peri_advance, for all by one step. on_frame comes for each body. */
+PERI_API double peri_world_stable_step(peri_world *world);
+PERI_API int32_t peri_world_advance(peri_world *world, const peri_advance_desc *desc);
+
+/* force[dim] [M L T^-2] of the others on a body, in the last step. */
+PERI_API int32_t peri_world_get_force(peri_world *world, const peri_body *body, double *force);
+
 /* ---- a time loop or a solver of yours (examples/own_loop.c) ------------------ */
 
 typedef struct peri_evaluate_desc {
@@ -1135,6 +1172,9 @@ typedef struct peri_energy {
 
 /* Costs one evaluation of the forces. */
 PERI_API int32_t peri_get_energy(peri_body *body, peri_energy *energy);
+
+/* The ledger of all; in that of a body, what others do is `external`. */
+PERI_API int32_t peri_world_get_energy(peri_world *world, peri_energy *energy);
 
 /* Momentum [M L T^-1] to linear[dim], about the origin [M L^2 T^-1] to angular[1] (2D) or [3].
    Either may be NULL. */

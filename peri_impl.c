@@ -111,6 +111,9 @@ extern PERI_SHARED const peri__ops peri__ops_d2, peri__ops_d3, peri__ops_m2, per
 #include "src/contact/search.c"    /* exposed points                -> those that may come to touch                */
 #include "src/contact/force.c"     /* points that touch             -> force, energy, loss                         */
 #include "src/contact/tangent.c"   /* and                           -> tangent                                     */
+#include "src/contact/world.c"     /* bodies that share a world                                                    */
+#include "src/contact/near.c"      /* their exposed points          -> those that may come to touch another body   */
+#include "src/contact/between.c"   /* points of two that touch      -> force, energy, loss                         */
 
 /* ---- body: what there is, and what may be done to it ----------------------------------- */
 PERI_SMALL
@@ -137,6 +140,7 @@ PERI_SMALL
 #include "src/body/boundary.c"     /* supports and loads, added and removed                                        */
 #include "src/body/obstacle_desc.c" /* obstacles, added, removed, read and set                                     */
 #include "src/body/contact_desc.c" /* contact between materials, declared                                          */
+#include "src/body/world_desc.c"   /* worlds, who is in them, contact between bodies as declared                      */
 #include "src/body/point_fields.c" /* eigenstrain, strength, stiffness and density by point, strength by bond   */
 PERI_SMALL_END
 #include "src/body/reactions.c"    /* forces of supports, loads and obstacles                                      */
@@ -149,6 +153,7 @@ PERI_SMALL_END
 #include "src/dynamics/stretched.c" /* what deformation does to it                                                  */
 #include "src/dynamics/failure.c"  /* state-based bonds that break                                                 */
 #include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
+#include "src/dynamics/world.c"    /* the same for several bodies                                                   */
 #include "src/dynamics/evaluate.c" /* displacements of the caller   -> forces, breaks                               */
 
 /* ---- statics --------------------------------------------------------------------------- */
@@ -174,6 +179,7 @@ PERI_SMALL_END
 
 /* ---- output ---------------------------------------------------------------------------- */
 #include "src/output/fields.c"     /* fields by copy and by view, the ledger                                       */
+#include "src/output/world_energy.c" /* the ledger of a world                                                      */
 PERI_SMALL
 #include "src/output/checkpoint.c" /* the state                     -> bytes, and back                             */
 PERI_SMALL_END

@@ -179,4 +179,6 @@ static void with_parts(void) {
     peri_body_destroy(d);
 }
 
+#include "calls_worlds.h"
+
 #endif

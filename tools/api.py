@@ -439,6 +439,17 @@ def load():
     return api
 
 
+# Handles that join several others. They are C's alone: no binding has classes that hold others alive.
+JOINING = ("peri_world",)
+
+
+def without_joining(api):
+    out = dict(api)
+    for kind in ("functions", "structs", "opaque"):
+        out[kind] = [entry for entry in api[kind] if not entry["name"].startswith(JOINING)]
+    return out
+
+
 def main(arguments):
     api = load()
     if "--sizes" in arguments:

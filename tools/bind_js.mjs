@@ -5,7 +5,9 @@
 import { readFileSync, writeFileSync } from "node:fs";
 
 const [apiFile, sizesFile, folder] = process.argv.slice(2);
-const api = JSON.parse(readFileSync(apiFile, "utf8")),
+const header = JSON.parse(readFileSync(apiFile, "utf8")),
+    alone = list => list.filter(entry => !entry.name.startsWith("peri_world")), // as tools/api.py: without_joining
+    api = { ...header, functions: alone(header.functions), structs: alone(header.structs), opaque: alone(header.opaque) },
     sizes = JSON.parse(readFileSync(sizesFile, "utf8"));
 if (sizes.pointer !== 4) throw new Error("sizes of another machine");
 

@@ -628,7 +628,7 @@ def load_api(root):
     spec = importlib.util.spec_from_file_location("peri_api", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    return module.load()
+    return module.without_joining(module.load())
 
 
 def main(arguments):

@@ -6,6 +6,8 @@
 typedef struct peri__ledger { /* inner units of energy; doubles alone                                                     */
     double external, obstacle, damping, fracture, initial;
     double before; /* kinetic + elastic before the first unaccounted change, while PERI__STALE_LEDGER                    */
+    double others; /* of `external`: work of the other bodies of a world                                                */
+    double rubbed; /* what dashpots and friction between them took, each body's half                                     */
 } peri__ledger;
 
 /* What is derived from the state and no longer belongs to it: see stale.c. Where masks or constants are stale the force is, too. */
@@ -29,6 +31,7 @@ typedef enum peri__stale {
      load_factor  of constant loads and supports; the time of callbacks where `still`
      still        1: the last motion was a static one
      torn         1: a run is under way; where no call is, a callback left it by a jump
+     pushed       1: the force is with that of other bodies of a world
      stiffer      what the deformation makes of the square of the highest frequency: stretched.c
      stale        bits of peri__stale */
 #define PERI_PROGRESS_LIST(X)                                                                                          \
@@ -42,6 +45,7 @@ typedef enum peri__stale {
     X(double, load_factor)                                                                                             \
     X(int32_t, still)                                                                                                  \
     X(int32_t, torn)                                                                                                   \
+    X(int32_t, pushed)                                                                                                 \
     X(double, stiffer)                                                                                                 \
     X(uint32_t, stale)
 #define PERI_PROGRESS_MEMBER_(type, name) type name;

@@ -147,6 +147,7 @@ typedef struct peri__interface peri__interface; /* this and the next: bond_laws.
 typedef struct peri__bond_law peri__bond_law;
 typedef struct peri__ops peri__ops;
 typedef struct peri__contact peri__contact; typedef struct peri__kept peri__kept; /* of a body: search.c; solver.h        */
+typedef struct peri__seat peri__seat; /* of a body in a world: world.c                                                       */
 
 typedef struct peri__stencil_bond { /* what bonds along one lattice vector between two materials share, rounded as bond  */
     double xi[3], length, weight, partial_volume, inverse; /* weight: as the model's; partial_volume: beta V_j; inverse: 1/|xi| */
@@ -484,6 +485,7 @@ struct peri_body {
     double    least_strength, row_sum_factor; /* of these, 1 without: a bound of all bonds'; what model->row_sum is times */
     peri__past past; peri__kept *kept; peri__taken *keeping; /* what peri_solve keeps; the list of its blocks            */
     peri__contact *contact;  /* NULL where none is declared                                                              */
+    peri__seat *seat;        /* in a world; or NULL                                                                      */
     peri__derived derived[peri__count_field]; /* by field                                                                */
 
     peri__set      *sets;

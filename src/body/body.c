@@ -570,6 +570,7 @@ PERI_API void peri_body_destroy(peri_body *b) {
         return;
     }
     memory = b->memory;
+    peri__leave_world(b);
     if (b->model) {
         peri__free_state(b);
         peri__release_model(b, b->model);

@@ -15,6 +15,7 @@ static int32_t peri__check_whole(peri_body *b) {
 
 /* Returns who was at work, for peri__end_run. */
 static int32_t peri__begin_run(peri_body *b) {
+    if (b->now.pushed && !(b->seat && b->seat->world->running)) peri__changed(b, PERI__ACTION); /* alone, others do not push it */
     b->stop = 0;
     b->break_said = 0;
     b->law_bad = -1;
@@ -46,6 +47,7 @@ PERI_API int32_t peri_unlock(peri_body *b) {
     PERI_NEED_BODY(b);
     if (!b->running) return peri__fail(b, PERI_ERROR_ORDER, "peri_unlock", -1, 0.0);
     b->running = PERI__IDLE;
+    if (b->seat) b->seat->world->running = 0;
     b->influence_said = 0;
     peri__drop_build(b);
     peri__delete_all_taken(&b->scratch);

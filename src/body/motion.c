@@ -92,6 +92,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
     }
     peri__forget_breaks(b);
     peri__forget_contact(b->contact, m);
+    peri__forget_seat(b->seat);
     for (int64_t k = 0; k < b->obstacle_count; ++k)
         if (b->obstacles[k].kind) peri__restart_obstacle(&b->obstacles[k], b->dim, m->points);
     for (int64_t k = 0; k < b->load_count; ++k) b->loads[k].stepped = 0;

@@ -45,6 +45,7 @@ static void peri__changed(peri_body *b, peri__change what) {
     if ((what == PERI__CUTS && b->now.steps == 0) || ((what == PERI__CUTS || what == PERI__BONDS) && !b->softens))
         b->now.stale |= PERI__STALE_SHARP; /* initial cracks, of which a body that softens knows, come before the first step */
     if ((what == PERI__CUTS || what == PERI__BONDS) && b->contact) b->contact->dead = -1;
+    if ((what == PERI__CUTS || what == PERI__BONDS) && b->seat) b->seat->dead = -1;
     b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
     if (what == PERI__MOTION) b->now.stale |= PERI__STALE_STRETCH;
     if ((what == PERI__MOTION || what == PERI__CUTS) && b->model->inelastic) b->now.stale |= PERI__STALE_PAST;
@@ -58,6 +59,15 @@ static int32_t peri__touch_now(peri_body *b) {
     return PERI_OK;
 }
 
+/* Likewise those of contact with other bodies, where the world that they share advances. */
+static int32_t peri__touch_others_now(peri_body *b) {
+    if (!b->seat || !b->seat->world->running) return PERI_OK;
+    if (!peri__ready_world(b->seat->world)) return peri__fail(b, PERI_ERROR_MEMORY, "peri_world", -1, 0.0);
+    (void)peri__press_world(b->seat->world);
+    peri__push_body(b->seat, 0.0);
+    return PERI_OK;
+}
+
 /* f of u, loads and bonds as they are, without breaking anything. */
 static int32_t peri__make_force(peri_body *b) {
     peri__operands operands = peri__operands_of(b);
@@ -65,6 +75,7 @@ static int32_t peri__make_force(peri_body *b) {
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     b->law_bad = -1;
     memset(b->f, 0, (size_t)(m->stride * m->dim) * peri__real(b));
+    b->now.pushed = 0;
     int32_t status = peri__share_ghosts(b);
     if (status == PERI_OK) status = peri__apply_loads(b, peri__load_time(b), 0.0);
     if (status == PERI_OK) status = peri__apply_obstacles(b, peri__load_time(b), 0.0);
@@ -74,6 +85,7 @@ static int32_t peri__make_force(peri_body *b) {
         peri__bond_forces(b, &operands);
         status = peri__heed_laws(b);
         if (status == PERI_OK) status = peri__touch_now(b);
+        if (status == PERI_OK) status = peri__touch_others_now(b);
         if (status == PERI_OK) status = peri__meet_supports(b);
     }
     peri__leave(b, former);

@@ -65,7 +65,7 @@ static void peri__list_grown(int32_t dim, peri__grown *list) {
     memcpy(list, arrays, sizeof arrays);
 }
 
-static void *peri__grown_at(const peri__contact *c, size_t place) {
+static void *peri__grown_at(const void *c, size_t place) {
     void *pointer;
     memcpy(&pointer, (const char *)c + place, sizeof pointer);
     return pointer;

@@ -85,6 +85,23 @@ static void peri__press_block(void *context, int64_t begin, int64_t end, peri__s
     }
 }
 
+/* What dashpot and friction add to the force on the first of two points: v[dim], how the second moves from it, of which the part along n is
+   `apart`, is left with the slip; most: what resists, over the velocity. */
+static void peri__resist_motion(const peri__touch *touch, int32_t dim, const double *n, double *v, double apart, double spring, double most,
+                                double *force) {
+    const double limit = touch->loss * spring, dashpot = fmax(-limit, fmin(limit, -most * apart));
+    double slip = 0.0;
+    for (int32_t d = 0; d < dim; ++d) {
+        v[d] -= apart * n[d];
+        slip += v[d] * v[d];
+        force[d] -= dashpot * n[d];
+    }
+    slip = sqrt(slip);
+    if (!(touch->friction > 0.0 && slip > 0.0)) return;
+    const double held = touch->friction * (spring + dashpot) / fmax(slip, touch->friction_speed);
+    for (int32_t d = 0; d < dim; ++d) force[d] += fmin(held, most) * v[d];
+}
+
 /* What dashpot and friction of a pair add to the force on i. */
 static void peri__resist(const peri_body *b, int64_t p, int64_t e, const peri__pair_touch *t, double *force) {
     const peri__contact *c = b->contact;
@@ -92,21 +109,12 @@ static void peri__resist(const peri_body *b, int64_t p, int64_t e, const peri__p
     const int64_t i = c->member[p];
     const double crowd = (double)(c->touching[p] > c->touching[c->other[e]] ? c->touching[p] : c->touching[c->other[e]]);
     const double most = 0.5 * c->hold * fmin(peri__mass(b, i), peri__mass(b, t->j)) / crowd, spring = t->stiffness * t->pressed;
-    double v[3], apart = 0.0, slip = 0.0;
+    double v[3], apart = 0.0;
     for (int32_t d = 0; d < m->dim; ++d) {
         v[d] = peri__get_real(b->v, b->f32, d * m->stride + t->j) - peri__get_real(b->v, b->f32, d * m->stride + i);
         apart += v[d] * t->n[d];
     }
-    const double limit = t->touch->loss * spring, dashpot = fmax(-limit, fmin(limit, -most * apart));
-    for (int32_t d = 0; d < m->dim; ++d) {
-        v[d] -= apart * t->n[d];
-        slip += v[d] * v[d];
-        force[d] -= dashpot * t->n[d];
-    }
-    slip = sqrt(slip);
-    if (!(t->touch->friction > 0.0 && slip > 0.0)) return;
-    const double held = t->touch->friction * (spring + dashpot) / fmax(slip, t->touch->friction_speed);
-    for (int32_t d = 0; d < m->dim; ++d) force[d] += fmin(held, most) * v[d];
+    peri__resist_motion(t->touch, m->dim, t->n, v, apart, spring, most, force);
 }
 
 /* Dashpots and friction. sums->a: what they took in the step, by the rule of loads.c. */
@@ -170,7 +178,7 @@ static void peri__wake_block(void *context, int64_t begin, int64_t end, peri__su
 /* Makes lists that hold for the body as it is: 0 where memory is short; the old ones, if any, then nearly do. */
 static int peri__ready_contact(peri_body *b) {
     peri__contact *c = b->contact;
-    const int died = c->dead != b->now.broken + b->now.cut, joined = died && peri__mark_exposed(b);
+    const int died = c->dead != b->now.broken + b->now.cut, joined = died && peri__mark_exposed(b, c->mark);
     c->dead = b->now.broken + b->now.cut;
     if (c->listed && died) peri__for_points(b, c->members, 2, peri__wake_block, b, NULL);
     if (c->listed && !joined && !peri__has_moved(b)) return 1;
@@ -219,10 +227,15 @@ static double peri__contact_energy(peri_body *b) { return b->contact && b->conta
 
 /* The largest stable step, where lambda bounds the square of the highest frequency without contact. The dashpots follow the velocity of
    half a step before: with the rate g, lambda dt^2/4 + g dt/2 <= 1; at their limits they are springs. */
-static double peri__step_with_contact(const peri__contact *c, double lambda) {
-    const double touch = c->crowd > c->bound ? c->crowd : c->bound, half = 0.5 * c->hold;
-    const double linear = 2.0 / (half + sqrt(half * half + lambda + touch)), limited = 2.0 / sqrt(lambda + c->growth * touch);
+static double peri__step_with_touch(double touch, double grown, double hold, double lambda) {
+    const double half = 0.5 * hold;
+    const double linear = 2.0 / (half + sqrt(half * half + lambda + touch)), limited = 2.0 / sqrt(lambda + grown);
     return linear < limited ? linear : limited;
+}
+
+static double peri__step_with_contact(const peri__contact *c, double lambda) {
+    const double touch = c->crowd > c->bound ? c->crowd : c->bound;
+    return peri__step_with_touch(touch, c->growth * touch, c->hold, lambda);
 }
 
 /* The part of its speed with which a mass leaves a spring k with this dashpot; mean over the moments of a step at which it comes. */

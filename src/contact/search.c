@@ -15,17 +15,22 @@
 
 #define PERI_SKIN 0.3 /* of the largest distance: longer lists against rarer searches                                        */
 
-typedef struct peri__hunt { /* a search under way                                                                          */
-    peri_body     *body;
-    peri__contact *contact;
+typedef struct peri__grid { /* members by cells, hashed                                                                    */
     int64_t  members, buckets;
-    int32_t *member;  /* [members]                                                                                          */
     int64_t *cell;    /* [members][3]                                                                                       */
     int32_t *bucket;  /* [members] hash of the cell; -1: at no place that can be reckoned with                              */
     int32_t *start;   /* [buckets+1] of the order                                                                            */
     int32_t *order;   /* [members] by bucket, then ascending                                                                 */
+    double   edge;
+} peri__grid;
+
+typedef struct peri__hunt { /* a search under way                                                                          */
+    peri_body     *body;
+    peri__contact *contact;
+    peri__grid grid;
+    int32_t *member;  /* [members]                                                                                          */
     int64_t *begin;   /* [members+1]                                                                                        */
-    double   edge, skin;
+    double   skin;
 } peri__hunt;
 
 /* From i to j where they are, and the square of the distance; seen from j the same with the other sign, to the last bit. Bodies that have
@@ -75,9 +80,8 @@ static int peri__lost_a_bond(const peri_body *b, int64_t i) {
     return 0;
 }
 
-/* Marks what lost its first bond. 1: of these some have no row. */
-static int peri__mark_exposed(const peri_body *b) {
-    uint8_t *mark = b->contact->mark;
+/* Marks what lost its first bond, in mark[points]. 1: of these some have no row. */
+static int peri__mark_exposed(const peri_body *b, uint8_t *mark) {
     int joined = 0;
     for (int64_t i = 0; i < b->model->points; ++i) {
         if ((mark[i] & PERI__EXPOSED) || !peri__lost_a_bond(b, i)) continue;
@@ -87,10 +91,10 @@ static int peri__mark_exposed(const peri_body *b) {
     return joined;
 }
 
-static void peri__mark_neighbors(const peri_body *b, int64_t i) {
+static void peri__mark_neighbors(const peri_body *b, uint8_t *mark, int64_t i) {
     peri__row row;
     peri__read_row(b, i, &row);
-    for (int64_t k = 0; k < row.count; ++k) b->contact->mark[row.ids[k]] |= PERI__MEMBER;
+    for (int64_t k = 0; k < row.count; ++k) mark[row.ids[k]] |= PERI__MEMBER;
 }
 
 /* sums->b: the largest volume of a family, its point included. */
@@ -108,9 +112,8 @@ static void peri__survey_block(void *context, int64_t begin, int64_t end, peri__
 
 /* Marks what a surface exposes: a point whose family has not nine tenths of the largest volume, or, in pieces smaller than the horizon
    where nobody has a whole one, not half of a ball. 0 where memory is short. */
-static int peri__mark_surfaces(peri_body *b) {
+static int peri__mark_surfaces(peri_body *b, uint8_t *mark) {
     const peri__model *m = b->model;
-    peri__contact *c = b->contact;
     double least = 0.5 * (m->dim == 2 ? 3.14159 : 4.18879 * m->horizon) * peri__square(m->horizon);
     peri__survey s;
     s.body = b;
@@ -119,21 +122,20 @@ static int peri__mark_surfaces(peri_body *b) {
     peri__for_points(b, m->points, m->width, peri__survey_block, &s, b->sums);
     for (int64_t k = 0; k < m->blocks; ++k) least = fmax(least, 0.9 * b->sums[k].b);
     for (int64_t i = 0; i < m->points; ++i)
-        if (s.seen[i] < least) c->mark[i] |= PERI__EXPOSED;
+        if (s.seen[i] < least) mark[i] |= PERI__EXPOSED;
     peri__delete(&b->scratch, s.seen, m->points, sizeof *s.seen);
-    return c->surveyed = 1;
+    return 1;
 }
 
 /* Marks the members; returns how many there are. What is exposed is marked. */
-static int64_t peri__mark_members(const peri_body *b) {
+static int64_t peri__mark_members(const peri_body *b, uint8_t *mark) {
     const peri__model *m = b->model;
-    uint8_t *mark = b->contact->mark;
     int64_t members = 0;
     for (int64_t i = 0; i < m->points; ++i) {
         if (mark[i] & PERI__EXPOSED) mark[i] |= PERI__MEMBER;
         if (!(mark[i] & PERI__EXPOSED) || (mark[i] & PERI__SPREAD) || !peri__lost_a_bond(b, i)) continue;
         mark[i] |= PERI__SPREAD;
-        peri__mark_neighbors(b, i);
+        peri__mark_neighbors(b, mark, i);
     }
     for (int64_t i = 0; i < m->points; ++i) members += (mark[i] & PERI__MEMBER) != 0;
     return members;
@@ -141,10 +143,23 @@ static int64_t peri__mark_members(const peri_body *b) {
 
 /* ---- the grid ------------------------------------------------------------------------------------------------------- */
 
-static int64_t peri__bucket_of(const peri__hunt *s, const int64_t *cell) {
+PERI_INLINE int64_t peri__bucket_of(const peri__grid *g, const int64_t *cell) {
     const uint64_t mixed = (uint64_t)cell[0] * UINT64_C(0x9E3779B97F4A7C15) ^ (uint64_t)cell[1] * UINT64_C(0xC2B2AE3D27D4EB4F)
                          ^ (uint64_t)cell[2] * UINT64_C(0x165667B19E3779F9);
-    return (int64_t)((mixed ^ mixed >> 29) & (uint64_t)(s->buckets - 1));
+    return (int64_t)((mixed ^ mixed >> 29) & (uint64_t)(g->buckets - 1));
+}
+
+/* Notes the cell of member p, which is at place[3], components beyond the dimension 0. */
+static void peri__put_in_cell(const peri__grid *g, int64_t p, const double *place) {
+    int64_t *cell = &g->cell[3 * p];
+    int lost = 0;
+    for (int d = 0; d < 3; ++d) {
+        const double at = place[d] / g->edge;
+        cell[d] = 0;
+        if (fabs(at) < 1e18) cell[d] = (int64_t)floor(at);
+        else lost = 1; /* nor a number */
+    }
+    g->bucket[p] = lost ? -1 : (int32_t)peri__bucket_of(g, cell);
 }
 
 static void peri__cells_of_members(void *context, int64_t begin, int64_t end, peri__sums *sums) {
@@ -152,28 +167,49 @@ static void peri__cells_of_members(void *context, int64_t begin, int64_t end, pe
     const peri_body *b = s->body;
     (void)sums;
     for (int64_t p = begin; p < end; ++p) {
-        int64_t *cell = &s->cell[3 * p];
-        int lost = 0;
-        cell[0] = cell[1] = cell[2] = 0;
+        double place[3] = { 0.0, 0.0, 0.0 };
         for (int32_t d = 0; d < b->dim; ++d) {
             const int64_t at = d * b->model->stride + s->member[p];
-            const double place = (peri__get_real(b->model->x, b->f32, at) + peri__get_real(b->u, b->f32, at)) / s->edge;
-            if (fabs(place) < 1e18) cell[d] = (int64_t)floor(place);
-            else lost = 1; /* nor a number */
+            place[d] = peri__get_real(b->model->x, b->f32, at) + peri__get_real(b->u, b->f32, at);
         }
-        s->bucket[p] = lost ? -1 : (int32_t)peri__bucket_of(s, cell);
+        peri__put_in_cell(&s->grid, p, place);
     }
 }
 
-static void peri__sort_members(peri__hunt *s) {
-    peri__for_points(s->body, s->members, 2, peri__cells_of_members, s, NULL);
-    for (int64_t p = 0; p < s->members; ++p)
-        if (s->bucket[p] >= 0) s->start[s->bucket[p] + 1]++;
-    for (int64_t k = 0; k < s->buckets; ++k) s->start[k + 1] += s->start[k];
-    for (int64_t p = 0; p < s->members; ++p)
-        if (s->bucket[p] >= 0) s->order[s->start[s->bucket[p]]++] = (int32_t)p;
-    for (int64_t k = s->buckets; k > 0; --k) s->start[k] = s->start[k - 1];
-    s->start[0] = 0;
+/* Sorts the members, whose cells are noted. */
+static void peri__sort_grid(const peri__grid *g) {
+    for (int64_t p = 0; p < g->members; ++p)
+        if (g->bucket[p] >= 0) g->start[g->bucket[p] + 1]++;
+    for (int64_t k = 0; k < g->buckets; ++k) g->start[k + 1] += g->start[k];
+    for (int64_t p = 0; p < g->members; ++p)
+        if (g->bucket[p] >= 0) g->order[g->start[g->bucket[p]]++] = (int32_t)p;
+    for (int64_t k = g->buckets; k > 0; --k) g->start[k] = g->start[k - 1];
+    g->start[0] = 0;
+}
+
+/* The n-th of the 9, in space 27, cells at and about that of member p, and its bucket. */
+PERI_INLINE int64_t peri__cell_about(const peri__grid *g, int64_t p, int64_t n, int deep, int64_t *cell) {
+    cell[0] = g->cell[3 * p] + n % 3 - 1;
+    cell[1] = g->cell[3 * p + 1] + n / 3 % 3 - 1;
+    cell[2] = g->cell[3 * p + 2] + (deep ? n / 9 - 1 : 0);
+    return peri__bucket_of(g, cell);
+}
+
+/* Room for g->members. 0 where memory is short. */
+static int peri__take_grid(const peri__memory *memory, peri__grid *g) {
+    for (g->buckets = 64; g->buckets < g->members; g->buckets *= 2) {}
+    g->cell = (int64_t *)peri__new(memory, 3 * g->members, sizeof *g->cell);
+    g->bucket = (int32_t *)peri__new(memory, g->members, sizeof *g->bucket);
+    g->start = (int32_t *)peri__new(memory, g->buckets + 1, sizeof *g->start);
+    g->order = (int32_t *)peri__new(memory, g->members, sizeof *g->order);
+    return g->cell && g->bucket && g->start && g->order;
+}
+
+static void peri__drop_grid(const peri__memory *memory, peri__grid *g) {
+    peri__delete(memory, g->order, g->members, sizeof *g->order);
+    peri__delete(memory, g->start, g->buckets + 1, sizeof *g->start);
+    peri__delete(memory, g->bucket, g->members, sizeof *g->bucket);
+    peri__delete(memory, g->cell, 3 * g->members, sizeof *g->cell);
 }
 
 /* Members that may come to touch member p before the lists are made again, to other[], and the squares of their reach. Returns how many;
@@ -182,15 +218,13 @@ static int64_t peri__list_candidates(const peri__hunt *s, int64_t p, int32_t *ot
     const peri_body *b = s->body;
     const int64_t i = s->member[p], deep = b->dim == 3;
     int64_t cell[3], found = 0;
-    if (s->bucket[p] < 0) return 0;
+    const peri__grid *g = &s->grid;
+    if (g->bucket[p] < 0) return 0;
     for (int64_t n = 0; n < (deep ? 27 : 9); ++n) {
-        cell[0] = s->cell[3 * p] + n % 3 - 1;
-        cell[1] = s->cell[3 * p + 1] + n / 3 % 3 - 1;
-        cell[2] = s->cell[3 * p + 2] + (deep ? n / 9 - 1 : 0);
-        const int64_t bucket = peri__bucket_of(s, cell);
-        for (int32_t k = s->start[bucket]; k < s->start[bucket + 1]; ++k) {
-            const int64_t q = s->order[k], j = s->member[q];
-            const int64_t *there = &s->cell[3 * q];
+        const int64_t bucket = peri__cell_about(g, p, n, (int)deep, cell);
+        for (int32_t k = g->start[bucket]; k < g->start[bucket + 1]; ++k) {
+            const int64_t q = g->order[k], j = s->member[q];
+            const int64_t *there = &g->cell[3 * q];
             double r[3];
             if (q == p || there[0] != cell[0] || there[1] != cell[1] || there[2] != cell[2]) continue;
             const peri__touch *touch = peri__touch_of(b, i, j);
@@ -253,24 +287,16 @@ static void peri__fill_lists(void *context, int64_t begin, int64_t end, peri__su
 
 static int peri__take_hunt(peri__hunt *s) {
     const peri__memory *memory = &s->body->scratch;
-    for (s->buckets = 64; s->buckets < s->members; s->buckets *= 2) {}
-    s->member = (int32_t *)peri__new(memory, s->members, sizeof *s->member);
-    s->cell = (int64_t *)peri__new(memory, 3 * s->members, sizeof *s->cell);
-    s->bucket = (int32_t *)peri__new(memory, s->members, sizeof *s->bucket);
-    s->start = (int32_t *)peri__new(memory, s->buckets + 1, sizeof *s->start);
-    s->order = (int32_t *)peri__new(memory, s->members, sizeof *s->order);
-    s->begin = (int64_t *)peri__new(memory, s->members + 1, sizeof *s->begin);
-    return s->member && s->cell && s->bucket && s->start && s->order && s->begin;
+    s->member = (int32_t *)peri__new(memory, s->grid.members, sizeof *s->member);
+    s->begin = (int64_t *)peri__new(memory, s->grid.members + 1, sizeof *s->begin);
+    return peri__take_grid(memory, &s->grid) && s->member && s->begin;
 }
 
 static void peri__drop_hunt(peri__hunt *s) {
     const peri__memory *memory = &s->body->scratch;
-    peri__delete(memory, s->begin, s->members + 1, sizeof *s->begin);
-    peri__delete(memory, s->order, s->members, sizeof *s->order);
-    peri__delete(memory, s->start, s->buckets + 1, sizeof *s->start);
-    peri__delete(memory, s->bucket, s->members, sizeof *s->bucket);
-    peri__delete(memory, s->cell, 3 * s->members, sizeof *s->cell);
-    peri__delete(memory, s->member, s->members, sizeof *s->member);
+    peri__drop_grid(memory, &s->grid);
+    peri__delete(memory, s->begin, s->grid.members + 1, sizeof *s->begin);
+    peri__delete(memory, s->member, s->grid.members, sizeof *s->member);
 }
 
 /* Makes the lists anew. 0 where memory is short: the old ones stay. */
@@ -282,25 +308,28 @@ static int peri__search_contact(peri_body *b) {
     s.body = b;
     s.contact = c;
     s.skin = PERI_SKIN * c->distance;
-    s.edge = 1.25 * (c->distance + s.skin); /* sums of places and displacements may be off by an eighth of a spacing */
-    int ok = c->surveyed || peri__mark_surfaces(b);
-    if (ok) s.members = peri__mark_members(b);
+    s.grid.edge = 1.25 * (c->distance + s.skin); /* sums of places and displacements may be off by an eighth of a spacing */
+    int ok = c->surveyed || peri__mark_surfaces(b, c->mark);
+    c->surveyed = ok;
+    if (ok) s.grid.members = peri__mark_members(b, c->mark);
+    const int64_t members = s.grid.members;
     ok = ok && peri__take_hunt(&s);
     if (ok) {
         for (int64_t i = 0; i < b->model->points; ++i)
             if (c->mark[i] & PERI__MEMBER) s.member[at++] = (int32_t)i;
-        peri__sort_members(&s);
-        peri__for_points(b, s.members, 20, peri__count_candidates, &s, NULL);
-        for (int64_t p = 0; p < s.members; ++p) s.begin[p + 1] += s.begin[p];
-        ok = peri__need_lists(b, c, s.members, s.begin[s.members]);
+        peri__for_points(b, members, 2, peri__cells_of_members, &s, NULL);
+        peri__sort_grid(&s.grid);
+        peri__for_points(b, members, 20, peri__count_candidates, &s, NULL);
+        for (int64_t p = 0; p < members; ++p) s.begin[p + 1] += s.begin[p];
+        ok = peri__need_lists(b, c, members, s.begin[members]);
     }
     if (ok) {
-        c->members = s.members;
-        c->entries = s.begin[s.members];
-        memcpy(c->member, s.member, (size_t)s.members * sizeof *s.member);
-        memcpy(c->begin, s.begin, (size_t)(s.members + 1) * sizeof *s.begin);
-        memset(c->touching, 0, (size_t)s.members * sizeof *c->touching);
-        peri__for_points(b, s.members, 20, peri__fill_lists, &s, NULL);
+        c->members = members;
+        c->entries = s.begin[members];
+        memcpy(c->member, s.member, (size_t)members * sizeof *s.member);
+        memcpy(c->begin, s.begin, (size_t)(members + 1) * sizeof *s.begin);
+        memset(c->touching, 0, (size_t)members * sizeof *c->touching);
+        peri__for_points(b, members, 20, peri__fill_lists, &s, NULL);
         c->listed = 1;
     }
     peri__drop_hunt(&s);

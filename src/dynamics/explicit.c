@@ -45,7 +45,7 @@ static double peri__step_of(const peri_body *b, double sharp) {
         if (o->free) alone = fmax(alone, 2.0 * peri__free_stiffness(o));
     }
     lambda = fmax(lambda, alone);
-    const double step = b->contact ? peri__step_with_contact(b->contact, lambda) : 2.0 / sqrt(lambda);
+    const double step = peri__step_touched(b, lambda);
     if (damping > 0.0) lambda = 4.0 / (step * step);
     return damping > 0.0 && lambda < HUGE_VAL ? (sqrt(damping * damping + lambda) - damping) * 2.0 / lambda : step;
 }
@@ -161,13 +161,21 @@ static int32_t peri__agree_on_step(peri_body *b) {
 /* One step of dt (inner units) to the time `next`, as the context has it: here a peri_advance_desc. */
 typedef int32_t (*peri__step_fn)(void *context, peri_body *b, double dt, double next, double damping);
 
-static int32_t peri__one_step(void *context, peri_body *b, double dt, double next, double damping) {
-    const peri_advance_desc *r = (const peri_advance_desc *)context;
+typedef struct peri__half_way { /* a step under way                                                                          */
+    peri__operands operands;
+    int64_t bad;    /* first point whose motion is not finite, or -1                                                        */
+    int     listed; /* 0: the lists of contact miss what has come near of late                                              */
+    int     broke;
+} peri__half_way;
+
+/* Up to the forces of all but what other bodies do, and of supports. */
+static int32_t peri__begin_step(const peri_advance_desc *r, peri_body *b, double dt, double next, double damping, peri__half_way *half) {
     int central = r->integrator == PERI_INTEGRATOR_CENTRAL_DIFFERENCE;
     double h = 0.5 * damping * dt;
-    int64_t bad = -1;
-    int listed = 1;
-    peri__operands operands = peri__operands_of(b);
+    peri__operands *operands = &half->operands;
+    half->bad = -1;
+    half->listed = 1;
+    *operands = peri__operands_of(b);
     int32_t status = peri__drive_supports(b, dt, damping);
     if (status < 0) {
         (void)peri__share_ghosts(b); /* for which other parts wait */
@@ -175,12 +183,12 @@ static int32_t peri__one_step(void *context, peri_body *b, double dt, double nex
         return status;
     }
 
-    operands.keep = central ? (1.0 - h) / (1.0 + h) : 1.0 - h;
-    operands.kick = central ? dt / (1.0 + h) : 0.5 * dt;
-    operands.drift = dt;
-    operands.loss_old = b->desc.ledger ? h : 0.0;
-    operands.loss_new = central ? operands.loss_old : 0.0;
-    peri__kick(b, &operands, &bad);
+    operands->keep = central ? (1.0 - h) / (1.0 + h) : 1.0 - h;
+    operands->kick = central ? dt / (1.0 + h) : 0.5 * dt;
+    operands->drift = dt;
+    operands->loss_old = b->desc.ledger ? h : 0.0;
+    operands->loss_new = central ? operands->loss_old : 0.0;
+    peri__kick(b, operands, &half->bad);
     b->now.time = next;
     b->now.steps++;
 
@@ -191,35 +199,48 @@ static int32_t peri__one_step(void *context, peri_body *b, double dt, double nex
         peri__changed(b, PERI__ACTION);
         return status;
     }
-    operands.step = dt;
-    const int broke = peri__forces_and_breaks(b, &operands);
+    operands->step = dt;
+    half->broke = peri__forces_and_breaks(b, operands);
     status = peri__heed_laws(b);
     if (status < 0) {
         peri__changed(b, PERI__ACTION);
         return status;
     }
-    if (broke && b->closing) peri__close_step(b);
+    if (half->broke && b->closing) peri__close_step(b);
     if (b->contact) {
-        listed = broke ? peri__ready_after_breaks(b, dt) : peri__ready_contact(b);
+        half->listed = half->broke ? peri__ready_after_breaks(b, dt) : peri__ready_contact(b);
         peri__apply_touch(b, dt, 1);
     }
+    return PERI_OK;
+}
+
+static int32_t peri__finish_step(const peri_advance_desc *r, peri_body *b, double dt, double damping, peri__half_way *half) {
+    double h = 0.5 * damping * dt;
+    peri__operands *operands = &half->operands;
     peri__hold_supports(b, dt, damping);
 
-    if (!central) {
-        operands.keep = 1.0 / (1.0 + h);
-        operands.kick = 0.5 * dt / (1.0 + h);
-        operands.drift = 0.0;
-        operands.loss_new = operands.loss_old;
-        operands.loss_old = 0.0;
-        peri__kick(b, &operands, &bad);
+    if (r->integrator != PERI_INTEGRATOR_CENTRAL_DIFFERENCE) {
+        operands->keep = 1.0 / (1.0 + h);
+        operands->kick = 0.5 * dt / (1.0 + h);
+        operands->drift = 0.0;
+        operands->loss_new = operands->loss_old;
+        operands->loss_old = 0.0;
+        peri__kick(b, operands, &half->bad);
     }
     peri__look_in_time(b);
-    if (broke) peri__note_breaks(b, peri__load_time(b));
-    if (b->before && broke) peri__report_breaks(b);
-    if (bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", bad, b->now.time);
-    if (listed) return peri__agree_on_step(b);
+    if (half->broke) peri__note_breaks(b, peri__load_time(b));
+    if (b->before && half->broke) peri__report_breaks(b);
+    if (half->bad >= 0) return peri__fail(b, PERI_ERROR_UNSTABLE, "peri_time", half->bad, b->now.time);
+    if (half->listed) return peri__agree_on_step(b);
     peri__changed(b, PERI__ACTION); /* the step was done by lists that miss what has come near of late */
     return peri__fail(b, PERI_ERROR_MEMORY, "contact", -1, 0.0);
+}
+
+static int32_t peri__one_step(void *context, peri_body *b, double dt, double next, double damping) {
+    const peri_advance_desc *r = (const peri_advance_desc *)context;
+    peri__half_way half;
+    const int32_t status = peri__begin_step(r, b, dt, next, damping, &half);
+    return status < 0 ? status : peri__finish_step(r, b, dt, damping, &half);
 }
 
 /* Parts run alike, as long and by the same steps. */
@@ -254,6 +275,17 @@ static int32_t peri__check_length(peri_body *b, const peri_advance_desc *r) {
     return PERI_OK;
 }
 
+/* With a stable step [T]. */
+static int32_t peri__check_step(peri_body *b, const peri_advance_desc *r, double stable) {
+    const double unit = b->model->time, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
+    if (!(peri__stored(step / unit) > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
+    if (peri__stored(r->damping * step) > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
+    if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
+        return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
+    if (r->time_step > stable) peri__log(b, 1, "time_step is larger than the stable step, as forced");
+    return PERI_OK;
+}
+
 static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     int32_t status = peri__check_length(b, r);
     if (status < 0) return status;
@@ -266,13 +298,7 @@ static int32_t peri__check_run(peri_body *b, const peri_advance_desc *r) {
     const double unit = b->model->time;
     if (!(r->time_step > 0.0 && r->time_step <= peri__bounded(b) * unit) && !peri__sharpen(b)) /* else the estimate has no say */
         return peri__fail(b, PERI_ERROR_MEMORY, "time_step", -1, r->time_step);
-    double stable = peri__stable(b) * unit, step = r->time_step > 0.0 ? r->time_step : r->safety * stable;
-    if (!(peri__stored(step / unit) > 0.0)) return peri__fail(b, PERI_ERROR_RANGE, r->time_step > 0.0 ? "time_step" : "safety", -1, step);
-    if (peri__stored(r->damping * step) > 2.0) return peri__fail(b, PERI_ERROR_RANGE, "damping", -1, r->damping);
-    if (r->time_step > stable * (1.0 + 1e-12) && !r->force_step)
-        return peri__fail(b, PERI_ERROR_STEP, "time_step", -1, stable);
-    if (r->time_step > stable) peri__log(b, 1, "time_step is larger than the stable step, as forced");
-    return PERI_OK;
+    return peri__check_step(b, r, peri__stable(b) * unit);
 }
 
 /* on_frame, and what it may have changed. */
@@ -301,21 +327,35 @@ typedef struct peri__plan {
     int64_t full, steps, done;
 } peri__plan;
 
-static int32_t peri__plan_steps(peri_body *b, const peri_advance_desc *r, double left, peri__plan *plan) {
-    plan->start = b->now.time;
-    plan->steps -= plan->done;
-    plan->full = plan->steps;
-    plan->done = 0;
+/* How many steps of plan->dt `left` [T] takes; of a run by steps that is known. */
+static int32_t peri__count_steps(peri_body *b, const peri_advance_desc *r, double left, const peri__plan *plan, int64_t *steps) {
+    *steps = 0;
     if (r->steps > 0) return PERI_OK;
     double duration = left / b->model->time, count = ceil(duration / plan->dt * (1.0 - 1e-12));
     if (count >= 9e18) return peri__fail(b, PERI_ERROR_RANGE, "duration", -1, r->duration);
     if (count < 1.0 && duration > 0.0) count = 1.0; /* however short */
-    plan->steps = plan->full = (int64_t)count;
-    plan->last = duration - (double)(plan->steps - 1) * plan->dt;
-    if (!(plan->last < plan->dt)) return PERI_OK;
+    *steps = (int64_t)count;
+    return PERI_OK;
+}
+
+static void peri__lay_steps(const peri_body *b, const peri_advance_desc *r, double left, int64_t steps, peri__plan *plan) {
+    plan->start = b->now.time;
+    plan->steps -= plan->done;
+    plan->full = plan->steps;
+    plan->done = 0;
+    if (r->steps > 0) return;
+    plan->steps = plan->full = steps;
+    plan->last = left / b->model->time - (double)(plan->steps - 1) * plan->dt;
+    if (!(plan->last < plan->dt)) return;
     plan->full = plan->steps > 2 ? plan->steps - 2 : 0;
     if (plan->steps > 1) plan->last = 0.5 * (plan->last + plan->dt);
-    return PERI_OK;
+}
+
+static int32_t peri__plan_steps(peri_body *b, const peri_advance_desc *r, double left, peri__plan *plan) {
+    int64_t steps;
+    const int32_t status = peri__count_steps(b, r, left, plan, &steps);
+    if (status == PERI_OK) peri__lay_steps(b, r, left, steps, plan);
+    return status;
 }
 
 static double peri__next_size(const peri__plan *plan) { return plan->done < plan->full ? plan->dt : plan->last; }
@@ -381,13 +421,17 @@ static int32_t peri__march(peri_body *b, const peri_advance_desc *r, peri__step_
     return status;
 }
 
-/* The run itself, by the steps of any method; begun and ended by the caller. */
-static int32_t peri__run(peri_body *b, const peri_advance_desc *r, peri__step_fn step, void *context) {
+static void peri__begin_loading(peri_body *b, const peri_advance_desc *r) {
     const double factor = !peri__is_nan(r->load_factor) ? r->load_factor : b->now.loaded ? b->now.load_factor : 1.0;
     if (b->now.still || factor != b->now.load_factor) peri__changed(b, PERI__ACTION); /* callbacks are asked for another time */
     b->now.still = 0;
     b->now.loaded = 1;
     b->now.load_factor = factor;
+}
+
+/* The run itself, by the steps of any method; begun and ended by the caller. */
+static int32_t peri__run(peri_body *b, const peri_advance_desc *r, peri__step_fn step, void *context) {
+    peri__begin_loading(b, r);
     return peri__march(b, r, step, context);
 }
 

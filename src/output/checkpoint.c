@@ -454,6 +454,7 @@ static void peri__take_sections(peri_body *b, const char *bytes, const peri__sec
     const peri__model *m = b->model;
     b->stop = 0;
     peri__forget_solver(b);
+    peri__forget_seat(b->seat);
     peri__forget_contact(b->contact, m); /* its lists are made anew, as those of clones are; and so are fragments         */
     for (int64_t k = 0; k < count; ++k) {
         if (list[k].at >= 0) memcpy(list[k].data, bytes + list[k].at, (size_t)list[k].bytes);

@@ -189,4 +189,4 @@ class Model:
 
 
 def load():
-    return Model(reader.load())
+    return Model(reader.without_joining(reader.load()))
