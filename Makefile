@@ -2,7 +2,7 @@
 # make demo      builds and runs the flagship: dynamic crack branching in glass -> out/branching.png, out/branching.vtu
 # make test      builds and runs every test, closing with "N passed, N failed"
 # make validate  the long tables of the source texts, 50,000 random scenes (WHOLE=1: 200,000), a million steps, sanitizers of all
-# make bench     performance tables, about four minutes; build/bench/bench --large: 8 million points
+# make bench     performance tables, about five minutes; build/bench/bench --large: 8 million points
 # make tradeoff  error against time and memory over the knobs, about 12 minutes -> out/tradeoff.csv, .md and pictures
 # make machines  the extremes and some tests on 32-bit x86, ARM and s390x, emulated, more than an hour
 # make examples  builds and runs every example
@@ -184,7 +184,7 @@ build/bench/%.o: bench/%.c $(wildcard bench/*.h bench/*.inl tests/glass.h)
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(or $(FLAGS),-O2) $(OPENMP) -I. -c $< -o $@
 
-BENCH = bench bars cases_native cases_plain glass limits runs table textbook work
+BENCH = bench bars cases_native cases_plain cliffs glass limits runs table textbook work
 build/bench/bench: $(BENCH:%=build/bench/%.o) build/libperi.a
 	$(CC) $(OPENMP) $^ -o $@ -lm
 

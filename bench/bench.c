@@ -17,6 +17,7 @@
      threads    out/threads.csv    one and two threads, by the clock on the wall, and whether their states are the same to the last bit
      operator   out/operator.csv   products with the tangent, and steps of linear geometry
      unused     out/unused.csv     what a scene pays for what it uses, and does not pay for what it does not
+     cliffs     out/cliffs.csv     criteria, corrections, materials, horizons over the best path of their law and storage
      game       out/game.csv       frames of a game
      branching  out/branching_time.csv   a whole run of crack branching
      large      out/large.csv      8 million points; also as --large
@@ -181,7 +182,7 @@ int main(int argc, char **argv) {
     static const struct section { const char *name; void (*run)(bench_run *); } sections[] = {
         { "limits", bench_limits },     { "cases", bench_cases },       { "textbook", bench_textbook },
         { "threads", bench_threads },   { "operator", bench_operator }, { "unused", bench_unused },
-        { "game", bench_game },         { "branching", bench_branching }, { "large", bench_large },
+        { "cliffs", bench_cliffs }, { "game", bench_game },         { "branching", bench_branching }, { "large", bench_large },
     };
     const int count = (int)(sizeof sections / sizeof sections[0]);
     static bench_run run;

@@ -3,6 +3,7 @@
 
    bench.c     the driver; the table of all cases     scene.h    one function that makes a body of a case row
    cases.c     the library compiled into it, twice    runs.c     scenes through the public API: operator, game, fracture, ...
+   cliffs.c    what settings cost over the plain body
    limits.c    what the machine can do                work.c     what a bond asks of it
    textbook.c  plain loops to compare with            bars.c     the library against them; threads
    table.c     aligned text and CSV                   glass.c    the branching benchmark                                        */
@@ -121,6 +122,7 @@ void bench_textbook(bench_run *run); /* bars.c */
 void bench_threads(bench_run *run);
 void bench_operator(bench_run *run); /* runs.c */
 void bench_unused(bench_run *run);
+void bench_cliffs(bench_run *run); /* cliffs.c */
 void bench_game(bench_run *run);
 void bench_branching(bench_run *run);
 void bench_large(bench_run *run);
