@@ -78,18 +78,6 @@ static void peri__half_cell(const peri__cloud *c, const peri__piece *piece, int6
                                                      : 0.5 * pow(m->volume[i], 1.0 / m->dim);
 }
 
-/* Parts below this are a touch, or the rounding of one: no part. */
-#define PERI_NO_PART 1e-12
-
-static double peri__volume_of_overlap(peri__overlap o, double whole, double *centroid) {
-    if (!(o.area > PERI_NO_PART * whole)) return 0.0;
-    if (centroid) {
-        centroid[0] = o.moment[0] / o.area;
-        centroid[1] = o.moment[1] / o.area;
-    }
-    return o.area / whole;
-}
-
 /* Part of the moved quadrilateral j, 2D. */
 static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, const double *xi, int64_t j, double *centroid) {
     static const int ring[4] = { 0, 1, 3, 2 };
@@ -121,7 +109,9 @@ static double peri__partial_volume(const peri__cloud *c, int64_t i, int64_t j, d
     double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2, part;
     for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
     if (centroid) memcpy(centroid, xi, (size_t)m->dim * sizeof(double));
-    if (piece->vertices && m->dim == 2) {
+    if (piece->shapes) {
+        part = peri__part_of_shape(m, piece, xi, j, centroid);
+    } else if (piece->vertices && m->dim == 2) {
         part = peri__moved_part(c, piece, &c->x[i * 2], j, centroid);
     } else {
         peri__half_cell(c, piece, j, half);
@@ -181,6 +171,10 @@ static void peri__set_reach(peri__cloud *c) {
     double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
     if (c->body->desc.quadrature == PERI_QUADRATURE_RAMP) reach += 0.5 * c->largest;
     if (peri__is_exact(c->body->desc.quadrature)) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
+    for (int64_t p = 0; p < c->body->setup.piece_count; ++p) {
+        const peri__cells *shapes = c->body->setup.pieces[p].shapes;
+        if (shapes) reach = fmax(reach, m->horizon * (1.0 + PERI_HORIZON_TOLERANCE) + shapes->radius / m->length);
+    }
     c->reach2 = reach * reach;
 }
 
@@ -191,6 +185,7 @@ static int peri__has_part(const peri__cloud *c, int64_t i, int64_t j) {
     double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2;
     if (piece->vertices && m->dim == 2) return peri__partial_volume(c, i, j, NULL) > 0.0;
     for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
+    if (piece->shapes) return peri__reaches_shape(m, piece, xi, j);
     peri__half_cell(c, piece, j, half);
     peri__box_distances(xi, half, m->dim, &near2, &far2);
     return near2 < m->horizon * m->horizon * (1.0 - PERI_HORIZON_TOLERANCE);
