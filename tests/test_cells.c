@@ -150,13 +150,14 @@ static void warped_hexahedra(void) {
 /* ---- parts ------------------------------------------------------------------------------------------------------------ */
 
 /* With the influence 1/q a bond-based point under the strain e in all directions has the energy of the solid times the volume of its family
-   over that of the full horizon: w |xi| does not depend on the length. A tiny cell at `at` (or the cells of a box around it) is bonded with
+   over that of the full horizon: w |xi| does not depend on the length. A tiny cell at `at` is bonded with
    the mean of two parts: that of the other cell within its own horizon, and its own within the other's, which is all or nothing. So
-       2 sum beta V - sum of V of the points within the horizon = sum of the parts. */
+       2 sum beta V - sum of V of the points within the horizon = sum of the parts. d NULL: of a perturbed box. */
 static double sum_of_parts(int dim, double horizon, const double *at, const peri_cells_desc *d) {
     solid s = solid_with(dim, PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL, horizon);
     const double tiny = 1e-5 * horizon, eps[6] = {1e-3, 1e-3, dim == 3 ? 1e-3 : 0, 0, 0, 0};
     const double full = dim == 3 ? 4 * PI / 3 * pow(horizon, 3) : PI * horizon * horizon;
+    const double lo[3] = {0, 0, 0}, hi[3] = {4, 4, 4};
     double corner[8][3], h[9], within = 0, *x, *v, *w;
     int32_t order[8] = {0, 1, 2, 3, 4, 5, 6, 7};
     peri_cells_desc probe;
@@ -168,7 +169,8 @@ static double sum_of_parts(int dim, double horizon, const double *at, const peri
     probe.vertex_count = probe.cell_corners = dim == 3 ? 8 : 4;
     probe.vertices = corner[0], probe.vertex_stride = 3, probe.cell_count = 1, probe.corners = order;
     (void)MUST(b, peri_add_cells(b, &probe));
-    (void)MUST(b, peri_add_cells(b, d));
+    if (d) (void)MUST(b, peri_add_cells(b, d));
+    else (void)MUST(b, peri_add_perturbed_box(b, peri_id(b, PERI_KIND_MATERIAL, 1), lo, hi, 1, 1, 3));
     (void)MUST(b, peri_build(b));
     strain_matrix(dim, eps, h);
     stretch_by(b, h);
@@ -205,6 +207,14 @@ static void parts_add_up(void) {
             CHECK_NEAR(sum, want, 1e-12, 0);
         }
         mesh_free(&m);
+    }
+}
+
+/* The hexahedra of a perturbed box. */
+static void parts_of_a_perturbed_box_add_up(void) {
+    for (int dim = 2; dim <= 3; ++dim) {
+        const double horizon = dim == 2 ? 1.9 : 1.3, at[3] = {2.1, 1.9, 2.2}, want = dim == 3 ? 4 * PI / 3 * pow(1.3, 3) : PI * pow(1.9, 2);
+        CHECK_NEAR(sum_of_parts(dim, horizon, at, NULL), want, 1e-12, 0);
     }
 }
 
@@ -404,6 +414,7 @@ int main(int argc, char **argv) {
     RUN(solids);
     RUN(warped_hexahedra);
     RUN(parts_add_up);
+    RUN(parts_of_a_perturbed_box_add_up);
     RUN(areas_of_single_cells);
     RUN(parts_of_single_cells);
     RUN(squares_are_those_of_a_box);
