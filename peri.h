@@ -96,7 +96,7 @@ typedef enum peri_status { /* peri_status_text says the same */
     PERI_ERROR_LAW = -18,         /* this law has no such thing, or cannot take this */
     PERI_ERROR_CRITERION = -19,   /* the criterion cannot act on this law, or lacks its G0 */
     PERI_ERROR_INFLUENCE = -20,   /* the influence function or its moments are not finite */
-    PERI_ERROR_POINT = -21,       /* a position is not finite, or a volume not positive */
+    PERI_ERROR_POINT = -21,       /* a place not finite, no volume, or a cell that crosses itself */
     PERI_ERROR_COINCIDENT = -22,  /* two points are at the same place */
     PERI_ERROR_HORIZON = -23,     /* the horizon is smaller than the spacing of the points */
     PERI_ERROR_FAMILY = -24,      /* a point has no neighbour, or none with a weight */
@@ -493,6 +493,10 @@ PERI_API int32_t peri_get_critical_energy(peri_body *body, int32_t material, dou
 PERI_API int64_t peri_add_box(peri_body *body, int32_t material, const double *lo,
     const double *hi, double spacing);
 
+/* The box in cells[dim] cells per axis. */
+PERI_API int64_t peri_add_grid(peri_body *body, int32_t material, const double *lo,
+    const double *hi, const int32_t *cells);
+
 /* The lattice cells whose centre is within `radius` of `centre`: a ball, in 2D a disc. */
 PERI_API int64_t peri_add_ball(peri_body *body, int32_t material, const double *centre,
     double radius, double spacing);
@@ -509,6 +513,26 @@ PERI_API int64_t peri_add_perturbed_box(peri_body *body, int32_t material, const
    materials[count] (ids), or NULL where the body has one material. */
 PERI_API int64_t peri_add_points(peri_body *body, int64_t count, const double *positions,
     const double *volumes, const int32_t *materials);
+
+/* Cells: polygons, convex or not; tetrahedra, pyramids, wedges, hexahedra (4, 5, 6, 8 corners) in
+   VTK's order, or mirrored. */
+typedef struct peri_cells_desc {
+    uint64_t cookie;          /* set by init */
+    int64_t vertex_count;
+    const double *vertices;   /* [vertex_count*vertex_stride] [L] */
+    int64_t vertex_stride;    /* Default 0: dim */
+    int64_t cell_count;
+    const int32_t *corners;   /* of cell 0, 1, ... */
+    const int64_t *offsets;   /* [cell_count+1] in corners[]. Default NULL: cell_corners each */
+    int32_t cell_corners;
+    int32_t reserved;         /* 0 */
+    const int32_t *materials; /* [cell_count]. Default NULL */
+} peri_cells_desc;
+
+PERI_API void peri_cells_desc_init(peri_cells_desc *desc);
+
+/* Each is a point at its centroid, with its volume; partial volumes are exact. */
+PERI_API int64_t peri_add_cells(peri_body *body, const peri_cells_desc *desc);
 
 /* Families of yours instead of a search: ibond[points*width] as in [T] 3.11, row i padded with i.
    Membership must be mutual. Weights are computed as for found families, of whose horizon they must
@@ -696,7 +720,7 @@ PERI_API int32_t peri_get_fragments(peri_body *body, peri_fragment *out, int64_t
 /* The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L];
    faces[][dim] of vertices: in 2D edges with the fragment on the left, loop by loop, edge k from
    vertex k on; in 3D triangles, counter-clockwise from outside. owners[], or NULL: its point;
-   inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares or cubes. */
+   inner[], or NULL: 1 where a crack made it. Points and cells of yours are squares or cubes. */
 PERI_API int32_t peri_size_of_outline(peri_body *body, int32_t fragment, int64_t *vertices,
     int64_t *faces);
 PERI_API int32_t peri_get_outline(peri_body *body, int32_t fragment, double *vertices,

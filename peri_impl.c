@@ -46,7 +46,8 @@ PERI_SMALL_END
 
 /* ---- geometry: points, cells, and the parts of cells within a horizon ------------------ */
 #include "src/geometry/points.c"   /* boxes, balls, shapes, arrays    -> points and cells                          */
-#include "src/geometry/overlap.c"  /* disk and polygon, ball and box  -> exact partial areas and volumes           */
+#include "src/geometry/overlap.c"  /* disk, ball; polygon, polyhedron -> exact partial areas and volumes           */
+#include "src/geometry/cells.c"    /* vertices and corners            -> points, volumes; parts of cells           */
 #include "src/geometry/partial_volumes.c"    /* a cell and a horizon            -> the part within                           */
 #include "src/geometry/mesh.c"     /* a closed mesh and a place       -> how deep that is in it                    */
 #include "src/geometry/solids.c"   /* a shape and a place             -> the same; volume, inertia                 */

@@ -145,6 +145,34 @@ static void refuse_parts(peri_body *b) {
     peri_advance_desc_init(&run), run.steps = 1, ASK(peri_advance_implicit(b, &run, NULL, 0.8, NULL));
     ASK(peri_set_mean_gradient(b, NULL)), ASK(peri_set_mean_gradient(b, gradient));
 }
+/* Cells of the caller, and grids: in turn each thing is wrong, and put right again. */
+static void with_cells(void) {
+    const specimen s = plate_of(PERI_LAW_BOND_BASED);
+    const double square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, wide[2] = {1, 1e300};
+    const int64_t offsets[2] = {0, 2};
+    int32_t order[4] = {0, 1, 2, 3}, count[2] = {3, 2}, wrong[4] = {0, PERI_ALL, 0, 0};
+    peri_body *b = specimen_make(&s), *d = specimen_start(&s), *none = NULL;
+    peri_cells_desc c;
+    peri_cells_desc_init(NULL), peri_cells_desc_init(&c);
+    const int32_t material = peri_id(d, PERI_KIND_MATERIAL, 1);
+    c.vertex_count = c.cell_corners = 4, c.vertices = square[0], c.cell_count = 1, c.corners = order;
+    MUST(NULL, peri_body_create(&s.desc, &none, NULL)), ASK(peri_add_cells(none, &c)), peri_body_destroy(none);
+    ASK(peri_add_cells(NULL, &c)), ASK(peri_add_cells(b, &c)), ASK(peri_add_cells(d, NULL));
+    c.cookie++, ASK(peri_add_cells(d, &c)), c.cookie--;
+    fail_in = 0, ASK(peri_add_cells(d, &c)), fail_in = -1;
+    c.cell_count = 0, ASK(peri_add_cells(d, &c)), c.cell_count = INT64_C(3000000000), ASK(peri_add_cells(d, &c)), c.cell_count = 1;
+    order[1] = 4, ASK(peri_add_cells(d, &c)), order[1] = 2, order[2] = 1, ASK(peri_add_cells(d, &c));
+    order[1] = 1, order[2] = 2, c.offsets = offsets, ASK(peri_add_cells(d, &c)), c.offsets = NULL, c.materials = wrong;
+    wrong[2] = peri_id(b, PERI_KIND_MATERIAL, 1), wrong[3] = material + 9;
+    for (; c.materials < wrong + 4; ++c.materials) ASK(peri_add_cells(d, &c)), ASK(peri_add_grid(d, *c.materials, zero3, far3, count));
+    c.materials = NULL;
+    ASK(peri_add_grid(NULL, material, zero3, far3, count)), ASK(peri_add_grid(b, material, zero3, far3, count));
+    ASK(peri_add_grid(d, material, zero3, far3, NULL)), ASK(peri_add_grid(d, material, zero3, wide, two));
+    fail_in = 0, ASK(peri_add_grid(d, material, zero3, far3, count)), fail_in = -1;
+    count[0] = count[1] = 1 << 20, ASK(peri_add_grid(d, material, zero3, far3, count));
+    CHECK(peri_point_count(d) == 0 && peri_add_cells(d, &c) == 1);
+    peri_body_destroy(b), peri_body_destroy(d);
+}
 static void with_parts(void) {
     specimen s = plate_of(PERI_LAW_LPS);
     peri_part_desc p;

@@ -69,6 +69,7 @@ ROW(draft, ID_GONE, "material", ANY, peri_add_ball(draft, draft_material + 50, l
 ROW(draft, ID_KIND, "material", ANY, peri_add_shape(draft, PERI_ALL, lo, hi, 1.0, take_all, NULL))
 ROW(draft, ID_NONE, "material", ANY, peri_add_perturbed_box(draft, 1, lo, hi, 1.0, 0.5, 1))
 ROW(draft, ID_NONE, "materials", 7, peri_add_points(draft, 2, coords, volumes, sevens))
+ROW(draft, ID_NONE, "material", ANY, peri_add_grid(draft, 0, lo, hi, sevens))
 ROW(draft, ID_NONE, "materials", ANY, peri_add_points(draft, 2, coords, volumes, NULL))
 ROW(draft, ID_NONE, "i", ANY, peri_set_interface(draft, 0, draft_material, md))
 ROW(draft, ID_GONE, "j", ANY, peri_set_interface(draft, draft_material, draft_material + 9, md))

@@ -228,6 +228,41 @@ static int64_t add_points(program *p, int s) {
     return CALL(p, s, peri_add_points(o->body, count, GIVEN(0, p->in), GIVEN(1, p->other), materials));
 }
 
+/* A mesh of quadrilaterals or hexahedra with a moved vertex, of which a corner may be wrong; or a grid. */
+static int64_t add_cells(program *p, int s) {
+    static const int32_t turn[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+    slot *o = &p->slots[s];
+    const int dim = o->dim == 3 ? 3 : 2, across = 1 + below(p, 3), row = across + 1, corners = 1 << dim;
+    const int32_t material = some_id(p, s, PERI_KIND_MATERIAL);
+    int32_t order[27 * 8];
+    const int64_t vertices = (int64_t)row * row * (dim == 3 ? row : 1), count = (int64_t)across * across * (dim == 3 ? across : 1);
+    peri_cells_desc c;
+    for (int64_t k = 0; k < vertices * dim; ++k) {
+        const int64_t v = k / dim, at[3] = {v % row, v / row % row, v / row / row};
+        p->in[k] = o->length * (double)at[k % dim];
+    }
+    for (int64_t k = 0; k < count * corners; ++k) {
+        const int n = turn[k % corners];
+        const int64_t cell = k / corners, x = cell % across, y = cell / across % across, z = cell / across / across;
+        const int64_t at[3] = {x + (n & 1), y + (n >> 1 & 1), z + (n >> 2)};
+        order[k] = (int32_t)(at[0] + row * at[1] + (dim == 3 ? row * row * at[2] : 0));
+    }
+    if (draw(p) % 2) {
+        int32_t cells[3] = {across, 1 + below(p, 4), across};
+        const double zero[3] = {0, 0, 0}, far[3] = {o->length * across, o->length * across, o->length * across};
+        if (p->mood == MOOD_NUMBERS) cells[draw(p) % dim] = -(int32_t)draw(p);
+        if (!p->wild) for (int d = 0; d < dim; ++d) o->hi[d] = fmax(o->hi[d], far[d]);
+        return CALL(p, s, peri_add_grid(o->body, material, GIVEN(0, zero), GIVEN(1, far), GIVEN(2, cells)));
+    }
+    p->in[(dim == 3 ? row * row + row + 1 : row + 1) % vertices * dim] += 0.2 * o->length;
+    peri_cells_desc_init(&c);
+    c.vertex_count = vertices, c.vertices = GIVEN(0, p->in), c.cell_count = count, c.corners = GIVEN(1, order), c.cell_corners = corners;
+    if (p->mood == MOOD_NUMBERS) order[draw(p) % (count * corners)] = (int32_t)draw(p) - 100;
+    p->want = PERI_OK; /* no id is looked at; of several materials none is named: which status? */
+    if (!p->wild) for (int d = 0; d < dim; ++d) o->hi[d] = fmax(o->hi[d], o->length * across);
+    return CALL(p, s, peri_add_cells(o->body, GIVEN(2, &c)));
+}
+
 /* A chain, a ring, all with all, or what is no family at all. */
 static int64_t set_families(program *p, int s) {
     const int64_t n = peri_point_count(p->slots[s].body), kind = below(p, 4);

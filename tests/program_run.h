@@ -43,6 +43,7 @@ static const struct {
     {"set_no_fail", set_no_fail}, {"tell_breaks", tell_breaks}, {"look_at_bonds", look_at_bonds}, {"remove_load", remove_load},
     {"remove_obstacle", remove_obstacle}, {"look_at_forces", look_at_forces}, {"look_at_fields", look_at_fields}, {"write_out", write_out},
     {"look_at_constants", look_at_constants}, {"multiply", multiply}, {"assemble", assemble}, {"ask_for_nothing", ask_for_nothing},
+    {"add_cells", add_cells},
 };
 #define TABLE ((int)(sizeof table / sizeof *table))
 

@@ -297,6 +297,58 @@ static void a_mesh_in_a_deck(void) {
     run_scene_free(&scene);
 }
 
+/* Rectangles of 1.5 x 1: partial areas are those of peri_add_grid, so that the displacements under a load are. */
+static void cells_of_a_mesh_are_exact(void) {
+    const double lo[2] = {0, 0}, hi[2] = {9e-3, 4e-3}, edge[2] = {1.5e-3, 4e-3}, zero[2] = {0, 0}, pull[2] = {0, -1e6};
+    const int32_t cells[2] = {6, 4};
+    char      text[8000];
+    size_t    at = (size_t)snprintf(text, sizeof text, "*NODE\n");
+    run_scene scene;
+    run_fault fault;
+    peri_body *body;
+    peri_body_desc d;
+    peri_material_desc m;
+    peri_solve_desc s;
+    double   *u, *want;
+    int64_t   n, k;
+    int       i, j;
+    for (j = 0; j <= 4; ++j)
+        for (i = 0; i <= 6; ++i) at += (size_t)snprintf(text + at, sizeof text - at, "%d, %g, %d, 0\n", 7 * j + i + 1, 1.5 * i, j);
+    at += (size_t)snprintf(text + at, sizeof text - at, "*ELEMENT, TYPE=CPS4\n");
+    for (j = 0; j < 4; ++j)
+        for (i = 0; i < 6; ++i)
+            at += (size_t)snprintf(text + at, sizeof text - at, "%d, %d, %d, %d, %d\n", 6 * j + i + 1, 7 * j + i + 1, 7 * j + i + 2,
+                                   7 * (j + 1) + i + 2, 7 * (j + 1) + i + 1);
+    write_file("rectangles.inp", text);
+    CHECK(run_text_deck(&scene, BODY "quadrature partial\ncorrection equilibrium\n" STEEL "law lps\npoisson 0.3\n"
+                        "[mesh]\nfile rectangles.inp\n"
+                        "scale 1e-3\n[set edge]\nlo 0 0\nhi 1.5e-3 4e-3\n[displacement]\nset edge\n[body_force]\nset all\n"
+                        "value 0 -1e6\n[solve]\n", &fault) == 0);
+    if (fault.text[0] != 0) printf("    %s\n", fault.text);
+    peri_body_desc_init(&d);
+    d.space = PERI_SPACE_PLANE_STRESS, d.horizon = 2.5e-3, d.threads = 1;
+    d.quadrature = PERI_QUADRATURE_PARTIAL, d.correction = PERI_CORRECTION_EQUILIBRIUM;
+    peri_material_desc_init(&m, PERI_LAW_LPS);
+    m.young = 2e11, m.density = 7800, m.poisson = 0.3;
+    MUST(NULL, peri_body_create(&d, &body, NULL));
+    MUST(body, peri_add_grid(body, (int32_t)MUST(body, peri_add_material(body, &m)), lo, hi, cells));
+    MUST(body, peri_build(body));
+    const int32_t held = (int32_t)MUST(body, peri_select_box(body, NULL, lo, edge));
+    MUST(body, peri_prescribe_displacement(body, held, PERI_AXIS_XY, zero, NULL, NULL));
+    MUST(body, peri_apply_body_force(body, PERI_ALL, pull, NULL, NULL));
+    peri_solve_desc_init(&s);
+    MUST(body, peri_solve(body, &s, NULL));
+    if (fault.text[0] == 0) {
+        u = field_of(scene.body, PERI_FIELD_DISPLACEMENT, &n);
+        want = field_of(body, PERI_FIELD_DISPLACEMENT, &n);
+        CHECK(n == 48 && fabs(want[47]) > 0);
+        for (k = 0; k < n; ++k) CHECK(fabs(u[k] - want[k]) <= 1e-6 * fabs(want[47])); /* of two solves to 1e-8 or so */
+        free(u), free(want);
+    }
+    peri_body_destroy(body);
+    run_scene_free(&scene);
+}
+
 /* A support that rises to its value by the time 4 steps are over, and stays. */
 static void supports_rise(void) {
     run_scene scene;
@@ -403,6 +455,7 @@ int main(int argc, char **argv) {
     RUN(cantilever);
     RUN(impact);
     RUN(a_mesh_in_a_deck);
+    RUN(cells_of_a_mesh_are_exact);
     RUN(supports_rise);
     RUN(faults_are_named);
     RUN(damaged_decks);

@@ -522,7 +522,7 @@ static void gather(void) {
     without_a_body();
     with_wrong_ids();
     at_the_wrong_time();
-    with_fields(), with_evaluations(), with_implicit_steps(), with_parts(), with_worlds();
+    with_fields(), with_evaluations(), with_implicit_steps(), with_parts(), with_worlds(), with_cells();
     with_wrong_laws();
     with_wrong_arguments();
     with_failing_callbacks();
@@ -565,7 +565,7 @@ static void no_others_are(void) {
 static void never_where_it_says_so(void) {
     int never = 0;
     for (int k = 0; k < calls_of_table; ++k) never += table_rows[k].never;
-    CHECK(never == 2 + 13 + 4 + 12 + 1 + 1);
+    CHECK(never == 2 + 13 + 4 + 12 + 1 + 1 + 1);
     CHECK(peri_version() > 0 && peri_status_text(12345)[0] != 0);
     peri_body_destroy(NULL);
     peri_matrix_destroy(NULL);

@@ -335,6 +335,13 @@ struct softening_desc : peri_softening_desc {
     explicit softening_desc(int32_t shape_) : peri_softening_desc() { peri_softening_desc_init(this, shape_); }
 };
 
+/* peri_cells_desc, filled with the defaults. Cells: polygons, convex or not; tetrahedra, pyramids, wedges,
+   hexahedra (4, 5, 6, 8 corners) in VTK's order, or mirrored. */
+struct cells_desc : peri_cells_desc {
+    cells_desc() : peri_cells_desc() { peri_cells_desc_init(this); }
+    cells_desc(const peri_cells_desc &plain_) : peri_cells_desc(plain_) {}
+};
+
 /* peri_part_desc, filled with the defaults. Ghosts: copies of points that other parts own, peri_ghost_depth
    horizons deep. They bear no load and are in no set, sum or count. Give them all else that their owners have:
    cuts, motion. */
@@ -728,6 +735,15 @@ public:
         check(result_);
         return result_;
     }
+    /* The box in cells[dim] cells per axis. */
+    int64_t add_grid(int32_t material_, span<const double> lo_, span<const double> hi_, span<const int32_t> cells_) {
+        detail::sized(lo_.size(), dimension(), "lo");
+        detail::sized(hi_.size(), dimension(), "hi");
+        detail::sized(cells_.size(), dimension(), "cells");
+        const int64_t result_ = peri_add_grid(handle_, material_, lo_.data(), hi_.data(), cells_.data());
+        check(result_);
+        return result_;
+    }
     /* The lattice cells whose centre is within `radius` of `centre`: a ball, in 2D a disc. */
     int64_t add_ball(int32_t material_, span<const double> centre_, double radius_, double spacing_) {
         detail::sized(centre_.size(), dimension(), "centre");
@@ -758,6 +774,12 @@ public:
         detail::sized(positions_.size(), int64_t(volumes_.size())*dimension(), "positions");
         if (!materials_.empty()) detail::sized(materials_.size(), int64_t(volumes_.size()), "materials");
         const int64_t result_ = peri_add_points(handle_, int64_t(volumes_.size()), positions_.data(), volumes_.data(), materials_.data());
+        check(result_);
+        return result_;
+    }
+    /* Each is a point at its centroid, with its volume; partial volumes are exact. */
+    int64_t add_cells(const cells_desc &desc_) {
+        const int64_t result_ = peri_add_cells(handle_, &desc_);
         check(result_);
         return result_;
     }
@@ -1069,7 +1091,7 @@ public:
     /* The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of
        vertices: in 2D edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D
        triangles, counter-clockwise from outside. owners[], or NULL: its point; inner[], or NULL: 1 where a crack
-       made it. Points of peri_add_points are squares or cubes. */
+       made it. Points and cells of yours are squares or cubes. */
     int32_t size_of_outline(int32_t fragment_, span<int64_t> vertices_, span<int64_t> faces_) {
         detail::sized(vertices_.size(), 1, "vertices");
         detail::sized(faces_.size(), 1, "faces");
@@ -1080,7 +1102,7 @@ public:
     /* The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of
        vertices: in 2D edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D
        triangles, counter-clockwise from outside. owners[], or NULL: its point; inner[], or NULL: 1 where a crack
-       made it. Points of peri_add_points are squares or cubes. */
+       made it. Points and cells of yours are squares or cubes. */
     int32_t get_outline(int32_t fragment_, span<double> vertices_, span<int32_t> faces_, span<int32_t> owners_ = nullptr, span<int32_t> inner_ = nullptr) {
         if (vertices_.size() % std::size_t(dimension()) != 0) detail::refuse("vertices");
         if (faces_.size() % std::size_t(dimension()) != 0) detail::refuse("faces");

@@ -59,7 +59,7 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_ERROR_CRITERION = -19
     ! the influence function or its moments are not finite
     integer(c_int32_t), parameter :: PERI_ERROR_INFLUENCE = -20
-    ! a position is not finite, or a volume not positive
+    ! a place not finite, no volume, or a cell that crosses itself
     integer(c_int32_t), parameter :: PERI_ERROR_POINT = -21
     ! two points are at the same place
     integer(c_int32_t), parameter :: PERI_ERROR_COINCIDENT = -22
@@ -583,6 +583,27 @@ module peri_c
         integer(c_int64_t) :: count = 0
         ! [count*2] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
         type(c_ptr) :: table = c_null_ptr
+    end type
+
+    ! Cells: polygons, convex or not; tetrahedra, pyramids, wedges, hexahedra (4, 5, 6, 8 corners) in VTK's order, or mirrored.
+    type, bind(c) :: peri_cells_desc
+        ! set by init
+        integer(c_int64_t) :: cookie = 0
+        integer(c_int64_t) :: vertex_count = 0
+        ! [vertex_count*vertex_stride] [L]
+        type(c_ptr) :: vertices = c_null_ptr
+        ! Default 0: dim
+        integer(c_int64_t) :: vertex_stride = 0
+        integer(c_int64_t) :: cell_count = 0
+        ! of cell 0, 1, ...
+        type(c_ptr) :: corners = c_null_ptr
+        ! [cell_count+1] in corners[]. Default NULL: cell_corners each
+        type(c_ptr) :: offsets = c_null_ptr
+        integer(c_int32_t) :: cell_corners = 0
+        ! 0
+        integer(c_int32_t) :: reserved = 0
+        ! [cell_count]. Default NULL
+        type(c_ptr) :: materials = c_null_ptr
     end type
 
     ! Ghosts: copies of points that other parts own, peri_ghost_depth horizons deep. They bear no load and are in no set, sum
@@ -1343,6 +1364,15 @@ module peri_c
             real(c_double), value :: spacing
             integer(c_int64_t) :: c_add_box
         end function
+        function c_add_grid(body, material, lo, hi, cells) bind(c, name='peri_add_grid')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: material
+            type(c_ptr), value :: lo
+            type(c_ptr), value :: hi
+            type(c_ptr), value :: cells
+            integer(c_int64_t) :: c_add_grid
+        end function
         function c_add_ball(body, material, centre, radius, spacing) bind(c, name='peri_add_ball')
             import
             type(c_ptr), value :: body
@@ -1382,6 +1412,16 @@ module peri_c
             type(c_ptr), value :: volumes
             type(c_ptr), value :: materials
             integer(c_int64_t) :: c_add_points
+        end function
+        subroutine c_cells_desc_init(desc) bind(c, name='peri_cells_desc_init')
+            import
+            type(peri_cells_desc), intent(inout) :: desc
+        end subroutine
+        function c_add_cells(body, desc) bind(c, name='peri_add_cells')
+            import
+            type(c_ptr), value :: body
+            type(peri_cells_desc), intent(in) :: desc
+            integer(c_int64_t) :: c_add_cells
         end function
         function c_set_families(body, width, ibond) bind(c, name='peri_set_families')
             import
@@ -2181,10 +2221,13 @@ module peri
     private :: c_get_bond_constants
     private :: c_get_critical_energy
     private :: c_add_box
+    private :: c_add_grid
     private :: c_add_ball
     private :: c_add_shape
     private :: c_add_perturbed_box
     private :: c_add_points
+    private :: c_cells_desc_init
+    private :: c_add_cells
     private :: c_set_families
     private :: c_part_desc_init
     private :: c_set_part
@@ -2776,6 +2819,55 @@ contains
         if (present(stat)) stat = 0
     end function
 
+    ! The box in cells[dim] cells per axis.
+    function peri_add_grid(body, material, lo, hi, cells, stat, errmsg) result(result_)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: material
+        real(c_double), intent(in), target, contiguous :: lo(:)
+        real(c_double), intent(in), target, contiguous :: hi(:)
+        integer(c_int32_t), intent(in), target, contiguous :: cells(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int64_t) :: result_
+        type(c_ptr) :: lo_at
+        type(c_ptr) :: hi_at
+        type(c_ptr) :: cells_at
+        type(peri_error) :: record
+        result_ = PERI_ERROR_ARGUMENT
+        if (size(lo) /= int(c_dimension(body%handle))) then
+            call refused('lo', stat, errmsg)
+            return
+        end if
+        lo_at = c_null_ptr
+        if (size(lo) > 0) lo_at = c_loc(lo)
+        if (size(hi) /= int(c_dimension(body%handle))) then
+            call refused('hi', stat, errmsg)
+            return
+        end if
+        hi_at = c_null_ptr
+        if (size(hi) > 0) hi_at = c_loc(hi)
+        if (size(cells) /= int(c_dimension(body%handle))) then
+            call refused('cells', stat, errmsg)
+            return
+        end if
+        cells_at = c_null_ptr
+        if (size(cells) > 0) cells_at = c_loc(cells)
+        result_ = c_add_grid(body%handle, material, lo_at, hi_at, cells_at)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = 0
+    end function
+
     ! The lattice cells whose centre is within `radius` of `centre`: a ball, in 2D a disc.
     function peri_add_ball(body, material, centre, radius, spacing, stat, errmsg) result(result_)
         type(peri_body), intent(in) :: body
@@ -2933,6 +3025,35 @@ contains
         materials_at = c_null_ptr
         if (present(materials)) materials_at = c_loc(materials)
         result_ = c_add_points(body%handle, size(volumes, kind=c_int64_t), positions_at, volumes_at, materials_at)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = 0
+    end function
+
+    subroutine peri_cells_desc_init(desc)
+        type(peri_cells_desc), intent(out) :: desc
+        call c_cells_desc_init(desc)
+    end subroutine
+
+    ! Each is a point at its centroid, with its volume; partial volumes are exact.
+    function peri_add_cells(body, desc, stat, errmsg) result(result_)
+        type(peri_body), intent(in) :: body
+        type(peri_cells_desc), intent(in) :: desc
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int64_t) :: result_
+        type(peri_error) :: record
+        result_ = c_add_cells(body%handle, desc)
         if (result_ < 0) then
             if (c_get_error(body%handle, record) < 0) record%code = 0
             if (record%code /= result_) then
@@ -4173,7 +4294,7 @@ contains
 
     ! The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of vertices: in 2D
     ! edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from
-    ! outside. owners[], or NULL: its point; inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares
+    ! outside. owners[], or NULL: its point; inner[], or NULL: 1 where a crack made it. Points and cells of yours are squares
     ! or cubes.
     subroutine peri_size_of_outline(body, fragment, vertices, faces, stat, errmsg)
         type(peri_body), intent(in) :: body
@@ -4202,7 +4323,7 @@ contains
 
     ! The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of vertices: in 2D
     ! edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from
-    ! outside. owners[], or NULL: its point; inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares
+    ! outside. owners[], or NULL: its point; inner[], or NULL: 1 where a crack made it. Points and cells of yours are squares
     ! or cubes.
     subroutine peri_get_outline(body, fragment, vertices, faces, owners, inner, stat, errmsg)
         type(peri_body), intent(in) :: body

@@ -37,7 +37,7 @@ const ERROR_POISSON = Int32(-17) # bond-based: Poisson's ratio is fixed; it is t
 const ERROR_LAW = Int32(-18) # this law has no such thing, or cannot take this
 const ERROR_CRITERION = Int32(-19) # the criterion cannot act on this law, or lacks its G0
 const ERROR_INFLUENCE = Int32(-20) # the influence function or its moments are not finite
-const ERROR_POINT = Int32(-21) # a position is not finite, or a volume not positive
+const ERROR_POINT = Int32(-21) # a place not finite, no volume, or a cell that crosses itself
 const ERROR_COINCIDENT = Int32(-22) # two points are at the same place
 const ERROR_HORIZON = Int32(-23) # the horizon is smaller than the spacing of the points
 const ERROR_FAMILY = Int32(-24) # a point has no neighbour, or none with a weight
@@ -308,6 +308,23 @@ mutable struct peri_softening_desc
     count::Int64 # 2..30 rows of
     table::Ptr{Float64} # [count*2] stretch past the strength, of any scale, from 0 ascending; force over the strength, from 1 to 0, descending
     peri_softening_desc() = new()
+end
+
+"""
+Cells: polygons, convex or not; tetrahedra, pyramids, wedges, hexahedra (4, 5, 6, 8 corners) in VTK's order, or mirrored.
+"""
+mutable struct peri_cells_desc
+    cookie::UInt64 # set by init
+    vertex_count::Int64
+    vertices::Ptr{Float64} # [vertex_count*vertex_stride] [L]
+    vertex_stride::Int64 # Default 0: dim
+    cell_count::Int64
+    corners::Ptr{Int32} # of cell 0, 1, ...
+    offsets::Ptr{Int64} # [cell_count+1] in corners[]. Default NULL: cell_corners each
+    cell_corners::Int32
+    reserved::Int32 # 0
+    materials::Ptr{Int32} # [cell_count]. Default NULL
+    peri_cells_desc() = new()
 end
 
 """
@@ -743,6 +760,13 @@ function softening_desc(shape)
     return Desc(raw)
 end
 
+"""peri_cells_desc with its defaults."""
+function cells_desc()
+    raw = peri_cells_desc()
+    ccall((:peri_cells_desc_init, LIB), Cvoid, (Ref{peri_cells_desc},), raw)
+    return Desc(raw)
+end
+
 callbacks(::Type{peri_part_desc}) = (:exchange, :reduce, )
 """peri_part_desc with its defaults."""
 function part_desc()
@@ -1145,6 +1169,18 @@ function add_box(body::Body, material, lo, hi, spacing)
 end
 
 """
+The box in cells[dim] cells per axis.
+"""
+function add_grid(body::Body, material, lo, hi, cells)
+    sized(lo, dimension(body), "lo")
+    sized(hi, dimension(body), "hi")
+    sized(cells, dimension(body), "cells")
+    result = GC.@preserve body ccall((:peri_add_grid, LIB), Int64, (Ptr{Cvoid}, Int32, Ptr{Float64}, Ptr{Float64}, Ptr{Int32}), body.handle, material, maybe(Float64, lo), maybe(Float64, hi), maybe(Int32, cells))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
 The lattice cells whose centre is within `radius` of `centre`: a ball, in 2D a disc.
 """
 function add_ball(body::Body, material, centre, radius, spacing)
@@ -1185,6 +1221,15 @@ function add_points(body::Body, positions, volumes, materials = nothing)
     sized(positions, entries(volumes)*dimension(body), "positions")
     sized(materials, entries(volumes), "materials")
     result = GC.@preserve body ccall((:peri_add_points, LIB), Int64, (Ptr{Cvoid}, Int64, Ptr{Float64}, Ptr{Float64}, Ptr{Int32}), body.handle, entries(volumes), maybe(Float64, positions), maybe(Float64, volumes), maybe(Int32, materials))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Each is a point at its centroid, with its volume; partial volumes are exact.
+"""
+function add_cells(body::Body, desc::Desc{peri_cells_desc})
+    result = GC.@preserve body desc ccall((:peri_add_cells, LIB), Int64, (Ptr{Cvoid}, Ptr{peri_cells_desc}), body.handle, Ptr{peri_cells_desc}(pointer_from_objref(getfield(desc, :raw))))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end
@@ -1654,7 +1699,7 @@ end
 """
 The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of vertices: in 2D edges with
 the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from outside. owners[], or
-NULL: its point; inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares or cubes.
+NULL: its point; inner[], or NULL: 1 where a crack made it. Points and cells of yours are squares or cubes.
 """
 function size_of_outline!(body::Body, fragment, vertices, faces)
     sized(vertices, 1, "vertices")
@@ -1674,7 +1719,7 @@ end
 """
 The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of vertices: in 2D edges with
 the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from outside. owners[], or
-NULL: its point; inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares or cubes.
+NULL: its point; inner[], or NULL: 1 where a crack made it. Points and cells of yours are squares or cubes.
 """
 function get_outline!(body::Body, fragment, vertices, faces, owners = nothing, inner = nothing)
     entries(vertices) % dimension(body) == 0 || refuse("vertices")

@@ -18,6 +18,7 @@ typedef struct peri_bond_row peri_bond_row;
 typedef struct peri_body_desc peri_body_desc;
 typedef struct peri_material_desc peri_material_desc;
 typedef struct peri_softening_desc peri_softening_desc;
+typedef struct peri_cells_desc peri_cells_desc;
 typedef struct peri_part_desc peri_part_desc;
 typedef struct peri_fragment peri_fragment;
 typedef struct peri_obstacle_desc peri_obstacle_desc;
@@ -153,6 +154,18 @@ struct peri_softening_desc {
     double compression;
     int64_t count;
     const double *table;
+};
+struct peri_cells_desc {
+    uint64_t cookie;
+    int64_t vertex_count;
+    const double *vertices;
+    int64_t vertex_stride;
+    int64_t cell_count;
+    const int32_t *corners;
+    const int64_t *offsets;
+    int32_t cell_corners;
+    int32_t reserved;
+    const int32_t *materials;
 };
 struct peri_part_desc {
     uint64_t cookie;
@@ -409,10 +422,13 @@ int32_t peri_set_bond_law(peri_body *body, int32_t i, int32_t j, int32_t states,
 int32_t peri_get_bond_constants(peri_body *body, int32_t i, int32_t j, double *c, double *s0);
 int32_t peri_get_critical_energy(peri_body *body, int32_t material, double *w0);
 int64_t peri_add_box(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing);
+int64_t peri_add_grid(peri_body *body, int32_t material, const double *lo, const double *hi, const int32_t *cells);
 int64_t peri_add_ball(peri_body *body, int32_t material, const double *centre, double radius, double spacing);
 int64_t peri_add_shape(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing, peri_point_fn inside, void *user);
 int64_t peri_add_perturbed_box(peri_body *body, int32_t material, const double *lo, const double *hi, double spacing, double amount, uint64_t seed);
 int64_t peri_add_points(peri_body *body, int64_t count, const double *positions, const double *volumes, const int32_t *materials);
+void peri_cells_desc_init(peri_cells_desc *desc);
+int64_t peri_add_cells(peri_body *body, const peri_cells_desc *desc);
 int32_t peri_set_families(peri_body *body, int32_t width, const int32_t *ibond);
 void peri_part_desc_init(peri_part_desc *desc);
 int32_t peri_set_part(peri_body *body, const peri_part_desc *desc);
@@ -556,7 +572,7 @@ local peri = {
     ERROR_LAW = -18, -- this law has no such thing, or cannot take this
     ERROR_CRITERION = -19, -- the criterion cannot act on this law, or lacks its G0
     ERROR_INFLUENCE = -20, -- the influence function or its moments are not finite
-    ERROR_POINT = -21, -- a position is not finite, or a volume not positive
+    ERROR_POINT = -21, -- a place not finite, no volume, or a cell that crosses itself
     ERROR_COINCIDENT = -22, -- two points are at the same place
     ERROR_HORIZON = -23, -- the horizon is smaller than the spacing of the points
     ERROR_FAMILY = -24, -- a point has no neighbour, or none with a weight
@@ -867,6 +883,15 @@ function peri.softening_desc(shape)
     return wrap("peri_softening_desc", raw, {})
 end
 
+-- peri_cells_desc, filled with the defaults: vertex_count, vertices, vertex_stride, cell_count, corners, offsets, cell_corners,
+-- materials. Cells: polygons, convex or not; tetrahedra, pyramids, wedges, hexahedra (4, 5, 6, 8 corners) in VTK's order, or
+-- mirrored.
+function peri.cells_desc()
+    local raw = ffi.new("peri_cells_desc[1]")
+    C.peri_cells_desc_init(raw)
+    return wrap("peri_cells_desc", raw, {})
+end
+
 -- peri_part_desc, filled with the defaults: origin, length, mean_volume, ghost_count, ghosts, owners, ids, exchange, reduce. Ghosts:
 -- copies of points that other parts own, peri_ghost_depth horizons deep. They bear no load and are in no set, sum or count. Give
 -- them all else that their owners have: cuts, motion.
@@ -1148,6 +1173,21 @@ function Body:add_box(material, lo, hi, spacing)
     return check(result, nil, self.handle)
 end
 
+-- The box in cells[dim] cells per axis.
+function Body:add_grid(material, lo, hi, cells)
+    local lo_c, lo_n = nil, 0
+    if lo ~= nil then lo_c, lo_n = array("double", lo, "lo") end
+    sized(lo_n, self:dimension(), "lo")
+    local hi_c, hi_n = nil, 0
+    if hi ~= nil then hi_c, hi_n = array("double", hi, "hi") end
+    sized(hi_n, self:dimension(), "hi")
+    local cells_c, cells_n = nil, 0
+    if cells ~= nil then cells_c, cells_n = array("int32_t", cells, "cells") end
+    sized(cells_n, self:dimension(), "cells")
+    local result = C.peri_add_grid(self.handle, material, lo_c, hi_c, cells_c)
+    return check(result, nil, self.handle)
+end
+
 -- The lattice cells whose centre is within `radius` of `centre`: a ball, in 2D a disc.
 function Body:add_ball(material, centre, radius, spacing)
     local centre_c, centre_n = nil, 0
@@ -1200,6 +1240,14 @@ function Body:add_points(positions, volumes, materials)
     if materials ~= nil then materials_c, materials_n = array("int32_t", materials, "materials") end
     if materials ~= nil then sized(materials_n, volumes_n, "materials") end
     local result = C.peri_add_points(self.handle, volumes_n, positions_c, volumes_c, materials_c)
+    return check(result, nil, self.handle)
+end
+
+-- Each is a point at its centroid, with its volume; partial volumes are exact.
+function Body:add_cells(desc)
+    local desc_c
+    desc_c = plain(desc, "peri_cells_desc")
+    local result = C.peri_add_cells(self.handle, desc_c)
     return check(result, nil, self.handle)
 end
 
@@ -1621,7 +1669,7 @@ end
 
 -- The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of vertices: in 2D edges with
 -- the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from outside. owners[], or
--- NULL: its point; inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares or cubes.
+-- NULL: its point; inner[], or NULL: 1 where a crack made it. Points and cells of yours are squares or cubes.
 function Body:size_of_outline(fragment, vertices, faces)
     local vertices_c, vertices_n = nil, 0
     vertices = vertices or ffi.new("int64_t[?]", 1)
@@ -1638,7 +1686,7 @@ end
 
 -- The closed surface of a fragment, or of all (-1), now, by cells. vertices[][dim] [L]; faces[][dim] of vertices: in 2D edges with
 -- the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from outside. owners[], or
--- NULL: its point; inner[], or NULL: 1 where a crack made it. Points of peri_add_points are squares or cubes.
+-- NULL: its point; inner[], or NULL: 1 where a crack made it. Points and cells of yours are squares or cubes.
 function Body:get_outline(fragment, vertices, faces, owners, inner)
     local vertices_c, vertices_n = nil, 0
     if vertices ~= nil then vertices_c, vertices_n = array("double", vertices, "vertices") end

@@ -29,7 +29,7 @@
     X(ERROR_LAW, -18, "this law has no such thing, or cannot take this")                                               \
     X(ERROR_CRITERION, -19, "the criterion cannot act on this law, or lacks its G0")                                   \
     X(ERROR_INFLUENCE, -20, "the influence function or its moments are not finite")                                    \
-    X(ERROR_POINT, -21, "a position is not finite, or a volume not positive")                                          \
+    X(ERROR_POINT, -21, "a place not finite, no volume, or a cell that crosses itself")                               \
     X(ERROR_COINCIDENT, -22, "two points are at the same place")                                                       \
     X(ERROR_HORIZON, -23, "the horizon is smaller than the spacing of the points")                                     \
     X(ERROR_FAMILY, -24, "a point has no neighbour, or none with a weight")                                            \

@@ -91,11 +91,14 @@ typedef struct peri__memory {
     peri__taken    **taken; /* where the blocks of calls are listed; NULL: these blocks belong to a body or a model      */
 } peri__memory;
 
+#include "cells.h" /* cells of the caller */
+
 /* Where points came from: a lattice of cells, or the caller's arrays. A point of a lattice piece is at
    origin + local*cell per axis, local being half-integers (or moved centroids); a caller's point is at local. */
 typedef struct peri__piece {
     int64_t first, count;
-    int32_t lattice;      /* 1: cells are boxes or moved boxes; 0: caller's points, cells taken as squares or cubes       */
+    int32_t lattice;      /* 1: cells are boxes or moved boxes; 0: the caller's points                                    */
+    peri__cells *shapes;  /* of the cells of the caller; NULL: where there is no lattice they are taken as squares or cubes */
     double  origin[3];    /* [L] lower corner                                                                            */
     double  cell[3];      /* [L] edges of a cell                                                                         */
     int64_t cells[3];     /* cells per axis                                                                              */

@@ -228,7 +228,11 @@ static void peri__count_setup(const peri_body *b, int64_t *held) {
     points += peri__held_bytes(s->local, s->point_capacity * b->dim, sizeof *s->local);
     points += peri__held_bytes(s->volume, s->point_capacity, sizeof *s->volume);
     points += peri__held_bytes(s->material, s->point_capacity, sizeof *s->material);
-    for (int64_t k = 0; k < s->piece_count; ++k) points += peri__held_bytes(s->pieces[k].vertices, s->pieces[k].vertex_bytes, 1);
+    for (int64_t k = 0; k < s->piece_count; ++k) {
+        const peri__cells *shapes = s->pieces[k].shapes;
+        points += peri__held_bytes(s->pieces[k].vertices, s->pieces[k].vertex_bytes, 1);
+        points += peri__held_bytes(shapes, shapes ? shapes->bytes : 0, 1);
+    }
     points += peri__held_bytes(s->part, s->part ? s->part->bytes : 0, 1);
     held[PERI__POINTS] += points;
     held[PERI__FAMILIES] += peri__held_bytes(s->ibond, s->ibond_entries, sizeof *s->ibond);

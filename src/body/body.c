@@ -314,7 +314,7 @@ static int32_t peri__fill_model(peri_body *b, peri__model *m, peri__cloud *cloud
     m->count = (int32_t *)peri__new(&m->memory, m->points, sizeof *m->count);
     m->piece_count = b->setup.piece_count;
     m->pieces = (peri__piece *)peri__copy(&m->memory, b->setup.pieces, m->piece_count, sizeof *m->pieces);
-    for (int64_t p = 0; m->pieces && p < m->piece_count; ++p) m->pieces[p].vertices = NULL;
+    for (int64_t p = 0; m->pieces && p < m->piece_count; ++p) m->pieces[p].vertices = NULL, m->pieces[p].shapes = NULL;
     if (!m->x || !m->volume || !m->material || !m->count || !m->pieces) return peri__fail(b, PERI_ERROR_MEMORY, "points", -1, 0.0);
 
     if (b->setup.part) {

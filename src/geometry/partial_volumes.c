@@ -78,29 +78,48 @@ static void peri__half_cell(const peri__cloud *c, const peri__piece *piece, int6
                                                      : 0.5 * pow(m->volume[i], 1.0 / m->dim);
 }
 
-/* Parts below this are a touch, or the rounding of one: no part. */
-#define PERI_NO_PART 1e-12
-
-static double peri__volume_of_overlap(peri__overlap o, double whole, double *centroid) {
-    if (!(o.area > PERI_NO_PART * whole)) return 0.0;
-    if (centroid) {
-        centroid[0] = o.moment[0] / o.area;
-        centroid[1] = o.moment[1] / o.area;
-    }
-    return o.area / whole;
+/* The corners of the moved cell j from point i, in VTK's order. */
+static void peri__moved_corners(const peri__cloud *c, const peri__piece *piece, int64_t i, int64_t j, double out[8][3]) {
+    static const int ring[8] = { 0, 1, 3, 2, 4, 5, 7, 6 };
+    const peri__model *m = c->model;
+    double corner[8][3];
+    peri__cell_vertices(piece, m->dim, j - piece->first, corner);
+    for (int k = 0; k < 1 << m->dim; ++k)
+        for (int d = 0; d < m->dim; ++d)
+            out[k][d] = (piece->origin[d] - m->origin[d]) / m->length
+                      + corner[ring[k]][d] * (piece->cell[d] / m->length) - c->x[i * m->dim + d];
 }
 
 /* Part of the moved quadrilateral j, 2D. */
-static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, const double *xi, int64_t j, double *centroid) {
-    static const int ring[4] = { 0, 1, 3, 2 };
-    const peri__model *m = c->model;
+static double peri__moved_part(const peri__cloud *c, const peri__piece *piece, int64_t i, int64_t j, double *centroid) {
     double corner[8][3], polygon[4][2];
-    peri__cell_vertices(piece, 2, j - piece->first, corner);
-    for (int k = 0; k < 4; ++k)
-        for (int d = 0; d < 2; ++d)
-            polygon[k][d] = (piece->origin[d] - m->origin[d]) / m->length
-                          + corner[ring[k]][d] * (piece->cell[d] / m->length) - xi[d];
-    return peri__volume_of_overlap(peri__disk_polygon(m->horizon, polygon, 4), m->volume[j], centroid);
+    peri__moved_corners(c, piece, i, j, corner);
+    for (int k = 0; k < 4; ++k) memcpy(polygon[k], corner[k], sizeof polygon[k]);
+    return peri__volume_of_overlap(peri__disk_polygon(c->model->horizon, polygon, 4), c->model->volume[j], centroid);
+}
+
+/* The square of what no corner of a moved cell is farther from its centroid: a whole cell per axis. */
+static double peri__moved_size2(const peri__cloud *c, const peri__piece *piece) {
+    double size2 = 0.0;
+    for (int d = 0; d < 3; ++d) size2 += peri__square(piece->cell[d] / c->model->length);
+    return size2;
+}
+
+/* How many corners of the moved hexahedron j at xi are within the horizon; -1: all of it is beyond. */
+static int peri__moved_within(const peri__cloud *c, const peri__piece *piece, const double *xi, int64_t i, int64_t j, double corner[8][3]) {
+    const double horizon = c->model->horizon;
+    int within = 0;
+    if (peri__dot(xi, xi, 3) > peri__square(horizon + sqrt(peri__moved_size2(c, piece)))) return -1;
+    peri__moved_corners(c, piece, i, j, corner);
+    for (int k = 0; k < 8; ++k) within += peri__dot(corner[k], corner[k], 3) < horizon * horizon * (1.0 - PERI_HORIZON_TOLERANCE);
+    return within;
+}
+
+static double peri__moved_volume(const peri__cloud *c, const peri__piece *piece, const double *xi, int64_t i, int64_t j) {
+    double corner[8][3];
+    const int within = peri__moved_within(c, piece, xi, i, j, corner), amid = peri__dot(xi, xi, 3) < peri__moved_size2(c, piece);
+    if (within < 0 || within == 8) return within < 0 ? 0.0 : 1.0;
+    return peri__ball_cell(c->model->horizon, corner, 8, amid) / c->model->volume[j];
 }
 
 /* Squares of the distances from a point to the nearest and the farthest place of a box at xi with the given half edges. */
@@ -121,8 +140,10 @@ static double peri__partial_volume(const peri__cloud *c, int64_t i, int64_t j, d
     double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2, part;
     for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
     if (centroid) memcpy(centroid, xi, (size_t)m->dim * sizeof(double));
-    if (piece->vertices && m->dim == 2) {
-        part = peri__moved_part(c, piece, &c->x[i * 2], j, centroid);
+    if (piece->shapes) {
+        part = peri__part_of_shape(m, piece, xi, j, centroid);
+    } else if (piece->vertices) {
+        part = m->dim == 2 ? peri__moved_part(c, piece, i, j, centroid) : peri__moved_volume(c, piece, xi, i, j);
     } else {
         peri__half_cell(c, piece, j, half);
         peri__box_distances(xi, half, m->dim, &near2, &far2);
@@ -181,6 +202,10 @@ static void peri__set_reach(peri__cloud *c) {
     double reach = m->horizon * (1.0 + PERI_HORIZON_TOLERANCE);
     if (c->body->desc.quadrature == PERI_QUADRATURE_RAMP) reach += 0.5 * c->largest;
     if (peri__is_exact(c->body->desc.quadrature)) reach += c->largest * sqrt((double)m->dim); /* moved cells are longer */
+    for (int64_t p = 0; p < c->body->setup.piece_count; ++p) {
+        const peri__cells *shapes = c->body->setup.pieces[p].shapes;
+        if (shapes) reach = fmax(reach, m->horizon * (1.0 + PERI_HORIZON_TOLERANCE) + shapes->radius / m->length);
+    }
     c->reach2 = reach * reach;
 }
 
@@ -188,9 +213,11 @@ static void peri__set_reach(peri__cloud *c) {
 static int peri__has_part(const peri__cloud *c, int64_t i, int64_t j) {
     const peri__model *m = c->model;
     const peri__piece *piece = peri__piece_of(c, j);
-    double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, near2, far2;
-    if (piece->vertices && m->dim == 2) return peri__partial_volume(c, i, j, NULL) > 0.0;
+    double xi[3] = { 0.0, 0.0, 0.0 }, half[3] = { 0.0, 0.0, 0.0 }, corner[8][3], near2, far2;
     for (int32_t d = 0; d < m->dim; ++d) xi[d] = c->x[j * m->dim + d] - c->x[i * m->dim + d];
+    if (piece->vertices && m->dim == 3 && peri__moved_within(c, piece, xi, i, j, corner) > 0) return 1;
+    if (piece->vertices) return peri__partial_volume(c, i, j, NULL) > PERI_NO_PART;
+    if (piece->shapes) return peri__reaches_shape(m, piece, xi, j);
     peri__half_cell(c, piece, j, half);
     peri__box_distances(xi, half, m->dim, &near2, &far2);
     return near2 < m->horizon * m->horizon * (1.0 - PERI_HORIZON_TOLERANCE);

@@ -44,8 +44,10 @@ static int32_t peri__reserve_points(peri_body *b, int64_t count) {
 
 static void peri__free_setup(peri_body *b) {
     peri__setup *s = &b->setup;
-    for (int64_t k = 0; k < s->piece_count; ++k)
+    for (int64_t k = 0; k < s->piece_count; ++k) {
         peri__delete(&b->memory, s->pieces[k].vertices, s->pieces[k].vertex_bytes, 1);
+        peri__delete(&b->memory, s->pieces[k].shapes, s->pieces[k].shapes ? s->pieces[k].shapes->bytes : 0, 1);
+    }
     peri__delete(&b->memory, s->pieces, s->piece_capacity, sizeof *s->pieces);
     peri__delete(&b->memory, s->local, s->point_capacity * b->dim, sizeof(double));
     peri__delete(&b->memory, s->volume, s->point_capacity, sizeof(double));
@@ -55,31 +57,36 @@ static void peri__free_setup(peri_body *b) {
     memset(s, 0, sizeof *s);
 }
 
-/* Checks a box and lays cells in it. */
-static int32_t peri__lattice(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing,
-                             peri__piece *piece) {
+/* Checks a box and lays cells in it: cells[dim] per axis, or where that is NULL of about `spacing`. */
+static int32_t peri__tile(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing, const int32_t *cells,
+                          peri__piece *piece) {
     PERI_NEED_UNBUILT(b);
     const int64_t at = peri__find(b, PERI_KIND_MATERIAL, material, "material");
     double sites = 1.0;
     if (at < 0) return (int32_t)at;
     PERI_NEED_VECTOR(b, lo);
     PERI_NEED_VECTOR(b, hi);
-    PERI_NEED_NUMBER(b, spacing > 0.0, spacing);
+    if (!cells) PERI_NEED_NUMBER(b, spacing > 0.0, spacing);
     memset(piece, 0, sizeof *piece);
     piece->first = b->setup.point_count;
     piece->lattice = 1;
     for (int32_t d = 0; d < b->dim; ++d) {
-        double count = floor((hi[d] - lo[d]) / spacing + 0.5);
+        double count = cells ? cells[d] : floor((hi[d] - lo[d]) / spacing + 0.5);
         if (!(hi[d] > lo[d]) || !peri__finite(hi[d] - lo[d]))
             return peri__fail(b, PERI_ERROR_RANGE, "hi", d, hi[d] - lo[d]);
+        if (cells && count < 1.0) return peri__fail(b, PERI_ERROR_RANGE, "cells", d, count);
         if (count < 1.0) count = 1.0;
         sites *= count;
-        if (sites > (double)PERI_POINT_LIMIT) return peri__fail(b, PERI_ERROR_TOO_LARGE, "spacing", -1, sites);
+        if (sites > (double)PERI_POINT_LIMIT) return peri__fail(b, PERI_ERROR_TOO_LARGE, cells ? "cells" : "spacing", -1, sites);
         piece->cells[d] = (int64_t)count;
         piece->origin[d] = lo[d];
         piece->cell[d] = (hi[d] - lo[d]) / count;
     }
     return PERI_OK;
+}
+
+static int32_t peri__lattice(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing, peri__piece *piece) {
+    return peri__tile(b, material, lo, hi, spacing, NULL, piece);
 }
 
 typedef struct peri__within { /* predicate of a ball                                                                      */
@@ -160,6 +167,14 @@ static int64_t peri__add_lattice(peri_body *b, int32_t material, peri__piece *pi
 PERI_API int64_t peri_add_box(peri_body *b, int32_t material, const double *lo, const double *hi, double spacing) {
     peri__piece piece;
     int32_t status = peri__lattice(b, material, lo, hi, spacing, &piece);
+    return status < 0 ? status : peri__add_lattice(b, material, &piece, NULL, NULL);
+}
+
+PERI_API int64_t peri_add_grid(peri_body *b, int32_t material, const double *lo, const double *hi, const int32_t *cells) {
+    peri__piece piece;
+    PERI_NEED_UNBUILT(b);
+    PERI_NEED(b, cells, "cells");
+    const int32_t status = peri__tile(b, material, lo, hi, 0.0, cells, &piece);
     return status < 0 ? status : peri__add_lattice(b, material, &piece, NULL, NULL);
 }
 

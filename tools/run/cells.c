@@ -200,7 +200,8 @@ static int add_cells(run_mesh *mesh, run_cloud *cloud) {
         }
         if (cell->dim != mesh->dim) continue;
         if (measure((const double(*)[3])x, cell, place, &volume) < 0) return at_line(mesh, cell->line, "element", "has no volume");
-        if (run_add_point(cloud, place, volume) < 0) return at_line(mesh, cell->line, "element", "no memory");
+        if (run_add_cell(cloud, cell->corners, (const double(*)[3])x, place, volume) < 0)
+            return at_line(mesh, cell->line, "element", "no memory");
     }
     return cloud->count > 0 ? 0 : run_mesh_fail(mesh, "elements", mesh->dim == 2 ? "no triangle or quadrilateral in the file"
                                                                                   : "no solid element in the file");

@@ -17,6 +17,17 @@ int run_add_point(run_cloud *cloud, const double *place, double volume) {
     return 0;
 }
 
+int run_add_cell(run_cloud *cloud, int corners, const double (*x)[3], const double *place, double volume) {
+    int k;
+    if (run_grow((void **)&cloud->last, cloud->count, &cloud->cell_capacity, sizeof *cloud->last) < 0) return -1;
+    for (k = 0; k < corners; ++k) {
+        if (run_grow((void **)&cloud->corner, cloud->corners, &cloud->corner_capacity, sizeof *x) < 0) return -1;
+        memcpy(cloud->corner + 3 * cloud->corners++, x[k], sizeof *x);
+    }
+    cloud->last[cloud->count] = cloud->corners;
+    return run_add_point(cloud, place, volume);
+}
+
 run_set *run_find_set(run_cloud *cloud, const char *name) {
     int64_t k;
     for (k = 0; k < cloud->sets; ++k)
@@ -64,6 +75,8 @@ void run_free_cloud(run_cloud *cloud) {
     free(cloud->set);
     free(cloud->place);
     free(cloud->volume);
+    free(cloud->corner);
+    free(cloud->last);
     memset(cloud, 0, sizeof *cloud);
 }
 

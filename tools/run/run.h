@@ -65,6 +65,9 @@ typedef struct run_cloud {
     int64_t  count, capacity;
     double  *place;  /* [count*3] */
     double  *volume; /* [count]; of planes areas. NaN: the file gives none */
+    int64_t  corners, corner_capacity, cell_capacity;
+    double  *corner;   /* [corners*3] of the cells of a mesh; NULL: of points */
+    int64_t *last;     /* [count] corners up to the end of a cell */
     int64_t  sets, set_capacity;
     run_set *set;
 } run_cloud;
@@ -76,6 +79,7 @@ void run_free_cloud(run_cloud *cloud);
 run_set *run_find_set(run_cloud *cloud, const char *name);
 run_set *run_make_set(run_cloud *cloud, const char *name); /* found or new; NULL: no memory, or a name that is too long */
 int  run_add_point(run_cloud *cloud, const double *place, double volume);
+int  run_add_cell(run_cloud *cloud, int corners, const double (*x)[3], const double *place, double volume); /* and its point */
 int  run_add_member(run_set *set, int64_t point);
 int  run_sort_sets(run_cloud *cloud); /* ascending, each point once */
 

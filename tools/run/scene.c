@@ -38,7 +38,8 @@ static int make_body(run_scene *scene, run_section *section) {
         {"partial", PERI_QUADRATURE_PARTIAL}, {"partial_centroid", PERI_QUADRATURE_PARTIAL_CENTROID},
         {"partial_moment", PERI_QUADRATURE_PARTIAL_MOMENT}, {NULL, 0}};
     static const run_choice corrections[] = {{"none", PERI_CORRECTION_NONE}, {"volume", PERI_CORRECTION_VOLUME},
-        {"energy", PERI_CORRECTION_ENERGY}, {"moment", PERI_CORRECTION_MOMENT}, {NULL, 0}};
+        {"energy", PERI_CORRECTION_ENERGY}, {"moment", PERI_CORRECTION_MOMENT},
+        {"equilibrium", PERI_CORRECTION_EQUILIBRIUM}, {NULL, 0}};
     static const run_choice timings[] = {{"within_step", PERI_BREAK_WITHIN_STEP}, {"after_drift", PERI_BREAK_AFTER_DRIFT}, {NULL, 0}};
     static const run_key keys[] = {{"space", RUN_CHOICE, offsetof(peri_body_desc, space), spaces},
         {"precision", RUN_CHOICE, offsetof(peri_body_desc, precision), precisions},
@@ -208,6 +209,7 @@ static int scale_cloud(run_scene *scene, run_section *section, run_cloud *cloud)
     if (run_find(section, "scale") != NULL && run_vector(&scene->deck, section, "scale", 1, &scale) < 0) return -1;
     if (scale <= 0) return run_fail_at(&scene->deck, section, run_find(section, "scale"), "scale", "is not above 0");
     if (given && run_vector(&scene->deck, section, "volume", 1, &volume) < 0) return -1;
+    for (k = 0; k < 3 * cloud->corners; ++k) cloud->corner[k] *= scale;
     for (k = 0; k < cloud->count; ++k) {
         double *x = cloud->place + 3 * k;
         const int missing = cloud->volume[k] != cloud->volume[k];
@@ -220,6 +222,29 @@ static int scale_cloud(run_scene *scene, run_section *section, run_cloud *cloud)
     return 0;
 }
 
+/* The cells of a mesh, whose points and volumes the library finds, too. */
+static int64_t add_cells(run_scene *scene, const run_cloud *cloud, const int32_t *materials) {
+    peri_cells_desc d;
+    int32_t *corner = (int32_t *)malloc((size_t)cloud->corners * sizeof *corner);
+    int64_t *offset = (int64_t *)malloc(((size_t)cloud->count + 1) * sizeof *offset), k, result = PERI_ERROR_MEMORY;
+    peri_cells_desc_init(&d);
+    if (corner != NULL && offset != NULL) {
+        for (k = 0; k < cloud->corners; ++k) corner[k] = (int32_t)k;
+        for (k = 0; k <= cloud->count; ++k) offset[k] = k == 0 ? 0 : cloud->last[k - 1];
+        d.vertex_count = cloud->corners;
+        d.vertices = cloud->corner;
+        d.vertex_stride = 3;
+        d.cell_count = cloud->count;
+        d.corners = corner;
+        d.offsets = offset;
+        d.materials = materials;
+        result = peri_add_cells(scene->body, &d);
+    }
+    free(corner);
+    free(offset);
+    return result;
+}
+
 static int add_cloud(run_scene *scene, run_section *section, run_cloud *cloud) {
     int32_t material = 0, *materials = (int32_t *)malloc(((size_t)cloud->count + 1) * sizeof *materials);
     int64_t k;
@@ -228,7 +253,8 @@ static int add_cloud(run_scene *scene, run_section *section, run_cloud *cloud) {
     if (result == 0) result = scale_cloud(scene, section, cloud);
     if (result == 0) result = materials_of_sets(scene, section, cloud, materials);
     if (result == 0) result = run_all_used(&scene->deck, section);
-    if (result == 0 && run_must(scene, section, peri_add_points(scene->body, cloud->count, cloud->place, cloud->volume, materials)) < 0)
+    if (result == 0 && run_must(scene, section, cloud->corner != NULL ? add_cells(scene, cloud, materials)
+                                : peri_add_points(scene->body, cloud->count, cloud->place, cloud->volume, materials)) < 0)
         result = -1;
     free(materials);
     return result;

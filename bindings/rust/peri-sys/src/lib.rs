@@ -54,7 +54,7 @@ pub const PERI_ERROR_LAW: i32 = -18;
 pub const PERI_ERROR_CRITERION: i32 = -19;
 /// the influence function or its moments are not finite
 pub const PERI_ERROR_INFLUENCE: i32 = -20;
-/// a position is not finite, or a volume not positive
+/// a place not finite, no volume, or a cell that crosses itself
 pub const PERI_ERROR_POINT: i32 = -21;
 /// two points are at the same place
 pub const PERI_ERROR_COINCIDENT: i32 = -22;
@@ -677,6 +677,29 @@ pub struct peri_softening_desc {
     pub table: *const f64,
 }
 
+/// Cells: polygons, convex or not; tetrahedra, pyramids, wedges, hexahedra (4, 5, 6, 8 corners) in VTK's order, or mirrored.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct peri_cells_desc {
+    /// set by init
+    pub cookie: u64,
+    pub vertex_count: i64,
+    /// \[vertex\_count\*vertex\_stride\] \[L\]
+    pub vertices: *const f64,
+    /// Default 0: dim
+    pub vertex_stride: i64,
+    pub cell_count: i64,
+    /// of cell 0, 1, ...
+    pub corners: *const i32,
+    /// \[cell\_count+1\] in corners\[\]. Default NULL: cell\_corners each
+    pub offsets: *const i64,
+    pub cell_corners: i32,
+    /// 0
+    pub reserved: i32,
+    /// \[cell\_count\]. Default NULL
+    pub materials: *const i32,
+}
+
 /// Ghosts: copies of points that other parts own, peri\_ghost\_depth horizons deep. They bear no load and are in no set, sum or
 /// count. Give them all else that their owners have: cuts, motion.
 #[repr(C)]
@@ -1217,6 +1240,8 @@ unsafe extern "C" {
     pub fn peri_get_critical_energy(body: *mut peri_body, material: i32, w0: *mut f64) -> i32;
     /// The box lo\[dim\]..hi\[dim\] in cells of about \`spacing\` \[L\], which tile it.
     pub fn peri_add_box(body: *mut peri_body, material: i32, lo: *const f64, hi: *const f64, spacing: f64) -> i64;
+    /// The box in cells\[dim\] cells per axis.
+    pub fn peri_add_grid(body: *mut peri_body, material: i32, lo: *const f64, hi: *const f64, cells: *const i32) -> i64;
     /// The lattice cells whose centre is within \`radius\` of \`centre\`: a ball, in 2D a disc.
     pub fn peri_add_ball(body: *mut peri_body, material: i32, centre: *const f64, radius: f64, spacing: f64) -> i64;
     /// The lattice cells of the box whose centre \`inside\` takes.
@@ -1226,6 +1251,9 @@ unsafe extern "C" {
     /// Points of yours: positions\[count\*dim\] \[L\], volumes\[count\] \[L^3\] (planes: areas \[L^2\]), materials\[count\] (ids), or
     /// NULL where the body has one material.
     pub fn peri_add_points(body: *mut peri_body, count: i64, positions: *const f64, volumes: *const f64, materials: *const i32) -> i64;
+    pub fn peri_cells_desc_init(desc: *mut peri_cells_desc);
+    /// Each is a point at its centroid, with its volume; partial volumes are exact.
+    pub fn peri_add_cells(body: *mut peri_body, desc: *const peri_cells_desc) -> i64;
     /// Families of yours instead of a search: ibond\[points\*width\] as in \[T\] 3.11, row i padded with i. Membership must be
     /// mutual. Weights are computed as for found families, of whose horizon they must be.
     pub fn peri_set_families(body: *mut peri_body, width: i32, ibond: *const i32) -> i32;
@@ -1334,13 +1362,13 @@ unsafe extern "C" {
     pub fn peri_get_fragments(body: *mut peri_body, out: *mut peri_fragment, capacity: i64) -> i32;
     /// The closed surface of a fragment, or of all (-1), now, by cells. vertices\[\]\[dim\] \[L\]; faces\[\]\[dim\] of vertices: in
     /// 2D edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from
-    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points of peri\_add\_points are squares
-    /// or cubes.
+    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points and cells of yours are squares or
+    /// cubes.
     pub fn peri_size_of_outline(body: *mut peri_body, fragment: i32, vertices: *mut i64, faces: *mut i64) -> i32;
     /// The closed surface of a fragment, or of all (-1), now, by cells. vertices\[\]\[dim\] \[L\]; faces\[\]\[dim\] of vertices: in
     /// 2D edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from
-    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points of peri\_add\_points are squares
-    /// or cubes.
+    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points and cells of yours are squares or
+    /// cubes.
     pub fn peri_get_outline(body: *mut peri_body, fragment: i32, vertices: *mut f64, vertex_capacity: i64, faces: *mut i32, owners: *mut i32, inner: *mut i32, face_capacity: i64) -> i32;
     /// Add value\[dim\] to the displacement \[L\] or velocity \[L T^-1\] of a set, now; peri\_reset clears both. Sums are below 1e15
     /// spacings, 1e9 speeds of sound.

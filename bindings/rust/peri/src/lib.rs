@@ -234,7 +234,7 @@ pub const ERROR_LAW: i32 = sys::PERI_ERROR_LAW;
 pub const ERROR_CRITERION: i32 = sys::PERI_ERROR_CRITERION;
 /// the influence function or its moments are not finite
 pub const ERROR_INFLUENCE: i32 = sys::PERI_ERROR_INFLUENCE;
-/// a position is not finite, or a volume not positive
+/// a place not finite, no volume, or a cell that crosses itself
 pub const ERROR_POINT: i32 = sys::PERI_ERROR_POINT;
 /// two points are at the same place
 pub const ERROR_COINCIDENT: i32 = sys::PERI_ERROR_COINCIDENT;
@@ -883,6 +883,62 @@ impl<'a> SofteningDesc<'a> {
         raw.table = self.table.as_ptr();
         raw.count = self.table.len() as i64 / 2;
         raw
+    }
+}
+
+/// Cells: polygons, convex or not; tetrahedra, pyramids, wedges, hexahedra (4, 5, 6, 8 corners) in VTK's order, or mirrored.
+pub struct CellsDesc<'a> {
+    /// \[vertex\_count\*vertex\_stride\] \[L\]
+    pub vertices: &'a [f64],
+    /// Default 0: dim
+    pub vertex_stride: i64,
+    /// of cell 0, 1, ...
+    pub corners: &'a [i32],
+    /// \[cell\_count+1\] in corners\[\]. Default NULL: cell\_corners each
+    pub offsets: &'a [i64],
+    pub cell_corners: i32,
+    /// \[cell\_count\]. Default NULL
+    pub materials: &'a [i32],
+}
+
+impl<'a> CellsDesc<'a> {
+    /// The defaults.
+    pub fn new() -> Self {
+        let raw = Self::start();
+        Self {
+            vertices: &[],
+            vertex_stride: raw.vertex_stride,
+            corners: &[],
+            offsets: &[],
+            cell_corners: raw.cell_corners,
+            materials: &[],
+        }
+    }
+    fn start() -> sys::peri_cells_desc {
+        let mut raw = std::mem::MaybeUninit::<sys::peri_cells_desc>::zeroed();
+        unsafe {
+            sys::peri_cells_desc_init(raw.as_mut_ptr());
+            raw.assume_init()
+        }
+    }
+    #[allow(unused_mut)]
+    fn raw(&self, _dim: i64) -> sys::peri_cells_desc {
+        let mut raw = Self::start();
+        raw.vertices = self.vertices.as_ptr();
+        raw.vertex_count = self.vertices.len() as i64 / vertex_stride;
+        raw.vertex_stride = self.vertex_stride;
+        raw.corners = self.corners.as_ptr();
+        raw.offsets = self.offsets.as_ptr();
+        raw.cell_corners = self.cell_corners;
+        raw.materials = self.materials.as_ptr();
+        raw.cell_count = self.materials.len() as i64 / 1;
+        raw
+    }
+}
+
+impl<'a> Default for CellsDesc<'a> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
@@ -1824,6 +1880,15 @@ impl Body {
         self.check(result)?;
         Ok(result)
     }
+    /// The box in cells\[dim\] cells per axis.
+    pub fn add_grid(&self, material: i32, lo: &[f64], hi: &[f64], cells: &[i32]) -> Result<i64> {
+        sized(lo.len(), i64::from(self.dimension()), "lo")?;
+        sized(hi.len(), i64::from(self.dimension()), "hi")?;
+        sized(cells.len(), i64::from(self.dimension()), "cells")?;
+        let result = unsafe { sys::peri_add_grid(self.handle, material, lo.as_ptr(), hi.as_ptr(), cells.as_ptr()) };
+        self.check(result)?;
+        Ok(result)
+    }
     /// The lattice cells whose centre is within \`radius\` of \`centre\`: a ball, in 2D a disc.
     pub fn add_ball(&self, material: i32, centre: &[f64], radius: f64, spacing: f64) -> Result<i64> {
         sized(centre.len(), i64::from(self.dimension()), "centre")?;
@@ -1858,6 +1923,17 @@ impl Body {
                     sized(a.len(), (volumes.len() as i64), "materials")?;
                 }
         let result = unsafe { sys::peri_add_points(self.handle, (volumes.len() as i64), positions.as_ptr(), volumes.as_ptr(), materials.map_or(std::ptr::null(), |a| a.as_ptr())) };
+        self.check(result)?;
+        Ok(result)
+    }
+    /// Each is a point at its centroid, with its volume; partial volumes are exact.
+    pub fn add_cells(&self, desc: &CellsDesc) -> Result<i64> {
+        let dim = i64::from(self.dimension());
+        if desc.vertices.len() as i64 % (vertex_stride) != 0 {
+                    return Err(refused("vertices"));
+                }
+        let desc_raw = desc.raw(dim);
+        let result = unsafe { sys::peri_add_cells(self.handle, &desc_raw) };
         self.check(result)?;
         Ok(result)
     }
@@ -2206,8 +2282,8 @@ impl Body {
     }
     /// The closed surface of a fragment, or of all (-1), now, by cells. vertices\[\]\[dim\] \[L\]; faces\[\]\[dim\] of vertices: in
     /// 2D edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from
-    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points of peri\_add\_points are squares
-    /// or cubes.
+    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points and cells of yours are squares or
+    /// cubes.
     pub fn size_of_outline(&self, fragment: i32) -> Result<(i64, i64)> {
         let mut vertices = 0;
         let mut faces = 0;
@@ -2217,8 +2293,8 @@ impl Body {
     }
     /// The closed surface of a fragment, or of all (-1), now, by cells. vertices\[\]\[dim\] \[L\]; faces\[\]\[dim\] of vertices: in
     /// 2D edges with the fragment on the left, loop by loop, edge k from vertex k on; in 3D triangles, counter-clockwise from
-    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points of peri\_add\_points are squares
-    /// or cubes.
+    /// outside. owners\[\], or NULL: its point; inner\[\], or NULL: 1 where a crack made it. Points and cells of yours are squares or
+    /// cubes.
     pub fn get_outline(&self, fragment: i32, vertices: &mut [f64], faces: &mut [i32], owners: Option<&mut [i32]>, inner: Option<&mut [i32]>) -> Result<i32> {
         if vertices.len() as i64 % (i64::from(self.dimension())) != 0 {
                     return Err(refused("vertices"));
