@@ -1144,7 +1144,8 @@ typedef enum peri_field {
     PERI_FIELD_HELD = 2020,             /* [dim] 1: a support prescribes it; else 0 */
     PERI_FIELD_EIGENSTRAIN = 2021,      /* W stretch at no force [-] -0.9..10. Default 0 */
     PERI_FIELD_STRENGTH = 2022,         /* W times s0, squared times w0 [-] 1e-6..1e6. Default 1 */
-    PERI_FIELD_STIFFNESS = 2023         /* W times E [-] 1e-6..1e6. Default 1 */
+    PERI_FIELD_STIFFNESS = 2023,        /* W times E [-] 1e-6..1e6. Default 1 */
+    PERI_FIELD_DEFORMATION_GRADIENT = 2024 /* [dim*dim] F by rows */
 } peri_field;
 
 typedef enum peri_type {
@@ -1170,7 +1171,7 @@ typedef struct peri_view {
     int64_t count;            /* points */
     int64_t point_stride;     /* in elements */
     int64_t component_stride; /* in elements */
-    int32_t components;       /* 1, dim, or 3 or 6 of a tensor */
+    int32_t components;       /* 1, dim, 3 or 6 of a tensor, or dim*dim */
     int32_t type;             /* peri_type */
     double scale;
     double offset[3];
@@ -1179,6 +1180,32 @@ typedef struct peri_view {
 /* Without a copy. Of a stored field it shows the present state; of a derived one that of the call,
    until it is viewed again. */
 PERI_API int32_t peri_view_field(peri_body *body, int32_t field, peri_view *view);
+
+/* Of points[count] alone: count*components. */
+PERI_API int32_t peri_get_field_at(peri_body *body, int32_t field, int64_t count,
+    const int32_t *points, double *out, int64_t capacity);
+
+/* At places[count*dim] [L], in_place = 1: present ones: linear fields exactly, not across cracks.
+   Outside: NaN. */
+PERI_API int32_t peri_interpolate_field(peri_body *body, int32_t field, int32_t in_place,
+    int64_t count, const double *places, double *out, int64_t capacity);
+
+typedef enum peri_bond { /* of i's family */
+    PERI_BOND_POINT = 4001,   /* i */
+    PERI_BOND_OTHER = 4002,   /* j */
+    PERI_BOND_LENGTH = 4003,  /* |xi| [L] */
+    PERI_BOND_VOLUME = 4004,  /* beta V_j [L^3] */
+    PERI_BOND_WEIGHT = 4005,  /* w beta V_j, corrected */
+    PERI_BOND_INTACT = 4006,  /* 1 or 0 */
+    PERI_BOND_STRETCH = 4007, /* [-] */
+    PERI_BOND_FORCE = 4008,   /* [dim] part of the force density of i */
+    PERI_BOND_ENERGY = 4009   /* and of the energy density */
+} peri_bond;
+
+/* Bonds of the points of a set, as in peri_get_families. */
+PERI_API int64_t peri_size_of_bonds(const peri_body *body, int32_t set, int32_t bond);
+PERI_API int32_t peri_get_bonds(peri_body *body, int32_t set, int32_t bond, double *out,
+    int64_t capacity);
 
 /* The ledger [M L^2 T^-2], from build or reset on: initial + external + obstacle = kinetic +
    elastic + contact + damping + fracture + error. */
@@ -1244,12 +1271,19 @@ PERI_API int32_t peri_export_cracks_to(const peri_cracks *cracks, peri_write_fn 
 /* VTK XML for ParaView; "Warp By Vector" shows the deformed body. */
 PERI_API int32_t peri_export_vtu_to(peri_body *body, peri_write_fn write, void *user);
 
+/* fields[count], each once, or NULL: as above. */
+PERI_API int32_t peri_export_fields_to(peri_body *body, const int32_t *fields, int64_t count,
+    peri_write_fn write, void *user);
+
 /* One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first. */
 PERI_API int32_t peri_export_history_to(peri_body *body, int32_t header, peri_write_fn write,
     void *user);
 
 #ifndef PERI_NO_STDIO
 PERI_API int32_t peri_export_vtu(peri_body *body, const char *path);
+/* Frame 0, 1, ... of a series: its VTU beside `path`, a .pvd. */
+PERI_API int32_t peri_export_frame(peri_body *body, const char *path, int64_t frame,
+    const int32_t *fields, int64_t count);
 /* append = 0 starts the file with a header, 1 adds a line. */
 PERI_API int32_t peri_export_history(peri_body *body, const char *path, int32_t append);
 #endif

@@ -187,6 +187,8 @@ PERI_SMALL_END
 #ifndef PERI_NO_OUTPUT
 PERI_SMALL
 #include "src/output/output.c"     /* VTU, CSV                                                                     */
+#include "src/output/bonds.c"      /* bonds, row after row                                                          */
+#include "src/output/probes.c"     /* fields at some points, and at any places                                       */
 #include "src/output/paths.c"      /* broken bonds                  -> cracks and tips in 2D                       */
 #include "src/output/cracks.c"     /* and in 3D; VTP                                                               */
 #include "src/output/outline.c"    /* fragments                     -> closed polygons and triangle meshes           */

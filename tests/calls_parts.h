@@ -141,6 +141,8 @@ static void refuse_parts(peri_body *b) {
     ASK(peri_save_state_to(b, take_bytes, NULL)), ASK(peri_load_state_from(b, no_bytes, NULL)), ASK(peri_get_fragments(b, NULL, 0));
     ASK(peri_save_state(b, "build/x")), ASK(peri_load_state(b, "build/x"));
     ASK(peri_get_field(b, PERI_FIELD_FRAGMENT, numbers, 120)), ASK(peri_view_field(b, PERI_FIELD_FRAGMENT, &view));
+    ASK(peri_get_field_at(b, PERI_FIELD_FRAGMENT, 1, two, numbers, 1));
+    ASK(peri_interpolate_field(b, PERI_FIELD_FRAGMENT, 0, 1, one3, numbers, 1));
     peri_obstacle_desc_init(&ball, PERI_SHAPE_BALL), ball.radius = ball.mass = 1, ASK(peri_add_obstacle(b, &ball));
     peri_advance_desc_init(&run), run.steps = 1, ASK(peri_advance_implicit(b, &run, NULL, 0.8, NULL));
     ASK(peri_set_mean_gradient(b, NULL)), ASK(peri_set_mean_gradient(b, gradient));

@@ -131,6 +131,7 @@ else
 fi
 python=$(for p in python3 /usr/bin/python3; do $p -c 'import numpy' 2> /dev/null && echo $p && break; done)
 if [ -n "$python" ]; then
+    queue_program test_series_py "$python tests/test_series.py build/tests/test_series"
     queue_program test_python "CC='$CC' OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $python tests/test_python.py build/python build/tests/binding_scenes"
     if $python -c 'import matplotlib' 2> /dev/null; then
         queue lesson_1 "mkdir -p out/lessons && PYTHONPATH=build/python MPLBACKEND=Agg $python docs/lessons/1_bar.py" # make validate: all

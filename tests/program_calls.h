@@ -452,7 +452,13 @@ static int64_t look_at_fields(program *p, int s) {
     double linear[3], angular[3];
     peri_energy e;
     const int64_t room = p->mood == MOOD_CHOICES && draw(p) % 2 ? below(p, 100) : ROOM;
-    switch (below(p, 4)) {
+    const int32_t bond = p->mood == MOOD_CHOICES ? choice(p, PERI_BOND_POINT, 9) : PERI_BOND_POINT + below(p, 9);
+    const int32_t points[3] = {0, below(p, 20) - (p->mood == MOOD_CHOICES), 1};
+    const double places[6] = {0.1 * below(p, 12), 0.1 * below(p, 12), 0.1 * below(p, 4), 0.2, 0.1, 0.2};
+    switch (below(p, 7)) {
+    case 4: return CALL(p, s, peri_get_field_at(o->body, field, 3, GIVEN(0, points), GIVEN(1, p->other), room));
+    case 5: return CALL(p, s, peri_interpolate_field(o->body, field, choice(p, 0, 2), 2, GIVEN(0, places), GIVEN(1, p->other), room));
+    case 6: return CALL(p, s, peri_get_bonds(o->body, PERI_ALL, bond, GIVEN(0, p->other), room));
     case 0: return CALL(p, s, peri_get_field(o->body, field, GIVEN(0, p->other), room));
     case 1: return CALL(p, s, peri_view_field(o->body, field, GIVEN(0, &view)));
     case 2: return CALL(p, s, peri_get_energy(o->body, GIVEN(0, &e)));
@@ -470,6 +476,10 @@ static int64_t write_out(program *p, int s) {
     case 2: case 3: return CALL(p, s, peri_export_history_to(o->body, choice(p, 0, 2), GIVEN(0, on_write), h));
     case 4: return CALL(p, s, peri_export_vtu(o->body, GIVEN(0, path)));
     case 5: return CALL(p, s, peri_export_history(o->body, GIVEN(0, path), 1));
+    case 6: {
+        const int32_t fields[2] = {choice(p, PERI_FIELD_POSITION, 24), PERI_FIELD_STRAIN};
+        return CALL(p, s, peri_export_fields_to(o->body, GIVEN(0, fields), 2, GIVEN(1, on_write), h));
+    }
     default: return 0;
     }
 }

@@ -129,7 +129,17 @@ static void try_output(peri_body *b, int p, int dim) {
     static double vertices[20000];
     static int32_t triangles[40000];
     int64_t count[2];
+    static double bonds[60000], place[3] = {0.5, 0.5, 0.5};
+    const int32_t points[2] = {1, 0}, energy = PERI_FIELD_ENERGY_DENSITY;
     if (!no_output) {
+        const int64_t need = MUST(b, peri_size_of_bonds(b, PERI_ALL, PERI_BOND_FORCE));
+        CHECK(need <= 60000);
+        MUST(b, peri_get_bonds(b, PERI_ALL, PERI_BOND_FORCE, bonds, need));
+        (void)mix(&hash, bonds, need * (int64_t)sizeof *bonds);
+        MUST(b, peri_get_field_at(b, energy, 2, points, bonds, 2));
+        MUST(b, peri_interpolate_field(b, energy, 0, 1, place, bonds + 2, 1));
+        (void)mix(&hash, bonds, 3 * (int64_t)sizeof *bonds);
+        MUST(b, peri_export_fields_to(b, &energy, 1, mix, &hash));
         MUST(b, vtu);
         MUST(b, history);
         MUST(b, found);
@@ -144,6 +154,11 @@ static void try_output(peri_body *b, int p, int dim) {
     }
     CHECK(hash == 0);
     left_out(b, vtu, no_output);
+    left_out(b, peri_size_of_bonds(b, PERI_ALL, PERI_BOND_FORCE), no_output);
+    left_out(b, peri_get_bonds(b, PERI_ALL, PERI_BOND_FORCE, bonds, 60000), no_output);
+    left_out(b, peri_get_field_at(b, energy, 2, points, bonds, 2), no_output);
+    left_out(b, peri_interpolate_field(b, energy, 0, 1, place, bonds, 1), no_output);
+    left_out(b, peri_export_fields_to(b, &energy, 1, mix, &hash), no_output);
     left_out(b, history, no_output);
     left_out(b, found, no_output);
     CHECK(cracks == NULL && peri_cracks_size(cracks) == 0 && peri_cracks_tips(cracks) == PERI_ERROR_ARGUMENT);
@@ -154,6 +169,7 @@ static void try_output(peri_body *b, int p, int dim) {
     left_out(b, peri_get_outline(b, -1, vertices, 0, triangles, NULL, NULL, 0), no_output);
 #ifndef PERI_NO_STDIO
     left_out(b, peri_export_vtu(b, "build/checks/left_out.vtu"), no_output);
+    left_out(b, peri_export_frame(b, "build/checks/left_out.pvd", 0, NULL, 0), no_output);
     left_out(b, peri_export_history(b, "build/checks/left_out.csv", 0), no_output);
 #endif
 }

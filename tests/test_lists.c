@@ -16,13 +16,13 @@ typedef struct group {
 } group;
 
 #define GROUP(name) {#name, peri__first_##name, peri__end_##name, peri__count_##name}
-#define GROUPS      30
+#define GROUPS      31
 static const group groups[GROUPS] = {
     GROUP(status),      GROUP(space),      GROUP(precision), GROUP(geometry),     GROUP(influence), GROUP(quadrature), GROUP(break_timing),
     GROUP(correction),  GROUP(kernel),     GROUP(law),       GROUP(instructions), GROUP(criterion), GROUP(integrator), GROUP(method),
     GROUP(preconditioner), GROUP(loose),   GROUP(type),      GROUP(source),       GROUP(quantity),  GROUP(preset),     GROUP(field),
     GROUP(standing),    GROUP(kind),       GROUP(moments),   GROUP(shape),
-    GROUP(control),     GROUP(ended),     GROUP(softening), GROUP(unloading), GROUP(reduction)};
+    GROUP(control),     GROUP(ended),     GROUP(softening), GROUP(unloading), GROUP(reduction), GROUP(bond)};
 
 static int group_of(const char *name) {
     for (int k = 0; k < GROUPS; ++k)

@@ -147,7 +147,7 @@ static uint64_t mix(uint64_t hash, const void *from, size_t count) {
 static uint64_t digest_of(peri_body *body, uint64_t hash) {
     const int64_t counts[5] = {peri_point_count(body), peri_entry_count(body), peri_cut_count(body), peri_broken_count(body),
                                peri_step_count(body)};
-    static double x[500];
+    static double x[1000];
     peri_memory m;
     int32_t kind, field;
     CHECK(peri_get_memory(body, &m) == PERI_OK);
@@ -160,7 +160,7 @@ static uint64_t digest_of(peri_body *body, uint64_t hash) {
     if (peri_family_width(body) == 0) return hash;
     for (field = PERI_FIELD_POSITION; field < peri__end_field; ++field) {
         const int64_t n = peri_size_of_field(body, field);
-        MUST(body, peri_get_field(body, field, x, 500));
+        MUST(body, peri_get_field(body, field, x, 1000));
         hash = mix(hash, x, (size_t)n * sizeof *x);
     }
     return hash;

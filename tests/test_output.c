@@ -367,6 +367,65 @@ static void vtu_holds_what_read_gives(void) {
     vtu(PERI_SPACE_SOLID, PERI_PRECISION_DOUBLE);
 }
 
+/* Fields of the caller's choice, in its order, and no others; NULL are the usual ones. The deformation gradient is by rows, and 1 in z in
+   2D. */
+static void chosen_fields(void) {
+    static const int32_t fields[5] = {PERI_FIELD_DEFORMATION_GRADIENT, PERI_FIELD_REACTION, PERI_FIELD_FRAGMENT, PERI_FIELD_STRAIN,
+                                      PERI_FIELD_FORCE_DENSITY};
+    static const int32_t some[3] = {0, 1, 2};
+    const double more[3] = {1e-4, 2e-4, 0};
+    static const int32_t twice[3] = {PERI_FIELD_DAMAGE, PERI_FIELD_VOLUME, PERI_FIELD_DAMAGE}, odd[2] = {PERI_FIELD_DAMAGE, 7};
+    for (int space = PERI_SPACE_PLANE_STRAIN; space <= PERI_SPACE_SOLID; ++space) {
+        peri_body *b = subject(space, PERI_PRECISION_DOUBLE);
+        buffer f = {NULL, 0, 0, 0, 0}, usual = {NULL, 0, 0, 0, 0}, bare = {NULL, 0, 0, 0, 0};
+        const int64_t n = peri_point_count(b);
+        const int dim = peri_dimension(b);
+        int64_t points = 0, cells = 0;
+        peri_error e;
+        array a[24];
+        memset(a, 0, sizeof a);
+        MUST(b, peri_add_displacement(b, (int32_t)MUST(b, peri_select_points(b, NULL, 3, some)), more)); /* forces are old then */
+        MUST(b, peri_export_fields_to(b, fields, 5, collect, &f));
+        CHECK(parse_vtu(&f, a, 24, &points, &cells) == 9 && points == n && cells == n);
+        CHECK(strcmp(a[1].name, "deformation_gradient") == 0 && strcmp(a[2].name, "reaction") == 0);
+        CHECK(strcmp(a[3].name, "fragment") == 0 && strcmp(a[4].name, "strain") == 0 && !strstr(f.bytes, "Scalars"));
+        double *x = get(b, PERI_FIELD_DEFORMATION_GRADIENT);
+        CHECK(a[1].components == 9 && a[1].count == 9 * n);
+        for (int64_t k = 0; k < 9 * n; ++k) {
+            const int64_t row = k % 9 / 3, column = k % 3;
+            const double want = row < dim && column < dim ? x[k / 9 * dim * dim + row * dim + column] : row == column;
+            CHECK_NEAR(number(&a[1], k), want, 0, 0);
+        }
+        free(x);
+        x = get(b, PERI_FIELD_REACTION);
+        compare(&a[2], x, n, dim, "reaction");
+        free(x);
+        x = get(b, PERI_FIELD_FRAGMENT);
+        compare(&a[3], x, n, 1, "fragment");
+        free(x);
+        x = get(b, PERI_FIELD_FORCE_DENSITY);
+        compare(&a[5], x, n, dim, "force_density");
+        free(x);
+        MUST(b, peri_export_vtu_to(b, collect, &usual));
+        free(f.bytes);
+        memset(&f, 0, sizeof f);
+        MUST(b, peri_export_fields_to(b, NULL, 0, collect, &f));
+        CHECK(f.size == usual.size && memcmp(f.bytes, usual.bytes, (size_t)f.size) == 0);
+        MUST(b, peri_export_fields_to(b, fields, 0, collect, &bare)); /* places alone */
+        CHECK(parse_vtu(&bare, a, 24, &points, &cells) == 4);
+        CHECK(peri_export_fields_to(b, twice, 3, collect, &bare) == PERI_ERROR_ARGUMENT);
+        CHECK(peri_get_error(b, &e) == PERI_OK && strcmp(e.field, "fields") == 0 && e.index == 2);
+        CHECK(peri_export_fields_to(b, odd, 2, collect, &bare) == PERI_ERROR_CHOICE);
+        CHECK(peri_get_error(b, &e) == PERI_OK && strcmp(e.field, "fields") == 0 && e.index == 1 && e.value == 7);
+        CHECK(peri_export_fields_to(b, odd, -1, collect, &bare) == PERI_ERROR_ARGUMENT);
+        CHECK(peri_export_fields_to(b, fields, 4, NULL, NULL) == PERI_ERROR_ARGUMENT);
+        free(f.bytes);
+        free(usual.bytes);
+        free(bare.bytes);
+        peri_body_destroy(b);
+    }
+}
+
 /* ---- CSV ---------------------------------------------------------------------------------------------------------- */
 
 static void history_line(peri_body *b, const char *line) {
@@ -473,6 +532,7 @@ int main(int argc, char **argv) {
     RUN(derived_fields_by_definition);
     RUN(write_then_read);
     RUN(vtu_holds_what_read_gives);
+    RUN(chosen_fields);
     RUN(history);
     RUN(history_file);
     return test_end("test_output");

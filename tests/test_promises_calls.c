@@ -83,7 +83,6 @@ static peri_energy energy;
 static peri_evaluate_desc forces;
 
 #include "calls_parts.h"
-
 /* Every function, without a body or a matrix. */
 static void without_a_body(void) {
     const peri_body *c = NULL;
@@ -339,6 +338,7 @@ static void with_failing_callbacks(void) {
 /* The next allocation fails. */
 #define SHORT(call) (fail_in = 0, ASK(call), fail_in = -1)
 #include "calls_laws.h"
+#include "calls_results.h"
 static void without_memory(void) {
     specimen s = plate_of(PERI_LAW_LPS), solid = specimen_of(PERI_SPACE_SOLID, PERI_LAW_BOND_BASED, 0, 1, 2.1, 5, 4, 4);
     solid.desc.allocate = take;
@@ -522,7 +522,7 @@ static void gather(void) {
     without_a_body();
     with_wrong_ids();
     at_the_wrong_time();
-    with_fields(), with_evaluations(), with_implicit_steps(), with_parts(), with_worlds(), with_cells();
+    with_fields(), with_evaluations(), with_implicit_steps(), with_parts(), with_worlds(), with_cells(), with_results();
     with_wrong_laws();
     with_wrong_arguments();
     with_failing_callbacks();

@@ -500,6 +500,24 @@ def the_lock_is_free():
     check(body.step_count == 120010 and sys.getswitchinterval() == interval, "two threads, one body")
 
 
+# ---- what is read in part --------------------------------------------------------------------------------------------
+
+def probes_and_bonds():
+    body = bar()
+    body.displacement = 0.01 * body.field("position")
+    strain, force = body.field("strain"), body.field("force_density")
+    check(np.array_equal(body.get_field_at("strain", [3, 1]), strain[[3, 1]]), "strain of some points")
+    check(np.array_equal(body.get_field_at("damage", [3, 1]), body.field("damage")[[3, 1]]), "damage of some points")
+    places = body.field("position")[:5] + 0.01
+    check(np.allclose(body.interpolate_field("displacement", 0, places), 0.01 * places, rtol=0, atol=1e-14),
+          "displacement at places")
+    i = body.get_bonds(peri.ALL, "point").astype(int)
+    pulls = body.get_bonds(peri.ALL, "force").reshape(i.size, -1)
+    total = np.zeros_like(force)
+    np.add.at(total, i, pulls)
+    check(np.allclose(total, force, rtol=0, atol=1e-12 * np.abs(pulls).max()), "bonds add up to the force density")
+
+
 # ---- parts of their own ----------------------------------------------------------------------------------------------
 
 def sizes_are_those_of_c():
@@ -522,7 +540,7 @@ def pictures():
 
 
 api = test_python_header.api
-CASES = [same_as_c, arrays_without_copies, arrays_are_checked, errors_say_where, exceptions_pass_through, callbacks_are_python,
+CASES = [same_as_c, arrays_without_copies, arrays_are_checked, errors_say_where, exceptions_pass_through, callbacks_are_python, probes_and_bonds,
          frames_leak_nothing, control_c_stops, the_lock_is_free, sizes_are_those_of_c, what_is_added_appears, pictures]
 
 

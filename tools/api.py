@@ -276,13 +276,15 @@ def length(function, p, arguments, doc):
         return counted.group(1) if counted and p["type"] != "char" else "count"
     if p["const"]:
         return "dim"
-    if p["type"] in NUMBERS and "count" in names:
+    if p["type"] in NUMBERS and "count" in names and "capacity" not in names:
         return "count"
     return "capacity" if "capacity" in names else "1"
 
 
 def is_optional(function, p, doc):
-    if (function, p["name"]) in (("peri_set_contact", "desc"), ("peri_prescribe_rigid", "motion")) or function.startswith("peri_select_") and p["name"] == "name":
+    if (function, p["name"]) in (
+            ("peri_set_contact", "desc"), ("peri_prescribe_rigid", "motion"), ("peri_export_frame", "fields")) or (
+            function.startswith("peri_select_") and p["name"] == "name"):
         return True
     name = r"\b" + p["name"] + r"\b"
     return bool(p["role"] in ("user", "callback") or re.search(name + r"(\[[^\]]*\])?[^.;:]{0,25}\bNULL\b", doc)

@@ -1423,6 +1423,32 @@ public:
         (void)view_field(field_, view_);
         return view_;
     }
+    /* Of points[count] alone: count*components. */
+    int32_t get_field_at(int32_t field_, span<const int32_t> points_, span<double> out_) {
+        const int32_t result_ = peri_get_field_at(handle_, field_, int64_t(points_.size()), points_.data(), out_.data(), int64_t(out_.size()));
+        check(result_);
+        return result_;
+    }
+    /* At places[count*dim] [L], in_place = 1: present ones: linear fields exactly, not across cracks. Outside:
+       NaN. */
+    int32_t interpolate_field(int32_t field_, int32_t in_place_, span<const double> places_, span<double> out_) {
+        if (places_.size() % std::size_t(dimension()) != 0) detail::refuse("places");
+        const int32_t result_ = peri_interpolate_field(handle_, field_, in_place_, int64_t(places_.size() / std::size_t(dimension())), places_.data(), out_.data(), int64_t(out_.size()));
+        check(result_);
+        return result_;
+    }
+    /* Bonds of the points of a set, as in peri_get_families. */
+    int64_t size_of_bonds(int32_t set_, int32_t bond_) const {
+        const int64_t result_ = peri_size_of_bonds(handle_, set_, bond_);
+        check(result_);
+        return result_;
+    }
+    /* Bonds of the points of a set, as in peri_get_families. */
+    int32_t get_bonds(int32_t set_, int32_t bond_, span<double> out_) {
+        const int32_t result_ = peri_get_bonds(handle_, set_, bond_, out_.data(), int64_t(out_.size()));
+        check(result_);
+        return result_;
+    }
     /* Costs one evaluation of the forces. */
     int32_t get_energy(peri_energy &energy_) {
         const int32_t result_ = peri_get_energy(handle_, &energy_);
@@ -1456,6 +1482,13 @@ public:
         check(result_);
         return result_;
     }
+    /* fields[count], each once, or NULL: as above. */
+    int32_t export_fields_to(span<const int32_t> fields_, const write_fn &write_) {
+        detail::write_fn_holder context_ = {dimension(), write_};
+        const int32_t result_ = peri_export_fields_to(handle_, fields_.data(), int64_t(fields_.size()), write_ ? detail::write_fn_holder::call_c : nullptr, &context_);
+        check(result_);
+        return result_;
+    }
     /* One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first. */
     int32_t export_history_to(int32_t header_, const write_fn &write_) {
         detail::write_fn_holder context_ = {dimension(), write_};
@@ -1465,6 +1498,12 @@ public:
     }
     int32_t export_vtu(const char *path_) {
         const int32_t result_ = peri_export_vtu(handle_, path_);
+        check(result_);
+        return result_;
+    }
+    /* Frame 0, 1, ... of a series: its VTU beside `path`, a .pvd. */
+    int32_t export_frame(const char *path_, int64_t frame_, span<const int32_t> fields_ = nullptr) {
+        const int32_t result_ = peri_export_frame(handle_, path_, frame_, fields_.data(), int64_t(fields_.size()));
         check(result_);
         return result_;
     }

@@ -358,10 +358,31 @@ module peri_c
     integer(c_int32_t), parameter :: PERI_FIELD_STRENGTH = 2022
     ! W times E [-] 1e-6..1e6. Default 1
     integer(c_int32_t), parameter :: PERI_FIELD_STIFFNESS = 2023
+    ! [dim*dim] F by rows
+    integer(c_int32_t), parameter :: PERI_FIELD_DEFORMATION_GRADIENT = 2024
 
     integer(c_int32_t), parameter :: PERI_TYPE_F64 = 1601
     integer(c_int32_t), parameter :: PERI_TYPE_F32 = 1602
     integer(c_int32_t), parameter :: PERI_TYPE_I32 = 1603
+
+    ! i
+    integer(c_int32_t), parameter :: PERI_BOND_POINT = 4001
+    ! j
+    integer(c_int32_t), parameter :: PERI_BOND_OTHER = 4002
+    ! |xi| [L]
+    integer(c_int32_t), parameter :: PERI_BOND_LENGTH = 4003
+    ! beta V_j [L^3]
+    integer(c_int32_t), parameter :: PERI_BOND_VOLUME = 4004
+    ! w beta V_j, corrected
+    integer(c_int32_t), parameter :: PERI_BOND_WEIGHT = 4005
+    ! 1 or 0
+    integer(c_int32_t), parameter :: PERI_BOND_INTACT = 4006
+    ! [-]
+    integer(c_int32_t), parameter :: PERI_BOND_STRETCH = 4007
+    ! [dim] part of the force density of i
+    integer(c_int32_t), parameter :: PERI_BOND_FORCE = 4008
+    ! and of the energy density
+    integer(c_int32_t), parameter :: PERI_BOND_ENERGY = 4009
 
     ! peri_add_box
     integer(c_int32_t), parameter :: PERI_SOURCE_BOX = 1701
@@ -910,7 +931,7 @@ module peri_c
         integer(c_int64_t) :: point_stride = 0
         ! in elements
         integer(c_int64_t) :: component_stride = 0
-        ! 1, dim, or 3 or 6 of a tensor
+        ! 1, dim, 3 or 6 of a tensor, or dim*dim
         integer(c_int32_t) :: components = 0
         ! peri_type
         integer(c_int32_t) :: type = 0
@@ -2045,6 +2066,43 @@ module peri_c
             type(peri_view), intent(inout) :: view
             integer(c_int32_t) :: c_view_field
         end function
+        function c_get_field_at(body, field, count, points, out, capacity) bind(c, name='peri_get_field_at')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: field
+            integer(c_int64_t), value :: count
+            type(c_ptr), value :: points
+            type(c_ptr), value :: out
+            integer(c_int64_t), value :: capacity
+            integer(c_int32_t) :: c_get_field_at
+        end function
+        function c_interpolate_field(body, field, in_place, count, places, out, capacity) bind(c, name='peri_interpolate_field')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: field
+            integer(c_int32_t), value :: in_place
+            integer(c_int64_t), value :: count
+            type(c_ptr), value :: places
+            type(c_ptr), value :: out
+            integer(c_int64_t), value :: capacity
+            integer(c_int32_t) :: c_interpolate_field
+        end function
+        function c_size_of_bonds(body, set, bond) bind(c, name='peri_size_of_bonds')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: set
+            integer(c_int32_t), value :: bond
+            integer(c_int64_t) :: c_size_of_bonds
+        end function
+        function c_get_bonds(body, set, bond, out, capacity) bind(c, name='peri_get_bonds')
+            import
+            type(c_ptr), value :: body
+            integer(c_int32_t), value :: set
+            integer(c_int32_t), value :: bond
+            type(c_ptr), value :: out
+            integer(c_int64_t), value :: capacity
+            integer(c_int32_t) :: c_get_bonds
+        end function
         function c_get_energy(body, energy) bind(c, name='peri_get_energy')
             import
             type(c_ptr), value :: body
@@ -2116,6 +2174,15 @@ module peri_c
             type(c_ptr), value :: user
             integer(c_int32_t) :: c_export_vtu_to
         end function
+        function c_export_fields_to(body, fields, count, write, user) bind(c, name='peri_export_fields_to')
+            import
+            type(c_ptr), value :: body
+            type(c_ptr), value :: fields
+            integer(c_int64_t), value :: count
+            type(c_funptr), value :: write
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: c_export_fields_to
+        end function
         function c_export_history_to(body, header, write, user) bind(c, name='peri_export_history_to')
             import
             type(c_ptr), value :: body
@@ -2129,6 +2196,15 @@ module peri_c
             type(c_ptr), value :: body
             type(c_ptr), value :: path
             integer(c_int32_t) :: c_export_vtu
+        end function
+        function c_export_frame(body, path, frame, fields, count) bind(c, name='peri_export_frame')
+            import
+            type(c_ptr), value :: body
+            type(c_ptr), value :: path
+            integer(c_int64_t), value :: frame
+            type(c_ptr), value :: fields
+            integer(c_int64_t), value :: count
+            integer(c_int32_t) :: c_export_frame
         end function
         function c_export_history(body, path, append) bind(c, name='peri_export_history')
             import
@@ -2317,6 +2393,10 @@ module peri
     private :: c_get_field
     private :: c_set_field
     private :: c_view_field
+    private :: c_get_field_at
+    private :: c_interpolate_field
+    private :: c_size_of_bonds
+    private :: c_get_bonds
     private :: c_get_energy
     private :: c_get_momentum
     private :: c_cracks_desc_init
@@ -2329,8 +2409,10 @@ module peri
     private :: c_get_cracks
     private :: c_export_cracks_to
     private :: c_export_vtu_to
+    private :: c_export_fields_to
     private :: c_export_history_to
     private :: c_export_vtu
+    private :: c_export_frame
     private :: c_export_history
     private :: c_save_state_to
     private :: c_load_state_from
@@ -5492,6 +5574,130 @@ contains
         if (present(stat)) stat = int(result_)
     end subroutine
 
+    ! Of points[count] alone: count*components.
+    subroutine peri_get_field_at(body, field, points, out, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: field
+        integer(c_int32_t), intent(in), target, contiguous :: points(:)
+        real(c_double), intent(inout), target, contiguous :: out(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_ptr) :: points_at
+        type(c_ptr) :: out_at
+        type(peri_error) :: record
+        points_at = c_null_ptr
+        if (size(points) > 0) points_at = c_loc(points)
+        out_at = c_null_ptr
+        if (size(out) > 0) out_at = c_loc(out)
+        result_ = c_get_field_at(body%handle, field, size(points, kind=c_int64_t), points_at, out_at, size(out, kind=c_int64_t))
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! At places[count*dim] [L], in_place = 1: present ones: linear fields exactly, not across cracks. Outside: NaN.
+    subroutine peri_interpolate_field(body, field, in_place, places, out, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: field
+        integer(c_int32_t), intent(in) :: in_place
+        real(c_double), intent(in), target, contiguous :: places(:)
+        real(c_double), intent(inout), target, contiguous :: out(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_ptr) :: places_at
+        type(c_ptr) :: out_at
+        type(peri_error) :: record
+        if (mod(size(places), int(c_dimension(body%handle))) /= 0) then
+            call refused('places', stat, errmsg)
+            return
+        end if
+        places_at = c_null_ptr
+        if (size(places) > 0) places_at = c_loc(places)
+        out_at = c_null_ptr
+        if (size(out) > 0) out_at = c_loc(out)
+        result_ = c_interpolate_field(body%handle, field, in_place, size(places, &
+            kind=c_int64_t)/(int(c_dimension(body%handle))), places_at, out_at, size(out, kind=c_int64_t))
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! Bonds of the points of a set, as in peri_get_families.
+    function peri_size_of_bonds(body, set, bond, stat, errmsg) result(result_)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: set
+        integer(c_int32_t), intent(in) :: bond
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int64_t) :: result_
+        type(peri_error) :: record
+        result_ = c_size_of_bonds(body%handle, set, bond)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = 0
+    end function
+
+    ! Bonds of the points of a set, as in peri_get_families.
+    subroutine peri_get_bonds(body, set, bond, out, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in) :: set
+        integer(c_int32_t), intent(in) :: bond
+        real(c_double), intent(inout), target, contiguous :: out(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_ptr) :: out_at
+        type(peri_error) :: record
+        out_at = c_null_ptr
+        if (size(out) > 0) out_at = c_loc(out)
+        result_ = c_get_bonds(body%handle, set, bond, out_at, size(out, kind=c_int64_t))
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
     ! Costs one evaluation of the forces.
     subroutine peri_get_energy(body, energy, stat, errmsg)
         type(peri_body), intent(in) :: body
@@ -5733,6 +5939,40 @@ contains
         if (present(stat)) stat = int(result_)
     end subroutine
 
+    ! fields[count], each once, or NULL: as above.
+    subroutine peri_export_fields_to(body, fields, write, user, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        integer(c_int32_t), intent(in), optional, target, contiguous :: fields(:)
+        procedure(peri_write_fn) :: write
+        type(c_ptr), intent(in), optional :: user
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        type(c_ptr) :: fields_at
+        integer(c_int64_t) :: count_
+        type(c_funptr) :: write_at
+        type(peri_error) :: record
+        fields_at = c_null_ptr
+        if (present(fields)) fields_at = c_loc(fields)
+        count_ = 0
+        if (present(fields)) count_ = size(fields, kind=c_int64_t)
+        write_at = c_funloc(write)
+        result_ = c_export_fields_to(body%handle, fields_at, count_, write_at, c_ptr_of(user))
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
     ! One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first.
     subroutine peri_export_history_to(body, header, write, user, stat, errmsg)
         type(peri_body), intent(in) :: body
@@ -5773,6 +6013,42 @@ contains
         path_c = c_text(path)
         path_at = c_loc(path_c(1))
         result_ = c_export_vtu(body%handle, path_at)
+        if (result_ < 0) then
+            if (c_get_error(body%handle, record) < 0) record%code = 0
+            if (record%code /= result_) then
+                record%code = int(result_, c_int32_t)
+                record%index = -1
+                record%value = 0
+                record%field = c_null_ptr
+                record%text = c_status_text(record%code)
+            end if
+            call failed(record, stat, errmsg)
+            return
+        end if
+        if (present(stat)) stat = int(result_)
+    end subroutine
+
+    ! Frame 0, 1, ... of a series: its VTU beside `path`, a .pvd.
+    subroutine peri_export_frame(body, path, frame, fields, stat, errmsg)
+        type(peri_body), intent(in) :: body
+        character(*), intent(in) :: path
+        integer(c_int64_t), intent(in) :: frame
+        integer(c_int32_t), intent(in), optional, target, contiguous :: fields(:)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: result_
+        character(kind=c_char), target :: path_c(len(path) + 1)
+        type(c_ptr) :: path_at
+        type(c_ptr) :: fields_at
+        integer(c_int64_t) :: count_
+        type(peri_error) :: record
+        path_c = c_text(path)
+        path_at = c_loc(path_c(1))
+        fields_at = c_null_ptr
+        if (present(fields)) fields_at = c_loc(fields)
+        count_ = 0
+        if (present(fields)) count_ = size(fields, kind=c_int64_t)
+        result_ = c_export_frame(body%handle, path_at, frame, fields_at, count_)
         if (result_ < 0) then
             if (c_get_error(body%handle, record) < 0) record%code = 0
             if (record%code /= result_) then

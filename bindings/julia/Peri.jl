@@ -181,9 +181,19 @@ const FIELD_HELD = Int32(2020) # [dim] 1: a support prescribes it; else 0
 const FIELD_EIGENSTRAIN = Int32(2021) # W stretch at no force [-] -0.9..10. Default 0
 const FIELD_STRENGTH = Int32(2022) # W times s0, squared times w0 [-] 1e-6..1e6. Default 1
 const FIELD_STIFFNESS = Int32(2023) # W times E [-] 1e-6..1e6. Default 1
+const FIELD_DEFORMATION_GRADIENT = Int32(2024) # [dim*dim] F by rows
 const TYPE_F64 = Int32(1601)
 const TYPE_F32 = Int32(1602)
 const TYPE_I32 = Int32(1603)
+const BOND_POINT = Int32(4001) # i
+const BOND_OTHER = Int32(4002) # j
+const BOND_LENGTH = Int32(4003) # |xi| [L]
+const BOND_VOLUME = Int32(4004) # beta V_j [L^3]
+const BOND_WEIGHT = Int32(4005) # w beta V_j, corrected
+const BOND_INTACT = Int32(4006) # 1 or 0
+const BOND_STRETCH = Int32(4007) # [-]
+const BOND_FORCE = Int32(4008) # [dim] part of the force density of i
+const BOND_ENERGY = Int32(4009) # and of the energy density
 const SOURCE_BOX = Int32(1701) # peri_add_box
 const SOURCE_PERTURBED = Int32(1702) # peri_add_perturbed_box
 const SOURCE_POINTS = Int32(1703) # peri_add_points: a cloud, about one point to a cell
@@ -520,7 +530,7 @@ struct peri_view
     count::Int64 # points
     point_stride::Int64 # in elements
     component_stride::Int64 # in elements
-    components::Int32 # 1, dim, or 3 or 6 of a tensor
+    components::Int32 # 1, dim, 3 or 6 of a tensor, or dim*dim
     type::Int32 # peri_type
     scale::Float64
     offset::NTuple{3,Float64}
@@ -2147,6 +2157,43 @@ function view_field(body::Body, field)
 end
 
 """
+Of points[count] alone: count*components.
+"""
+function get_field_at!(body::Body, field, points, out)
+    result = GC.@preserve body ccall((:peri_get_field_at, LIB), Int32, (Ptr{Cvoid}, Int32, Int64, Ptr{Int32}, Ptr{Float64}, Int64), body.handle, field, entries(points), maybe(Int32, points), out, entries(out))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+At places[count*dim] [L], in_place = 1: present ones: linear fields exactly, not across cracks. Outside: NaN.
+"""
+function interpolate_field!(body::Body, field, in_place, places, out)
+    entries(places) % dimension(body) == 0 || refuse("places")
+    result = GC.@preserve body ccall((:peri_interpolate_field, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Int64, Ptr{Float64}, Ptr{Float64}, Int64), body.handle, field, in_place, entries(places) ÷ dimension(body), maybe(Float64, places), out, entries(out))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Bonds of the points of a set, as in peri_get_families.
+"""
+function size_of_bonds(body::Body, set, bond)
+    result = GC.@preserve body ccall((:peri_size_of_bonds, LIB), Int64, (Ptr{Cvoid}, Int32, Int32), body.handle, set, bond)
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Bonds of the points of a set, as in peri_get_families.
+"""
+function get_bonds!(body::Body, set, bond, out)
+    result = GC.@preserve body ccall((:peri_get_bonds, LIB), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Float64}, Int64), body.handle, set, bond, out, entries(out))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
 Costs one evaluation of the forces.
 """
 function get_energy(body::Body)
@@ -2235,6 +2282,16 @@ function export_vtu_to(body::Body, write)
 end
 
 """
+fields[count], each once, or NULL: as above.
+"""
+function export_fields_to(body::Body, fields = nothing, write)
+    context = write === nothing ? nothing : Context(Dict{Symbol,Any}(:call => write), nothing, dimension(body))
+    result = GC.@preserve body context ccall((:peri_export_fields_to, LIB), Int32, (Ptr{Cvoid}, Ptr{Int32}, Int64, Ptr{Cvoid}, Ptr{Cvoid}), body.handle, maybe(Int32, fields), entries(fields), context === nothing ? C_NULL : pointer_of_write_fn_call(), context === nothing ? C_NULL : pointer_from_objref(context))
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
 One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first.
 """
 function export_history_to(body::Body, header, write)
@@ -2246,6 +2303,15 @@ end
 
 function export_vtu(body::Body, path)
     result = GC.@preserve body ccall((:peri_export_vtu, LIB), Int32, (Ptr{Cvoid}, Cstring), body.handle, path)
+    check(result, result < 0 ? last_error(body) : nothing)
+    return result
+end
+
+"""
+Frame 0, 1, ... of a series: its VTU beside `path`, a .pvd.
+"""
+function export_frame(body::Body, path, frame, fields = nothing)
+    result = GC.@preserve body ccall((:peri_export_frame, LIB), Int32, (Ptr{Cvoid}, Cstring, Int64, Ptr{Int32}, Int64), body.handle, path, frame, maybe(Int32, fields), entries(fields))
     check(result, result < 0 ? last_error(body) : nothing)
     return result
 end

@@ -518,6 +518,10 @@ int64_t peri_size_of_field(const peri_body *body, int32_t field);
 int32_t peri_get_field(peri_body *body, int32_t field, double *out, int64_t capacity);
 int32_t peri_set_field(peri_body *body, int32_t field, const double *in, int64_t count);
 int32_t peri_view_field(peri_body *body, int32_t field, peri_view *view);
+int32_t peri_get_field_at(peri_body *body, int32_t field, int64_t count, const int32_t *points, double *out, int64_t capacity);
+int32_t peri_interpolate_field(peri_body *body, int32_t field, int32_t in_place, int64_t count, const double *places, double *out, int64_t capacity);
+int64_t peri_size_of_bonds(const peri_body *body, int32_t set, int32_t bond);
+int32_t peri_get_bonds(peri_body *body, int32_t set, int32_t bond, double *out, int64_t capacity);
 int32_t peri_get_energy(peri_body *body, peri_energy *energy);
 int32_t peri_get_momentum(peri_body *body, double *linear, double *angular);
 void peri_cracks_desc_init(peri_cracks_desc *desc);
@@ -530,8 +534,10 @@ double peri_cracks_size(const peri_cracks *cracks);
 int32_t peri_get_cracks(const peri_cracks *cracks, int64_t *start, double *vertex, double *time, peri_crack_tip *tip);
 int32_t peri_export_cracks_to(const peri_cracks *cracks, peri_write_fn write, void *user);
 int32_t peri_export_vtu_to(peri_body *body, peri_write_fn write, void *user);
+int32_t peri_export_fields_to(peri_body *body, const int32_t *fields, int64_t count, peri_write_fn write, void *user);
 int32_t peri_export_history_to(peri_body *body, int32_t header, peri_write_fn write, void *user);
 int32_t peri_export_vtu(peri_body *body, const char *path);
+int32_t peri_export_frame(peri_body *body, const char *path, int64_t frame, const int32_t *fields, int64_t count);
 int32_t peri_export_history(peri_body *body, const char *path, int32_t append);
 int32_t peri_save_state_to(peri_body *body, peri_write_fn write, void *user);
 int32_t peri_load_state_from(peri_body *body, peri_read_fn read, void *user);
@@ -716,9 +722,19 @@ local peri = {
     FIELD_EIGENSTRAIN = 2021, -- W stretch at no force [-] -0.9..10. Default 0
     FIELD_STRENGTH = 2022, -- W times s0, squared times w0 [-] 1e-6..1e6. Default 1
     FIELD_STIFFNESS = 2023, -- W times E [-] 1e-6..1e6. Default 1
+    FIELD_DEFORMATION_GRADIENT = 2024, -- [dim*dim] F by rows
     TYPE_F64 = 1601,
     TYPE_F32 = 1602,
     TYPE_I32 = 1603,
+    BOND_POINT = 4001, -- i
+    BOND_OTHER = 4002, -- j
+    BOND_LENGTH = 4003, -- |xi| [L]
+    BOND_VOLUME = 4004, -- beta V_j [L^3]
+    BOND_WEIGHT = 4005, -- w beta V_j, corrected
+    BOND_INTACT = 4006, -- 1 or 0
+    BOND_STRETCH = 4007, -- [-]
+    BOND_FORCE = 4008, -- [dim] part of the force density of i
+    BOND_ENERGY = 4009, -- and of the energy density
     SOURCE_BOX = 1701, -- peri_add_box
     SOURCE_PERTURBED = 1702, -- peri_add_perturbed_box
     SOURCE_POINTS = 1703, -- peri_add_points: a cloud, about one point to a cell
@@ -2145,6 +2161,44 @@ function Body:view_field(field)
     return view
 end
 
+-- Of points[count] alone: count*components.
+function Body:get_field_at(field, points, out)
+    local points_c, points_n = nil, 0
+    if points ~= nil then points_c, points_n = array("int32_t", points, "points") end
+    local out_c, out_n = nil, 0
+    if out ~= nil then out_c, out_n = array("double", out, "out") end
+    local result = C.peri_get_field_at(self.handle, field, points_n, points_c, out_c, out_n)
+    check(result, nil, self.handle)
+    return out
+end
+
+-- At places[count*dim] [L], in_place = 1: present ones: linear fields exactly, not across cracks. Outside: NaN.
+function Body:interpolate_field(field, in_place, places, out)
+    local places_c, places_n = nil, 0
+    if places ~= nil then places_c, places_n = array("double", places, "places") end
+    if places_n % (self:dimension()) ~= 0 then refuse("places") end
+    local out_c, out_n = nil, 0
+    if out ~= nil then out_c, out_n = array("double", out, "out") end
+    local result = C.peri_interpolate_field(self.handle, field, in_place, places_n / self:dimension(), places_c, out_c, out_n)
+    check(result, nil, self.handle)
+    return out
+end
+
+-- Bonds of the points of a set, as in peri_get_families.
+function Body:size_of_bonds(set, bond)
+    local result = C.peri_size_of_bonds(self.handle, set, bond)
+    return check(result, nil, self.handle)
+end
+
+-- Bonds of the points of a set, as in peri_get_families.
+function Body:get_bonds(set, bond, out)
+    local out_c, out_n = nil, 0
+    if out ~= nil then out_c, out_n = array("double", out, "out") end
+    local result = C.peri_get_bonds(self.handle, set, bond, out_c, out_n)
+    check(result, nil, self.handle)
+    return out
+end
+
 -- Costs one evaluation of the forces.
 function Body:get_energy()
     local energy = ffi.new("peri_energy")
@@ -2238,6 +2292,21 @@ function Body:export_vtu_to(write)
     return check(result, nil, self.handle)
 end
 
+-- fields[count], each once, or NULL: as above.
+function Body:export_fields_to(fields, write)
+    local here = {}
+    local fields_c, fields_n = nil, 0
+    if fields ~= nil then fields_c, fields_n = array("int32_t", fields, "fields") end
+    local write_c = nil
+    if write then
+        here[#here + 1] = ffi.cast("peri_write_fn", guard(function(_, bytes, count) return write(ffi.string(bytes, count)) end))
+        write_c = here[#here]
+    end
+    local result = C.peri_export_fields_to(self.handle, fields_c, fields_n, write_c, nil)
+    free(here)
+    return check(result, nil, self.handle)
+end
+
 -- One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first.
 function Body:export_history_to(header, write)
     local here = {}
@@ -2253,6 +2322,14 @@ end
 
 function Body:export_vtu(path)
     local result = C.peri_export_vtu(self.handle, path)
+    return check(result, nil, self.handle)
+end
+
+-- Frame 0, 1, ... of a series: its VTU beside `path`, a .pvd.
+function Body:export_frame(path, frame, fields)
+    local fields_c, fields_n = nil, 0
+    if fields ~= nil then fields_c, fields_n = array("int32_t", fields, "fields") end
+    local result = C.peri_export_frame(self.handle, path, frame, fields_c, fields_n)
     return check(result, nil, self.handle)
 end
 

@@ -523,6 +523,10 @@ class Function:
             return
         thing = re.sub(r"^peri_get_", "", self.f["name"])
         asked = self.w.functions.get("peri_size_of_" + thing) or self.w.functions.get("peri_find_" + thing)
+        if not asked and {"field", "count"} <= set(self.names):
+            self.do("capacity = count * (self.size_of_field(field) // self.point_count)")
+            self.local.add("capacity")
+            return
         if not asked:
             raise SystemExit("generate.py: %s: how large is what it writes? There is no peri_size_of_%s" % (self.f["name"], thing))
         leading = [safe(p["name"]) for p in asked["params"][1:] if p["role"] == "value" and not p["name"].endswith("capacity")]

@@ -396,6 +396,7 @@ struct peri__ops { /* kernels of one precision, dimension and instruction set; a
     void (*force)(void *, int64_t, int64_t, peri__sums *);   /* the force of bonds, each end giving its half             */
     void (*add_point_forces)(const peri__operands *, const int32_t *points, int64_t count, int sign, double time);
     peri__parting (*part)(const peri__operands *, int64_t i, const peri__row *row, int64_t k);
+    void (*bond_force)(const peri__operands *, int64_t i, const peri__row *row, int64_t k, double *force);
     void (*energy)(void *, int64_t, int64_t, peri__sums *);
     void (*kick)(void *, int64_t, int64_t, peri__sums *);
     void (*kinetic)(void *, int64_t, int64_t, peri__sums *);

@@ -57,7 +57,7 @@ static peri__operands peri__operands_of(const peri_body *b) {
 }
 
 /* What the law of bond k of row i makes of its stretch now: the stretch at which a linear bond pulls as hard, and its slope. `bunch` keeps
-   the answers for bonds beside it; its point is -1 at first, and `failed` 0. Bonds whose law fails are linear. */
+   the answers for bonds beside it; at first its point is -1, `failed` 0, `asked` what else is wanted. Bonds whose law fails are linear. */
 static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, int64_t k, peri__bunch *bunch, double *force,
                            double *tangent) {
     const int64_t first = k - k % PERI_BUNCH;
@@ -71,7 +71,7 @@ static void peri__ask_bond(const peri_body *b, int64_t i, const peri__row *row, 
         bunch->point = i;
         bunch->first = first;
         bunch->count = (int32_t)peri__min(row->count - first, PERI_BUNCH);
-        bunch->asked = PERI__ASK_TANGENT;
+        bunch->asked |= PERI__ASK_TANGENT;
         for (int32_t n = 0; n < bunch->count; ++n) {
             bunch->others[n] = row->ids[first + n];
             bunch->length[n] = peri__get_real(row->bond, b->b32, first + n);

@@ -152,7 +152,7 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
     peri__bunch bunch;
     int tensor = 0;
     bunch.point = -1;
-    bunch.failed = 0;
+    bunch.failed = bunch.asked = 0;
     if (!law->pairwise) pressure_factor = peri__get_constant(b, i, PERI__PRESSURE_FACTOR);
     if (pressure_factor != 0.0) pressure_factor *= peri__dilatation(b, i, row, peri__eigenstrain_at(b, i));
     if (law->gather & PERI__GRADIENT) {
@@ -189,7 +189,7 @@ static void peri__collapsed_stress(const peri_body *b, int64_t i, const peri__ro
     if (bunch.failed && sums->bad < 0) sums->bad = i;
 }
 
-static void peri__dilatation_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
+static void peri__family_dilatation(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     const peri__model *m = b->model;
     peri__deformation f;
     double strain[3][3];
@@ -204,7 +204,7 @@ static void peri__dilatation_at(const peri_body *b, int64_t i, const peri__row *
     for (int a = 0; a < m->dim; ++a) *out += strain[a][a];
 }
 
-static void peri__strain_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
+static void peri__family_strain(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     peri__deformation f;
     double strain[3][3];
     (void)sums;
@@ -214,7 +214,16 @@ static void peri__strain_at(const peri_body *b, int64_t i, const peri__row *row,
         for (int c = a; c < b->dim; ++c) out[peri__packed(b->dim, a, c)] = strain[a][c];
 }
 
-static void peri__stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
+/* F = 1 + H, by rows: in directions that the live bonds do not span nothing is deformed. */
+static void peri__family_deformation_gradient(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
+    peri__deformation f;
+    (void)sums;
+    peri__deform(b, i, row, &f);
+    for (int a = 0; a < b->dim; ++a)
+        for (int c = 0; c < b->dim; ++c) out[a * b->dim + c] = f.h[a][c] + (a == c ? 1.0 : 0.0);
+}
+
+static void peri__family_stress(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     peri__deformation f;
     double p[3][3];
     peri__deform(b, i, row, &f);
@@ -223,7 +232,7 @@ static void peri__stress_at(const peri_body *b, int64_t i, const peri__row *row,
     peri__cauchy(b, p, &f, out);
 }
 
-static void peri__force_stress_at(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
+static void peri__family_force_stress(const peri_body *b, int64_t i, const peri__row *row, double *out, peri__sums *sums) {
     peri__deformation f;
     double p[3][3];
     peri__deform(b, i, row, &f);
@@ -249,10 +258,15 @@ static void peri__note_failures(peri_body *b) {
     else peri__note_laws(b);
 }
 
-static void peri__read_gradients(peri_body *b, peri__point_fn at, int32_t components, double *out) {
-    peri__gradients gradients = { b, at, components, out };
+/* What such fields are made of, brought up to date. */
+static void peri__ready_gradients(peri_body *b) {
     (void)peri__ensure(b, PERI__STALE_CONSTANTS);
     if (b->model->inelastic & PERI__FLOWS) (void)peri__make_flow(b, b->u, 0.0, 0, NULL);
+}
+
+static void peri__read_gradients(peri_body *b, peri__point_fn at, int32_t components, double *out) {
+    peri__gradients gradients = { b, at, components, out };
+    peri__ready_gradients(b);
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     peri__for_points(b, b->model->points, 8 * b->model->width, peri__gradients_block, &gradients, b->sums);
     peri__leave(b, former);

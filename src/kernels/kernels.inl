@@ -157,7 +157,7 @@ PERI_SHARED const peri__ops PERI_FN(ops) = {
     PERI_FN(fill_records), PERI_FN(fill_responses), PERI_FN(gather_block), PERI_FN(gather_rows), PERI_FN(gather_shapes),
     PERI_FN(gather_least), PERI_FN(force_block),
     PERI_FN(add_point_forces),
-    PERI_FN(part_of),
+    PERI_FN(part_of), PERI_FN(bond_force),
     PERI_FN(energy), PERI_FN(kick), PERI_FN(kinetic),
 #ifdef PERI_NO_STATICS
     NULL, NULL, PERI_FN(law_force), PERI_FN(law_energy), NULL, NULL, NULL, NULL, NULL, NULL, NULL

@@ -290,6 +290,15 @@ PERI_INLINE int32_t PERI_FN(row_force)(const peri__operands *s, int64_t i, const
     return over;
 }
 
+/* The force density that bond k of row i adds to its point, by itself. */
+static void PERI_FN(bond_force)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, double *force) {
+    PERI_FN(bond) bond;
+    peri_b t[PERI_D] = { 0 };
+    PERI_FN(deform)(s, i, row, k, &bond);
+    const peri_b pull = PERI_FN(mixed_pull)(s, i, row, k, &bond, t);
+    for (int d = 0; d < PERI_D; ++d) force[d] = (double)((peri_r)(t[d] + pull * bond.y[d]) * PERI_FN(portion)(s->model, i));
+}
+
 /* The force density of the bonds of point i is added to f. sums: a energy of bonds that broke, n the (directed) number of those that broke
    or are to; a without, b the number of pairwise bonds of ghosts. */
 static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, peri__sums *sums) {

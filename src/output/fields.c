@@ -5,9 +5,12 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-/* X(name, number, components, unit, way, what, ensure). The way is `view`: peri__view_what points to what is stored, or `read`:
-   peri__read_what computes all numbers; both leave the unit to the list. ensure: what a write or a cut leaves out of date, which is made up
-   for first. */
+/* X(name, number, components, unit, way, what, ensure). All ways leave the unit to the list:
+     view     peri__view_what points to what is stored
+     point    peri__point_what computes the numbers of a point
+     family   peri__family_what does so from its family, on any thread
+     read     peri__read_what computes those of all points in one pass
+   ensure: what a write or a cut leaves out of date, which is made up for first. */
 static int32_t peri__ensure_none(peri_body *b) { return (void)b, PERI_OK; }
 /* What is made of bonds wants ghosts that are where their owners are. */
 static int32_t peri__ensure_ghosts(peri_body *b) { return b->model->part ? peri__ensure_force(b) : PERI_OK; }
@@ -19,24 +22,25 @@ static int32_t peri__ensure_fragments(peri_body *b) { return peri__label_fragmen
     X(VELOCITY, 2003, dim, peri__velocity_unit(m), view, velocity, none)                                                     \
     X(FORCE_DENSITY, 2004, dim, peri__force_unit(m), view, force_density, force)                                              \
     X(VOLUME, 2005, 1, pow(m->length, m->dim), view, volume, none)                                                           \
-    X(MATERIAL, 2006, 1, 1.0, read, material, none)                                                                          \
-    X(FAMILY_SIZE, 2007, 1, 1.0, read, family_size, none)                                                                    \
-    X(DAMAGE, 2008, 1, 1.0, read, damage, none)                                                                              \
-    X(DAMAGE_GROWN, 2009, 1, 1.0, read, damage_grown, none)                                                                  \
+    X(MATERIAL, 2006, 1, 1.0, point, material, none)                                                                          \
+    X(FAMILY_SIZE, 2007, 1, 1.0, point, family_size, none)                                                                    \
+    X(DAMAGE, 2008, 1, 1.0, point, damage, none)                                                                              \
+    X(DAMAGE_GROWN, 2009, 1, 1.0, point, damage_grown, none)                                                                  \
     X(ENERGY_DENSITY, 2010, 1, m->stress, read, energy_density, ghosts)                                                       \
-    X(CURRENT_POSITION, 2011, dim, 1.0, read, current, none) /* the sum of two views, which have their units */                      \
-    X(DILATATION, 2012, 1, 1.0, read, dilatation, ghosts)                                                                     \
-    X(STRAIN, 2013, PERI_PACKED(dim), 1.0, read, strain, ghosts)                                                              \
-    X(STRESS, 2014, PERI_PACKED(dim), m->stress, read, stress, ghosts)                                                        \
-    X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, read, force_stress, ghosts)                                            \
+    X(CURRENT_POSITION, 2011, dim, 1.0, point, current_position, none) /* the sum of two views, which have their units */ \
+    X(DILATATION, 2012, 1, 1.0, family, dilatation, ghosts)                                                                     \
+    X(STRAIN, 2013, PERI_PACKED(dim), 1.0, family, strain, ghosts)                                                              \
+    X(STRESS, 2014, PERI_PACKED(dim), m->stress, family, stress, ghosts)                                                        \
+    X(FORCE_STRESS, 2015, PERI_PACKED(dim), m->stress, family, force_stress, ghosts)                                            \
     X(REACTION, 2016, dim, peri__force_unit(m), read, reaction, force)                                                   \
-    X(FRAGMENT, 2017, 1, 1.0, read, fragment, fragments)                                                        \
-    X(MASS, 2018, 1, 1.0, read, point_mass, none)                                                                              \
-    X(DENSITY, 2019, 1, 1.0, read, density, none)                                                                        \
+    X(FRAGMENT, 2017, 1, 1.0, point, fragment, fragments)                                                        \
+    X(MASS, 2018, 1, 1.0, point, mass, none)                                                                              \
+    X(DENSITY, 2019, 1, 1.0, point, density, none)                                                                        \
     X(HELD, 2020, dim, 1.0, read, held, none)                                                                                \
-    X(EIGENSTRAIN, 2021, 1, 1.0, read, eigenstrain, none)                                                                    \
-    X(STRENGTH, 2022, 1, 1.0, read, strength, none)                                                                          \
-    X(STIFFNESS, 2023, 1, 1.0, read, stiffness, none)
+    X(EIGENSTRAIN, 2021, 1, 1.0, point, eigenstrain, none)                                                                    \
+    X(STRENGTH, 2022, 1, 1.0, point, strength, none)                                                                          \
+    X(STIFFNESS, 2023, 1, 1.0, point, stiffness, none)                                                                      \
+    X(DEFORMATION_GRADIENT, 2024, dim * dim, 1.0, family, deformation_gradient, ghosts)
 
 #define PERI_FIELD_NUMBER_(name, number, ...) PERI_SAME_NUMBER_(FIELD_##name, PERI_FIELD_##name == (number))
 PERI_FIELD_LIST(PERI_FIELD_NUMBER_)
@@ -105,13 +109,9 @@ static double peri__view_at(const peri_view *view, int64_t i, int32_t d) {
 
 /* ---- what is computed --------------------------------------------------------------------------------------------- */
 
-static void peri__read_material(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->model->material[i] + 1; /* PERI_ID_INDEX */
-}
+static void peri__point_material(const peri_body *b, int64_t i, double *out) { *out = b->model->material[i] + 1; /* PERI_ID_INDEX */ }
 
-static void peri__read_family_size(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->model->count[i];
-}
+static void peri__point_family_size(const peri_body *b, int64_t i, double *out) { *out = b->model->count[i]; }
 
 /* Damage of point i ([L]): 1 - intact/all, both sums of beta V_j over the family; uncut_only: over bonds not cut at the start. */
 static double peri__damage(const peri_body *b, int64_t i, int uncut_only) {
@@ -128,70 +128,38 @@ static double peri__damage(const peri_body *b, int64_t i, int uncut_only) {
     return all > 0.0 ? 1.0 - intact / all : 0.0;
 }
 
-static void peri__read_damage(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__damage(b, i, 0);
-}
+static void peri__point_damage(const peri_body *b, int64_t i, double *out) { *out = peri__damage(b, i, 0); }
 
-static void peri__read_damage_grown(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__damage(b, i, 1);
-}
+static void peri__point_damage_grown(const peri_body *b, int64_t i, double *out) { *out = peri__damage(b, i, 1); }
 
-static void peri__read_energy_density(peri_body *b, double *out) { (void)peri__elastic_energy(b, out); }
-
-static void peri__read_current(peri_body *b, double *out) {
-    const peri__model *m = b->model;
+static void peri__point_current_position(const peri_body *b, int64_t i, double *out) {
     peri_view at, moved;
     peri__frame_view(b, PERI_FIELD_POSITION, &at);
     peri__view_position(b, &at);
     peri__frame_view(b, PERI_FIELD_DISPLACEMENT, &moved);
     peri__view_displacement(b, &moved);
-    for (int64_t i = 0; i < m->points; ++i)
-        for (int32_t d = 0; d < m->dim; ++d) out[i * m->dim + d] = peri__view_at(&at, i, d) + peri__view_at(&moved, i, d);
+    for (int32_t d = 0; d < b->dim; ++d) out[d] = peri__view_at(&at, i, d) + peri__view_at(&moved, i, d);
 }
 
-static void peri__read_dilatation(peri_body *b, double *out) { peri__read_gradients(b, peri__dilatation_at, 1, out); }
+static void peri__point_fragment(const peri_body *b, int64_t i, double *out) { *out = b->fragment_of[i]; }
 
-static void peri__read_strain(peri_body *b, double *out) {
-    peri__read_gradients(b, peri__strain_at, PERI_PACKED(b->dim), out);
+static void peri__point_density(const peri_body *b, int64_t i, double *out) { *out = peri__density_told(b, i); }
+
+static void peri__point_mass(const peri_body *b, int64_t i, double *out) {
+    const peri__model *m = b->model;
+    *out = m->volume[i] * (pow(m->length, m->dim) * (m->dim == 3 ? 1.0 : b->desc.thickness));
+    *out *= b->density ? b->density[i] * m->density : b->materials[m->material[i]].density;
 }
 
-static void peri__read_stress(peri_body *b, double *out) {
-    peri__read_gradients(b, peri__stress_at, PERI_PACKED(b->dim), out);
-}
+static void peri__point_eigenstrain(const peri_body *b, int64_t i, double *out) { *out = peri__eigenstrain_at(b, i); }
 
-static void peri__read_force_stress(peri_body *b, double *out) {
-    peri__read_gradients(b, peri__force_stress_at, PERI_PACKED(b->dim), out);
-}
+static void peri__point_strength(const peri_body *b, int64_t i, double *out) { *out = peri__field_at(b, b->strength, i, 1.0); }
+
+static void peri__point_stiffness(const peri_body *b, int64_t i, double *out) { *out = peri__stiffness_at(b, i); }
+
+static void peri__read_energy_density(peri_body *b, double *out) { (void)peri__elastic_energy(b, out); }
 
 static void peri__read_reaction(peri_body *b, double *out) { peri__read_reactions(b, out); }
-
-static void peri__read_fragment(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = b->fragment_of[i];
-}
-
-static void peri__read_density(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i)
-        out[i] = peri__density_told(b, i);
-}
-
-static void peri__read_point_mass(peri_body *b, double *out) {
-    const peri__model *m = b->model;
-    const double unit = pow(m->length, m->dim) * (m->dim == 3 ? 1.0 : b->desc.thickness);
-    for (int64_t i = 0; i < m->points; ++i) out[i] = m->volume[i] * unit;
-    for (int64_t i = 0; i < m->points; ++i) out[i] *= b->density ? b->density[i] * m->density : b->materials[m->material[i]].density;
-}
-
-static void peri__read_eigenstrain(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__eigenstrain_at(b, i);
-}
-
-static void peri__read_strength(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__field_at(b, b->strength, i, 1.0);
-}
-
-static void peri__read_stiffness(peri_body *b, double *out) {
-    for (int64_t i = 0; i < b->model->points; ++i) out[i] = peri__stiffness_at(b, i);
-}
 
 static void peri__read_held(peri_body *b, double *out) {
     const peri__model *m = b->model;
@@ -204,11 +172,13 @@ static void peri__read_held(peri_body *b, double *out) {
 
 /* ---- any field ---------------------------------------------------------------------------------------------------- */
 
-/* One of both functions. */
+/* One of the four functions. */
 typedef struct peri__field {
     const char *name;
     int32_t (*ensure)(peri_body *b);
     void (*view)(const peri_body *b, peri_view *view);
+    void (*point)(const peri_body *b, int64_t i, double *out); /* [components]                                           */
+    peri__point_fn family;
     void (*read)(peri_body *b, double *out); /* [points*components]                                                      */
 } peri__field;
 
@@ -235,7 +205,11 @@ static int32_t peri__compute(peri_body *b, int32_t field, double *out) {
             for (int32_t d = 0; d < view.components; ++d) out[i * view.components + d] = peri__view_at(&view, i, d);
         return PERI_OK;
     }
-    peri__fields[field - peri__first_field].read(b, out);
+    const peri__field *how = &peri__fields[field - peri__first_field];
+    const int32_t components = peri__components(field, b->dim);
+    for (int64_t i = 0; how->point && i < b->model->points; ++i) how->point(b, i, &out[i * components]);
+    if (how->family) peri__read_gradients(b, how->family, components, out);
+    if (how->read) how->read(b, out);
     for (int64_t k = 0; unit != 1.0 && k < count; ++k) out[k] *= unit;
     return peri__heed_laws(b);
 }

@@ -85,7 +85,7 @@ static double peri__fill_element(const peri_body *b, int64_t o, peri__element *e
     peri__row row;
     peri__read_row(b, o, &row);
     bunch.point = -1;
-    bunch.failed = 0;
+    bunch.failed = bunch.asked = 0;
     e->count = 0;
     e->self = -1;
     *tensors = 0;

@@ -78,7 +78,7 @@ static int peri__diagonal_block(const peri_body *b, int64_t i, double *block) {
     peri__row row;
     peri__read_row(b, i, &row);
     bunch.point = -1;
-    bunch.failed = 0;
+    bunch.failed = bunch.asked = 0;
     for (int k = 0; k < PERI_PACKED(dim); ++k) block[k] = 0.0;
     for (int64_t k = 0; k < row.count; ++k) {
         const int64_t j = row.ids[k];

@@ -82,8 +82,34 @@ PERI_API int32_t peri_export_vtu_to(peri_body *b, peri_write_fn write, void *use
     return peri__without(b, "PERI_NO_OUTPUT");
 }
 
+PERI_API int32_t peri_export_fields_to(peri_body *b, const int32_t *fields, int64_t count, peri_write_fn write, void *user) {
+    (void)fields, (void)count, (void)write, (void)user;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
 PERI_API int32_t peri_export_history_to(peri_body *b, int32_t header, peri_write_fn write, void *user) {
     (void)header, (void)write, (void)user;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int32_t peri_get_field_at(peri_body *b, int32_t field, int64_t count, const int32_t *points, double *out, int64_t capacity) {
+    (void)field, (void)count, (void)points, (void)out, (void)capacity;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int32_t peri_interpolate_field(peri_body *b, int32_t field, int32_t in_place, int64_t count, const double *places, double *out,
+                                        int64_t capacity) {
+    (void)field, (void)in_place, (void)count, (void)places, (void)out, (void)capacity;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int64_t peri_size_of_bonds(const peri_body *b, int32_t set, int32_t bond) {
+    (void)set, (void)bond;
+    return peri__without((peri_body *)b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int32_t peri_get_bonds(peri_body *b, int32_t set, int32_t bond, double *out, int64_t capacity) {
+    (void)set, (void)bond, (void)out, (void)capacity;
     return peri__without(b, "PERI_NO_OUTPUT");
 }
 
@@ -134,6 +160,11 @@ PERI_API int32_t peri_get_outline(peri_body *b, int32_t fragment, double *vertic
 #ifndef PERI_NO_STDIO
 PERI_API int32_t peri_export_vtu(peri_body *b, const char *path) {
     (void)path;
+    return peri__without(b, "PERI_NO_OUTPUT");
+}
+
+PERI_API int32_t peri_export_frame(peri_body *b, const char *path, int64_t frame, const int32_t *fields, int64_t count) {
+    (void)path, (void)frame, (void)fields, (void)count;
     return peri__without(b, "PERI_NO_OUTPUT");
 }
 

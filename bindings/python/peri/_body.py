@@ -66,6 +66,18 @@ class Body(g.BodyCalls):
 
     get_field.__doc__ = g.BodyCalls.get_field.__doc__
 
+    def get_field_at(self, field: Any, points: Any) -> np.ndarray:
+        values = super().get_field_at(field, points)
+        return values if values.size == np.size(points) else values.reshape(np.size(points), -1)
+
+    get_field_at.__doc__ = g.BodyCalls.get_field_at.__doc__
+
+    def interpolate_field(self, field: Any, in_place: int, places: Any) -> np.ndarray:
+        values, count = super().interpolate_field(field, in_place, places), np.size(places) // self.dimension
+        return values if values.size == count else values.reshape(count, -1)
+
+    interpolate_field.__doc__ = g.BodyCalls.interpolate_field.__doc__
+
     def _live(self, which: Any) -> LiveField:
         return LiveField(self, which)
 

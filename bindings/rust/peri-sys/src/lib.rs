@@ -379,11 +379,33 @@ pub const PERI_FIELD_EIGENSTRAIN: i32 = 2021;
 pub const PERI_FIELD_STRENGTH: i32 = 2022;
 /// W times E \[-\] 1e-6..1e6. Default 1
 pub const PERI_FIELD_STIFFNESS: i32 = 2023;
+/// \[dim\*dim\] F by rows
+pub const PERI_FIELD_DEFORMATION_GRADIENT: i32 = 2024;
 
 // peri_type
 pub const PERI_TYPE_F64: i32 = 1601;
 pub const PERI_TYPE_F32: i32 = 1602;
 pub const PERI_TYPE_I32: i32 = 1603;
+
+// peri_bond
+/// i
+pub const PERI_BOND_POINT: i32 = 4001;
+/// j
+pub const PERI_BOND_OTHER: i32 = 4002;
+/// \|xi\| \[L\]
+pub const PERI_BOND_LENGTH: i32 = 4003;
+/// beta V\_j \[L^3\]
+pub const PERI_BOND_VOLUME: i32 = 4004;
+/// w beta V\_j, corrected
+pub const PERI_BOND_WEIGHT: i32 = 4005;
+/// 1 or 0
+pub const PERI_BOND_INTACT: i32 = 4006;
+/// \[-\]
+pub const PERI_BOND_STRETCH: i32 = 4007;
+/// \[dim\] part of the force density of i
+pub const PERI_BOND_FORCE: i32 = 4008;
+/// and of the energy density
+pub const PERI_BOND_ENERGY: i32 = 4009;
 
 // peri_source
 /// peri\_add\_box
@@ -1025,7 +1047,7 @@ pub struct peri_view {
     pub point_stride: i64,
     /// in elements
     pub component_stride: i64,
-    /// 1, dim, or 3 or 6 of a tensor
+    /// 1, dim, 3 or 6 of a tensor, or dim\*dim
     pub components: i32,
     /// peri\_type
     pub r#type: i32,
@@ -1469,6 +1491,14 @@ unsafe extern "C" {
     pub fn peri_set_field(body: *mut peri_body, field: i32, r#in: *const f64, count: i64) -> i32;
     /// Without a copy. Of a stored field it shows the present state; of a derived one that of the call, until it is viewed again.
     pub fn peri_view_field(body: *mut peri_body, field: i32, view: *mut peri_view) -> i32;
+    /// Of points\[count\] alone: count\*components.
+    pub fn peri_get_field_at(body: *mut peri_body, field: i32, count: i64, points: *const i32, out: *mut f64, capacity: i64) -> i32;
+    /// At places\[count\*dim\] \[L\], in\_place = 1: present ones: linear fields exactly, not across cracks. Outside: NaN.
+    pub fn peri_interpolate_field(body: *mut peri_body, field: i32, in_place: i32, count: i64, places: *const f64, out: *mut f64, capacity: i64) -> i32;
+    /// Bonds of the points of a set, as in peri\_get\_families.
+    pub fn peri_size_of_bonds(body: *const peri_body, set: i32, bond: i32) -> i64;
+    /// Bonds of the points of a set, as in peri\_get\_families.
+    pub fn peri_get_bonds(body: *mut peri_body, set: i32, bond: i32, out: *mut f64, capacity: i64) -> i32;
     /// Costs one evaluation of the forces.
     pub fn peri_get_energy(body: *mut peri_body, energy: *mut peri_energy) -> i32;
     /// Momentum \[M L T^-1\] to linear\[dim\], about the origin \[M L^2 T^-1\] to angular\[1\] (2D) or \[3\]. Either may be NULL.
@@ -1489,9 +1519,13 @@ unsafe extern "C" {
     pub fn peri_export_cracks_to(cracks: *const peri_cracks, write: peri_write_fn, user: *mut c_void) -> i32;
     /// VTK XML for ParaView; "Warp By Vector" shows the deformed body.
     pub fn peri_export_vtu_to(body: *mut peri_body, write: peri_write_fn, user: *mut c_void) -> i32;
+    /// fields\[count\], each once, or NULL: as above.
+    pub fn peri_export_fields_to(body: *mut peri_body, fields: *const i32, count: i64, write: peri_write_fn, user: *mut c_void) -> i32;
     /// One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first.
     pub fn peri_export_history_to(body: *mut peri_body, header: i32, write: peri_write_fn, user: *mut c_void) -> i32;
     pub fn peri_export_vtu(body: *mut peri_body, path: *const c_char) -> i32;
+    /// Frame 0, 1, ... of a series: its VTU beside \`path\`, a .pvd.
+    pub fn peri_export_frame(body: *mut peri_body, path: *const c_char, frame: i64, fields: *const i32, count: i64) -> i32;
     /// append = 0 starts the file with a header, 1 adds a line.
     pub fn peri_export_history(body: *mut peri_body, path: *const c_char, append: i32) -> i32;
     /// Saves the state: motion, bonds, what criteria keep, time, ledger. Not the scene: load it into a body that the same calls

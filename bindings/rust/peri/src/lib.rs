@@ -507,9 +507,29 @@ pub const FIELD_EIGENSTRAIN: i32 = sys::PERI_FIELD_EIGENSTRAIN;
 pub const FIELD_STRENGTH: i32 = sys::PERI_FIELD_STRENGTH;
 /// W times E \[-\] 1e-6..1e6. Default 1
 pub const FIELD_STIFFNESS: i32 = sys::PERI_FIELD_STIFFNESS;
+/// \[dim\*dim\] F by rows
+pub const FIELD_DEFORMATION_GRADIENT: i32 = sys::PERI_FIELD_DEFORMATION_GRADIENT;
 pub const TYPE_F64: i32 = sys::PERI_TYPE_F64;
 pub const TYPE_F32: i32 = sys::PERI_TYPE_F32;
 pub const TYPE_I32: i32 = sys::PERI_TYPE_I32;
+/// i
+pub const BOND_POINT: i32 = sys::PERI_BOND_POINT;
+/// j
+pub const BOND_OTHER: i32 = sys::PERI_BOND_OTHER;
+/// \|xi\| \[L\]
+pub const BOND_LENGTH: i32 = sys::PERI_BOND_LENGTH;
+/// beta V\_j \[L^3\]
+pub const BOND_VOLUME: i32 = sys::PERI_BOND_VOLUME;
+/// w beta V\_j, corrected
+pub const BOND_WEIGHT: i32 = sys::PERI_BOND_WEIGHT;
+/// 1 or 0
+pub const BOND_INTACT: i32 = sys::PERI_BOND_INTACT;
+/// \[-\]
+pub const BOND_STRETCH: i32 = sys::PERI_BOND_STRETCH;
+/// \[dim\] part of the force density of i
+pub const BOND_FORCE: i32 = sys::PERI_BOND_FORCE;
+/// and of the energy density
+pub const BOND_ENERGY: i32 = sys::PERI_BOND_ENERGY;
 /// peri\_add\_box
 pub const SOURCE_BOX: i32 = sys::PERI_SOURCE_BOX;
 /// peri\_add\_perturbed\_box
@@ -2666,6 +2686,33 @@ impl Body {
         self.check(i64::from(result))?;
         Ok(View { raw: unsafe { view.assume_init() }, body: std::marker::PhantomData })
     }
+    /// Of points\[count\] alone: count\*components.
+    pub fn get_field_at(&self, field: i32, points: &[i32], out: &mut [f64]) -> Result<i32> {
+        let result = unsafe { sys::peri_get_field_at(self.handle, field, (points.len() as i64), points.as_ptr(), out.as_mut_ptr(), (out.len() as i64)) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// At places\[count\*dim\] \[L\], in\_place = 1: present ones: linear fields exactly, not across cracks. Outside: NaN.
+    pub fn interpolate_field(&self, field: i32, in_place: i32, places: &[f64], out: &mut [f64]) -> Result<i32> {
+        if places.len() as i64 % (i64::from(self.dimension())) != 0 {
+                    return Err(refused("places"));
+                }
+        let result = unsafe { sys::peri_interpolate_field(self.handle, field, in_place, (places.len() as i64 / (i64::from(self.dimension()))), places.as_ptr(), out.as_mut_ptr(), (out.len() as i64)) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// Bonds of the points of a set, as in peri\_get\_families.
+    pub fn size_of_bonds(&self, set: i32, bond: i32) -> Result<i64> {
+        let result = unsafe { sys::peri_size_of_bonds(self.handle, set, bond) };
+        self.check(result)?;
+        Ok(result)
+    }
+    /// Bonds of the points of a set, as in peri\_get\_families.
+    pub fn get_bonds(&self, set: i32, bond: i32, out: &mut [f64]) -> Result<i32> {
+        let result = unsafe { sys::peri_get_bonds(self.handle, set, bond, out.as_mut_ptr(), (out.len() as i64)) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
     /// Costs one evaluation of the forces.
     pub fn get_energy(&self) -> Result<Energy> {
         let mut energy = std::mem::MaybeUninit::<sys::peri_energy>::zeroed();
@@ -2701,6 +2748,16 @@ impl Body {
         self.check(i64::from(result))?;
         Ok(result)
     }
+    /// fields\[count\], each once, or NULL: as above.
+    pub fn export_fields_to(&self, fields: Option<&[i32]>, write: &mut dyn FnMut(&[u8]) -> i32) -> Result<i32> {
+        let count = (fields.as_deref().map_or(0, |a| a.len()) as i64);
+        let mut holder = WriteFnHolder { call: Some(write) };
+        let user = &mut holder as *mut _ as *mut c_void;
+        let call_c: sys::peri_write_fn = Some(WriteFnHolder::call_c);
+        let result = unsafe { sys::peri_export_fields_to(self.handle, fields.map_or(std::ptr::null(), |a| a.as_ptr()), count, call_c, user) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
     /// One CSV line: step, time, the ledger, broken and cut bonds; header = 1: the names first.
     pub fn export_history_to(&self, header: i32, write: &mut dyn FnMut(&[u8]) -> i32) -> Result<i32> {
         let mut holder = WriteFnHolder { call: Some(write) };
@@ -2713,6 +2770,14 @@ impl Body {
     pub fn export_vtu(&self, path: &str) -> Result<i32> {
         let path_c = c_text(path, "path")?;
         let result = unsafe { sys::peri_export_vtu(self.handle, path_c.as_ptr()) };
+        self.check(i64::from(result))?;
+        Ok(result)
+    }
+    /// Frame 0, 1, ... of a series: its VTU beside \`path\`, a .pvd.
+    pub fn export_frame(&self, path: &str, frame: i64, fields: Option<&[i32]>) -> Result<i32> {
+        let count = (fields.as_deref().map_or(0, |a| a.len()) as i64);
+        let path_c = c_text(path, "path")?;
+        let result = unsafe { sys::peri_export_frame(self.handle, path_c.as_ptr(), frame, fields.map_or(std::ptr::null(), |a| a.as_ptr()), count) };
         self.check(i64::from(result))?;
         Ok(result)
     }
