@@ -518,6 +518,11 @@ def probes_and_bonds():
     check(np.allclose(total, force, rtol=0, atol=1e-12 * np.abs(pulls).max()), "bonds add up to the force density")
 
 
+def worlds():
+    import test_python_world
+    test_python_world.run(check, raises, peri)
+
+
 # ---- parts of their own ----------------------------------------------------------------------------------------------
 
 def sizes_are_those_of_c():
@@ -541,7 +546,7 @@ def pictures():
 
 api = test_python_header.api
 CASES = [same_as_c, arrays_without_copies, arrays_are_checked, errors_say_where, exceptions_pass_through, callbacks_are_python, probes_and_bonds,
-         frames_leak_nothing, control_c_stops, the_lock_is_free, sizes_are_those_of_c, what_is_added_appears, pictures]
+         worlds, frames_leak_nothing, control_c_stops, the_lock_is_free, sizes_are_those_of_c, what_is_added_appears, pictures]
 
 
 def main():

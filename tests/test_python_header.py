@@ -12,7 +12,7 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 sys.path.insert(0, os.path.join(ROOT, "tools"))
 import api as header  # noqa: E402
 
-api = header.load()
+api = header.without_joining(header.load())
 
 
 def layout(struct_of, api, words):

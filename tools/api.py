@@ -441,7 +441,7 @@ def load():
     return api
 
 
-# Handles that join several others. They are C's alone: no binding has classes that hold others alive.
+# Handles that join several others: classes that hold others alive are written by hand (Python's World), or left to the functions of C.
 JOINING = ("peri_world",)
 
 

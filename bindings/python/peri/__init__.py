@@ -21,5 +21,6 @@ from ._fields import LiveField
 from ._generated import *  # noqa: F401,F403
 from ._generated import VERSION as __version__
 from ._generated import __all__ as _names
+from ._world import World
 
-__all__ = ["Body", "Cracks", "Matrix", "LiveField", "PeriError"] + [n for n in _names if not hasattr(_builtins, n)]
+__all__ = ["Body", "Cracks", "Matrix", "World", "LiveField", "PeriError"] + [n for n in _names if not hasattr(_builtins, n)]

@@ -240,7 +240,7 @@ def _arguments(spec: Callback, given: tuple, one: _Call) -> tuple[list, list]:
             if how == "in out":
                 outs.append((value, array))
         elif how == "body":
-            arguments.append(one.owner)
+            arguments.append(one.owner._body_at(value) if hasattr(one.owner, "_body_at") else one.owner)
         elif how == "text":
             arguments.append(value.decode())
         elif how == "bytes in":
