@@ -564,7 +564,7 @@ typedef struct peri_part_desc {
     const int32_t *ghosts;     /* [ghost_count] points, ascending */
     const int32_t *owners;     /* [ghost_count] the point that it is an image of in a periodic body,
                                   or -1. Default NULL: none is */
-    const int64_t *ids;        /* [points] in the whole body, ascending. Default NULL: 0, 1, ... */
+    const int64_t *ids;        /* [points] in the whole body, ascending. Default NULL: unknown */
     peri_exchange_fn exchange; /* where another part owns ghosts. Default NULL */
     peri_reduce_fn reduce;     /* of several parts. Default NULL */
     void *user;

@@ -122,6 +122,7 @@ PERI_SMALL
 PERI_SMALL_END
 #include "src/body/flow.c"         /* inelastic extensions of bonds -> force, energy, tangent                         */
 #include "src/body/part.c"         /* parts of larger bodies, periodic cells: what they ask each other              */
+#include "src/body/ghosts.c"       /* whether ghosts are as their owners                                              */
 PERI_SMALL
 #include "src/body/body.c"         /* create, build, destroy                                                       */
 #include "src/body/clone.c"        /* copies; counts                                                               */

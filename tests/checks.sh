@@ -63,6 +63,7 @@ queue migrate "sh tests/check_migrate.sh"
 queue tools "sh tests/check_tools.sh"
 queue run "CC='$CC' OPENMP='$OPENMP' OMP_WAIT_POLICY=passive sh tests/check_run.sh"
 queue mpi "OPENMP='$OPENMP' sh tests/check_mpi.sh"
+queue petsc "OPENMP='$OPENMP' sh tests/check_petsc.sh"
 queue promises "CC='$CC' OPENMP='$OPENMP' sh tests/check_promises.sh"
 if command -v tcc > /dev/null; then
     queue tcc "tcc -I. -c peri_impl.c -o build/checks/tcc.o"

@@ -103,6 +103,46 @@ static void matrices_tell_of_failures(void) {
     CHECK(p.blocks == 0 && p.bytes == 0 && p.wrong == 0);
 }
 
+/* Changes that have to know the energy before them: they say that it failed, and change nothing. */
+static void changes_tell_of_failures(void) {
+    const double from[2] = {2.9, -1}, to[2] = {2.9, 9}, v[2] = {0.01, 0.02};
+    const int32_t pair[2] = {0, 1};
+    double field[2 * POINTS], now[2 * POINTS];
+    for (int own = 0; own < 2; ++own)
+        for (int k = 0; k < 6; ++k) {
+            peri_body *b = plate(own, NULL);
+            peri_advance_desc a;
+            peri_energy e;
+            peri_contact_desc contact;
+            peri_advance_desc_init(&a), a.steps = 2;
+            (void)MUST(b, peri_advance(b, &a));
+            (void)MUST(b, peri_get_energy(b, &e));
+            (void)MUST(b, peri_get_field(b, PERI_FIELD_VELOCITY, field, 2 * POINTS));
+            peri_contact_desc_init(&contact);
+            for (int turn = 0; turn < 2; ++turn) {
+                fails = turn == 0;
+                field[3] += 0.5;
+                const int64_t said = k == 0   ? peri_add_velocity(b, PERI_ALL, v)
+                                     : k == 1 ? peri_add_displacement(b, PERI_ALL, v)
+                                     : k == 2 ? peri_set_field(b, PERI_FIELD_VELOCITY, field, 2 * POINTS)
+                                     : k == 3 ? peri_cut_segment(b, PERI_CUT_NOW, from, to)
+                                     : k == 4 ? peri_cut_pairs(b, PERI_CUT_NOW, 1, pair)
+                                              : peri_set_contact(b, PERI_ALL, PERI_ALL, &contact);
+                fails = 0;
+                if (k == 5 && own && turn == 1 && said < 0) continue; /* contact is refused there, anyway */
+                if (turn == 0 && !(k == 5 && own && said != PERI_ERROR_CALLBACK)) told(b, said, own);
+                if (turn == 1) CHECK(said >= 0);
+                if (turn == 1) continue;
+                const double before = e.error;
+                (void)MUST(b, peri_get_energy(b, &e));
+                CHECK(e.error == before && peri_broken_count(b) == 0);
+                (void)MUST(b, peri_get_field(b, PERI_FIELD_VELOCITY, now, 2 * POINTS));
+                CHECK(k == 2 || memcmp(now, field, sizeof(double) * 3) == 0);
+            }
+            peri_body_destroy(b);
+        }
+}
+
 /* ---- bonds of other pairs ---------------------------------------------------------------------------------------------- */
 
 typedef struct sight { /* what a law has seen, and whether each bond was its own                                                */
@@ -253,6 +293,7 @@ int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(fields_tell_of_failures);
     RUN(matrices_tell_of_failures);
+    RUN(changes_tell_of_failures);
     RUN(laws_see_their_own_bonds);
     RUN(constants_tell_where_softening_bonds_break);
     RUN(same_density_takes_no_memory);

@@ -87,6 +87,7 @@ static peri_body *make_part(job *j, uint8_t *take) {
     peri_body_desc d;
     peri_material_desc m;
     peri_part_desc p;
+    peri_error error;
     chosen by = {take};
     peri_body_desc_init(&d);
     d.space = PERI_SPACE_PLANE_STRAIN, d.precision = s->precision, d.horizon = reach, d.threads = 1;
@@ -115,9 +116,12 @@ static peri_body *make_part(job *j, uint8_t *take) {
     peri_part_desc_init(&p);
     p.length = h, p.mean_volume = h * h, p.ghost_count = j->r.ghosts, p.ghosts = j->r.ghost, p.ids = j->r.ids;
     p.exchange = rank_exchange, p.reduce = rank_reduce, p.user = j;
+    for (int64_t k = 0; j->fault == 8 && k < j->r.points; ++k) j->r.ids[k] += k > j->r.points / 2;
+    if (j->fault == 9) p.ids = NULL;
     if (j->status >= 0) j->status = peri_set_part(b, &p);
     if (j->status >= 0 && j->fault == 1) j->status = peri_set_families(b, 1, j->r.ghost);
     if (j->status >= 0) j->status = peri_build(b);
+    if (j->fault >= 8 && (peri_get_error(b, &error) != PERI_OK || strcmp(error.field, "ids") != 0)) j->status = -1000;
     return b;
 }
 
@@ -307,11 +311,12 @@ static void one_fails_all_end(void) {
     static const struct {
         int     fault;
         int32_t status;
-    } rows[7] = {{1, PERI_ERROR_PART}, {2, PERI_ERROR_CALLBACK}, {3, PERI_ERROR_CALLBACK}, {4, PERI_ERROR_CALLBACK},
-                 {5, PERI_ERROR_CALLBACK}, {6, PERI_ERROR_PART}, {7, PERI_ERROR_RANGE}};
+    } rows[9] = {{1, PERI_ERROR_PART}, {2, PERI_ERROR_CALLBACK}, {3, PERI_ERROR_CALLBACK}, {4, PERI_ERROR_CALLBACK},
+                 {5, PERI_ERROR_CALLBACK}, {6, PERI_ERROR_PART}, {7, PERI_ERROR_RANGE}, {8, PERI_ERROR_PART},
+                 {9, PERI_ERROR_PART}};
     scene s = {PERI_LAW_LPS, PERI_PRECISION_DOUBLE, 0, 0, 0, LATTICE, 40, 0, 0, 0.01, 0, 0};
     for (int central = 0; central < 2; ++central)
-        for (int k = 0; k < 7; ++k) {
+        for (int k = 0; k < 9; ++k) {
             static outcome out;
             int32_t status[RANKS_MOST];
             s.integrator = central ? PERI_INTEGRATOR_CENTRAL_DIFFERENCE : PERI_INTEGRATOR_VELOCITY_VERLET;

@@ -644,7 +644,7 @@ module peri_c
         type(c_ptr) :: ghosts = c_null_ptr
         ! [ghost_count] the point that it is an image of in a periodic body, or -1. Default NULL: none is
         type(c_ptr) :: owners = c_null_ptr
-        ! [points] in the whole body, ascending. Default NULL: 0, 1, ...
+        ! [points] in the whole body, ascending. Default NULL: unknown
         type(c_ptr) :: ids = c_null_ptr
         ! c_funloc of a peri_exchange_fn. where another part owns ghosts. Default NULL
         type(c_funptr) :: exchange = c_null_funptr

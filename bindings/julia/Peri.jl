@@ -349,7 +349,7 @@ mutable struct peri_part_desc
     ghost_count::Int64 # Default 0
     ghosts::Ptr{Int32} # [ghost_count] points, ascending
     owners::Ptr{Int32} # [ghost_count] the point that it is an image of in a periodic body, or -1. Default NULL: none is
-    ids::Ptr{Int64} # [points] in the whole body, ascending. Default NULL: 0, 1, ...
+    ids::Ptr{Int64} # [points] in the whole body, ascending. Default NULL: unknown
     exchange::Ptr{Cvoid} # where another part owns ghosts. Default NULL
     reduce::Ptr{Cvoid} # of several parts. Default NULL
     user::Ptr{Cvoid}

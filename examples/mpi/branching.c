@@ -57,6 +57,7 @@ int main(int argc, char **argv) {
     must(b, peri_get_energy(b, &energy));
     if (p.rank == 0) printf("%d processes: kinetic %.12g, elastic %.12g, fracture %.12g J\n", p.ranks, energy.kinetic, energy.elastic, energy.fracture);
     part_write(&p, b, "out/mpi_branching");
+    part_show(&p, b, "out/mpi_branching");
     part_free(&p);
     peri_body_destroy(b);
     MPI_Finalize();

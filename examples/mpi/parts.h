@@ -10,6 +10,8 @@
 
 #include "../../peri.h"
 
+#define PART_FRAMES 500
+
 typedef struct part {
     int      rank, ranks;
     int32_t  dim, deep; /* layers of ghosts */
@@ -23,6 +25,8 @@ typedef struct part {
     int64_t *send_from, *receive_from; /* [ranks+1] */
     char    *out, *in;
     MPI_Request *request;
+    double   time[PART_FRAMES]; /* of the frames written */
+    int      frames;
 } part;
 
 static inline int64_t must(const peri_body *body, int64_t result) {
@@ -162,7 +166,38 @@ static inline void part_set(part *p, peri_body *b, const double *origin, double 
     must(b, peri_set_part(b, &desc));
 }
 
-/* NAME.bin: dim components of displacement and the damage of each cell; NAME_RANK.vtu, and NAME.pvtu, which has them all. */
+/* NAME_RANK.vtu, and NAME.pvtu, which has them all: ParaView opens that. */
+static inline void part_show(const part *p, peri_body *b, const char *name) {
+    char path[300];
+    (void)snprintf(path, sizeof path, "%s_%d.vtu", name, p->rank);
+    must(b, peri_export_vtu(b, path));
+    (void)snprintf(path, sizeof path, "%s.pvtu", name);
+    FILE *file = p->rank == 0 ? fopen(path, "w") : NULL;
+    const char *base = strrchr(name, '/') ? strrchr(name, '/') + 1 : name;
+    if (file) fprintf(file, "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\">\n<PUnstructuredGrid>\n<PPoints><PDataArray type=\"Float64\" "
+                            "NumberOfComponents=\"3\"/></PPoints>\n<PPointData>"
+                            "<PDataArray type=\"Float64\" Name=\"displacement\" NumberOfComponents=\"3\"/>"
+                            "<PDataArray type=\"Float64\" Name=\"damage\"/><PDataArray type=\"Float64\" Name=\"fragment\"/></PPointData>\n");
+    for (int k = 0; file && k < p->ranks; ++k) fprintf(file, "<Piece Source=\"%s_%d.vtu\"/>\n", base, k);
+    if (file) fprintf(file, "</PUnstructuredGrid>\n</VTKFile>\n"), (void)fclose(file);
+}
+
+/* The next of a series: NAME_000, NAME_001, ...; NAME.pvd has them all with their times. */
+static inline void part_frame(part *p, peri_body *b, const char *name) {
+    char path[256];
+    const char *base = strrchr(name, '/') ? strrchr(name, '/') + 1 : name;
+    if (p->frames == PART_FRAMES) return;
+    (void)snprintf(path, sizeof path, "%s_%03d", name, p->frames);
+    part_show(p, b, path);
+    p->time[p->frames++] = peri_time(b);
+    (void)snprintf(path, sizeof path, "%s.pvd", name);
+    FILE *file = p->rank == 0 ? fopen(path, "w") : NULL;
+    if (file) fprintf(file, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\">\n<Collection>\n");
+    for (int k = 0; file && k < p->frames; ++k) fprintf(file, "<DataSet timestep=\"%.9g\" file=\"%s_%03d.pvtu\"/>\n", p->time[k], base, k);
+    if (file) fprintf(file, "</Collection>\n</VTKFile>\n"), (void)fclose(file);
+}
+
+/* NAME.bin: dim components of displacement and the damage of each cell, in the order of the cells. */
 static inline void part_write(const part *p, peri_body *b, const char *name) {
     const int32_t width = p->dim + 1;
     double *u = (double *)room(p->points * p->dim, sizeof *u), *damage = (double *)room(p->points, sizeof *damage);
@@ -176,20 +211,9 @@ static inline void part_write(const part *p, peri_body *b, const char *name) {
         own[p->ids[k] * width + p->dim] = damage[k];
     }
     MPI_Reduce(own, all, (int)(p->count * width), MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD); /* one is no 0 */
-    (void)snprintf(path, sizeof path, "%s_%d.vtu", name, p->rank);
-    must(b, peri_export_vtu(b, path));
     (void)snprintf(path, sizeof path, "%s.bin", name);
     FILE *file = p->rank == 0 ? fopen(path, "wb") : NULL;
     if (file) (void)fwrite(all, sizeof *all, (size_t)(p->count * width), file), (void)fclose(file);
-    (void)snprintf(path, sizeof path, "%s.pvtu", name);
-    file = p->rank == 0 ? fopen(path, "w") : NULL;
-    const char *base = strrchr(name, '/') ? strrchr(name, '/') + 1 : name;
-    if (file) fprintf(file, "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\">\n<PUnstructuredGrid>\n<PPoints><PDataArray type=\"Float64\" "
-                            "NumberOfComponents=\"3\"/></PPoints>\n<PPointData>"
-                            "<PDataArray type=\"Float64\" Name=\"displacement\" NumberOfComponents=\"3\"/>"
-                            "<PDataArray type=\"Float64\" Name=\"damage\"/><PDataArray type=\"Float64\" Name=\"fragment\"/></PPointData>\n");
-    for (int k = 0; file && k < p->ranks; ++k) fprintf(file, "<Piece Source=\"%s_%d.vtu\"/>\n", base, k);
-    if (file) fprintf(file, "</PUnstructuredGrid>\n</VTKFile>\n"), (void)fclose(file);
     free(u), free(damage), free(own), free(all);
 }
 

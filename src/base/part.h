@@ -14,7 +14,7 @@ typedef struct peri__domain {
     int64_t  bytes, points, blocks; /* of this block of memory; that arrays have room for                                */
     int32_t *ghosts;         /* [desc.ghost_count] ascending                                                             */
     int32_t *owners;         /* [desc.ghost_count] of images, else -1                                                    */
-    int64_t *ids;            /* [points]                                                                                 */
+    int64_t *ids;            /* [points] in the whole body; NULL where not given                                         */
     int32_t *owned;          /* [points - ghosts] ascending                                                              */
     uint8_t *depth;          /* [points]; PERI_DEEPEST and more alike                                                    */
     uint8_t *force_skip, *gather_skip; /* [blocks] 1: no point there whose force, or response, is needed                  */

@@ -134,11 +134,11 @@ PERI_API int32_t peri_set_contact(peri_body *b, int32_t i, int32_t j, const peri
     PERI_NEED_WHOLE(b, "peri_set_contact");
     const int64_t p = peri__material_or_all(b, i, "i"), q = p < -1 ? -1 : peri__material_or_all(b, j, "j");
     if (p < -1 || q < -1) return (int32_t)(p < -1 ? p + 1 : q + 1);
-    const int32_t status = d ? peri__check_contact(b, d) : PERI_OK;
+    int32_t status = d ? peri__check_contact(b, d) : PERI_OK;
+    if (status == PERI_OK) status = peri__note_energy(b);
     if (status < 0) return status;
     peri__contact *next = peri__next_contact(b, p, q, d, &failed);
     if (failed) return b->error.code;
-    peri__note_energy(b);
     peri__free_contact(b, b->contact);
     b->contact = next;
     peri__changed(b, PERI__ACTION);

@@ -77,6 +77,21 @@ static int32_t peri__need_flags(peri_body *b, int32_t standing) {
     return PERI_OK;
 }
 
+/* Is the bond i-j counted by its direction from i? So is one of its two directions, on one part; and of a bond in a periodic cell, which
+   images show twice, the one that leads up from the lower of the two points that they are images of. */
+static int peri__counts(const peri_body *b, int64_t i, int64_t j) {
+    const peri__model *m = b->model;
+    double xi[3];
+    int32_t d = 0;
+    if (!m->part) return i < j;
+    if (m->part->depth[i]) return 0;
+    const int64_t source = peri__source_of(m->part, j);
+    if (source != i) return i < (source < 0 ? j : source);
+    peri__bond_of(m, m->f32, i, j, xi);
+    while (d + 1 < m->dim && fabs(xi[d]) <= peri__image_play(b)) ++d;
+    return xi[d] > 0.0;
+}
+
 /* Cuts bond k of row i, one direction; returns 1 where it was whole. */
 static int peri__cut_one(peri_body *b, int32_t standing, int64_t i, int64_t k) {
     uint32_t flag = (uint32_t)1 << (k % 32), *alive = &b->alive[i * b->model->words + k / 32];
@@ -128,7 +143,7 @@ static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sum
             *alive &= ~flag;
             if (cutter->standing == PERI_CUT_INITIAL) b->uncut[i * m->words + k / 32] &= ~flag;
             if (!peri__is_ghost(m, i)) sums->n++;
-            if (!peri__is_ghost(m, i) && i < j) sums->a += 1.0;
+            sums->a += peri__counts(b, i, j);
         }
     }
 }
@@ -136,8 +151,8 @@ static void peri__cut_block(void *context, int64_t begin, int64_t end, peri__sum
 static int64_t peri__apply_crack(peri_body *b, int32_t standing, const peri__crack *crack) {
     peri__cutter cutter;
     int32_t status = peri__need_flags(b, standing);
+    if (status == PERI_OK) status = peri__alter(b, PERI__CUTS);
     if (status < 0) return status;
-    peri__changed(b, PERI__CUTS);
     cutter.body = b;
     cutter.crack = crack;
     cutter.standing = standing;
@@ -298,11 +313,12 @@ PERI_API int64_t peri_cut_pairs(peri_body *b, int32_t standing, int64_t count, c
         if (peri__find_bond(b->model, i, j) < 0) return peri__fail(b, PERI_ERROR_PAIR, "pairs", k, 0.0);
     }
     int32_t status = peri__need_flags(b, standing);
+    if (status == PERI_OK) status = peri__alter(b, PERI__CUTS);
     if (status < 0) return status;
-    peri__changed(b, PERI__CUTS);
     for (int64_t k = 0; k < count; ++k) {
         int32_t i = pairs[2 * k], j = pairs[2 * k + 1];
-        cut += peri__cut_one(b, standing, i, peri__find_bond(b->model, i, j));
+        const int counts = peri__counts(b, i, j) || peri__counts(b, j, i);
+        if (peri__cut_one(b, standing, i, peri__find_bond(b->model, i, j))) cut += counts;
         (void)peri__cut_one(b, standing, j, peri__find_bond(b->model, j, i));
     }
     peri__note_cuts(b, standing);
@@ -335,13 +351,15 @@ static int32_t peri__choose_cuts(const peri_body *b, int32_t standing, peri_pair
 static int64_t peri__cut_chosen(peri_body *b, int32_t standing, const uint32_t *chosen) {
     const peri__model *m = b->model;
     int64_t count = 0;
-    peri__changed(b, PERI__CUTS);
+    const int32_t status = peri__alter(b, PERI__CUTS);
+    if (status < 0) return status;
     for (int64_t i = 0; i < m->points; ++i) {
         peri__row row;
         peri__read_row(b, i, &row);
         for (int64_t k = 0; k < row.count; ++k) {
             if (!(chosen[i * m->words + k / 32] >> (k % 32) & 1)) continue;
-            count += peri__cut_one(b, standing, i, k);
+            const int counts = peri__counts(b, i, row.ids[k]) || peri__counts(b, row.ids[k], i);
+            if (peri__cut_one(b, standing, i, k)) count += counts;
             (void)peri__cut_one(b, standing, row.ids[k], peri__find_bond(m, row.ids[k], i));
         }
     }
@@ -416,13 +434,13 @@ static void peri__report_breaks(peri_body *b) {
     const peri__model *m = b->model;
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     for (int64_t i = 0; i < m->points && b->break_said >= 0; ++i) {
-        if (peri__is_ghost(m, i)) continue; /* the part that owns the lower end reports */
+        if (peri__is_ghost(m, i)) continue;
         if (memcmp(&b->before[i * m->words], &b->alive[i * m->words], (size_t)m->words * sizeof *b->alive) == 0) continue;
         peri__row row;
         peri__read_row(b, i, &row);
-        for (int64_t k = peri__next_bond(&row, i); k >= 0 && b->break_said >= 0; k = peri__next_bond(&row, row.ids[k])) {
+        for (int64_t k = peri__next_bond(&row, m->part ? -1 : i); k >= 0 && b->break_said >= 0; k = peri__next_bond(&row, row.ids[k])) {
             int64_t at = i * m->words + k / 32, j = row.ids[k];
-            if (!((b->before[at] & ~b->alive[at]) >> (k % 32) & 1)) continue;
+            if (!((b->before[at] & ~b->alive[at]) >> (k % 32) & 1) || !peri__counts(b, i, j)) continue;
             const int32_t said = b->on_break(b->break_user, (int32_t)i, (int32_t)j, peri__load_time(b), peri__stretch(b, i, &row, k));
             if (said < 0 || b->break_said == 0) b->break_said = said;
         }

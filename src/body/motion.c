@@ -17,11 +17,13 @@ static int peri__holds_below(const peri_body *b, double a, double limit) {
     return fabs(stored) < limit && (!b->f32 || fabs((double)(float)stored) < limit);
 }
 
-static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit,
-                                 const char *field) {
+/* ghost: points whose entries count for nothing, or NULL. */
+static int32_t peri__check_state(peri_body *b, const void *array, const double *in, int64_t count, double unit, const char *field,
+                                 const uint8_t *ghost) {
     const double limit = peri__state_limit(b, array);
     for (int64_t k = 0; k < count; ++k)
-        if (!peri__holds_below(b, in[k] / unit, limit)) return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);
+        if (!(ghost && ghost[k / b->dim]) && !peri__holds_below(b, in[k] / unit, limit))
+            return peri__fail(b, PERI_ERROR_RANGE, field, k / b->dim, in[k]);
     return PERI_OK;
 }
 
@@ -46,9 +48,9 @@ static int32_t peri__add_to(peri_body *b, void *array, double unit, int32_t id, 
     PERI_NEED_VECTOR(b, value);
     const int32_t set = peri__find_set(b, id);
     if (set < 0) return set;
-    const int32_t status = peri__check_sums(b, array, unit, set, value);
+    int32_t status = peri__check_sums(b, array, unit, set, value);
+    if (status == PERI_OK) status = peri__alter(b, PERI__MOTION);
     if (status < 0) return status;
-    peri__changed(b, PERI__MOTION);
     for (int64_t k = 0; k < peri__set_count(b, set); ++k)
         for (int32_t d = 0; d < b->dim; ++d) {
             const int64_t point = peri__set_point(b, set, k);
@@ -73,7 +75,8 @@ PERI_API int32_t peri_set_mean_gradient(peri_body *b, const double *gradient) {
     for (int32_t k = 0; k < b->dim * b->dim; ++k)
         if (!(fabs(gradient[k]) < 1e3)) return peri__fail(b, PERI_ERROR_RANGE, "gradient", k, gradient[k]);
     if (!b->model->part) return peri__fail(b, PERI_ERROR_PART, "peri_set_part", -1, 0.0);
-    peri__changed(b, PERI__MOTION);
+    const int32_t status = peri__alter(b, PERI__MOTION);
+    if (status < 0) return status;
     memcpy(b->mean_gradient, gradient, (size_t)(b->dim * b->dim) * sizeof *gradient);
     return PERI_OK;
 }
@@ -104,7 +107,7 @@ PERI_API int32_t peri_reset(peri_body *b) {
     int strained = b->eigenstrain != NULL;
     for (int32_t k = 0; k < 9; ++k) strained |= b->mean_gradient[k] != 0.0; /* of a periodic cell */
     if (strained) { /* the energy that it begins with is initial */
-        peri__changed(b, PERI__EIGENSTRAIN);
+        (void)peri__alter(b, PERI__EIGENSTRAIN);
         b->now.ledger.before = 0.0;
     }
     return PERI_OK;

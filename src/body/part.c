@@ -26,7 +26,7 @@
 /* A block of memory with all arrays, filled from those of the descriptor; NULL where memory is short. */
 static peri__domain *peri__new_part(const peri__memory *memory, const peri_part_desc *d, int64_t points) {
     const int64_t ghosts = d->ghost_count, blocks = (points + PERI_BLOCK - 1) / PERI_BLOCK, owned = points - ghosts;
-    const size_t words = sizeof(int64_t) * (size_t)(points + 1), ints = sizeof(int32_t) * (size_t)(2 * ghosts + owned);
+    const size_t words = sizeof(int64_t) * (size_t)(1 + (d->ids ? points : 0)), ints = sizeof(int32_t) * (size_t)(2 * ghosts + owned);
     const int64_t bytes = (int64_t)(sizeof(peri__domain) + words + ints + (size_t)(points + 2 * blocks));
     char *at = (char *)peri__new(memory, bytes, 1);
     peri__domain *p = (peri__domain *)(void *)at;
@@ -36,13 +36,13 @@ static peri__domain *peri__new_part(const peri__memory *memory, const peri_part_
     p->points = points;
     p->blocks = blocks;
     p->ids = (int64_t *)(void *)(at += (sizeof *p + sizeof(int64_t) - 1) / sizeof(int64_t) * sizeof(int64_t));
-    p->ghosts = (int32_t *)(void *)(p->ids + points);
+    p->ghosts = (int32_t *)(void *)(p->ids + (d->ids ? points : 0));
     p->owners = p->ghosts + ghosts;
     p->owned = p->owners + ghosts;
     p->depth = (uint8_t *)(p->owned + owned);
     p->force_skip = p->depth + points;
     p->gather_skip = p->force_skip + blocks;
-    for (int64_t i = 0; i < points; ++i) p->ids[i] = d->ids ? d->ids[i] : i;
+    for (int64_t i = 0; d->ids && i < points; ++i) p->ids[i] = d->ids[i];
     for (int64_t k = 0; k < ghosts; ++k) {
         p->ghosts[k] = d->ghosts[k];
         p->owners[k] = d->owners ? d->owners[k] : -1;
@@ -53,7 +53,8 @@ static peri__domain *peri__new_part(const peri__memory *memory, const peri_part_
     }
     p->desc.ghosts = p->ghosts;
     p->desc.owners = p->owners;
-    p->desc.ids = p->ids;
+    if (d->ids) p->desc.ids = p->ids;
+    else p->ids = NULL;
     return p;
 }
 
@@ -155,6 +156,13 @@ static int32_t peri__agree(peri_body *b, int32_t status, int count, double *most
     return status;
 }
 
+/* At the end of a collective call whose parts do not meet after their last exchange: all have its status. */
+static int32_t peri__end_together(peri_body *b, int32_t status) {
+    if (!b->told) status = peri__agree(b, status, 0, NULL);
+    b->told = 0;
+    return status;
+}
+
 /* At the end of a collective call: tells the other parts, which wait for it, that this one has failed. */
 static int32_t peri__tell_parts(peri_body *b, int32_t status) {
     if (status < 0 && !b->told) (void)peri__agree(b, status, 0, NULL);
@@ -187,8 +195,8 @@ static void peri__still_ghosts(peri_body *b) {
         }
 }
 
-/* Images have what their owners have; the mean gradient adds to displacements. */
-static void peri__copy_images(peri_body *b) {
+/* Images have what their owners have; to displacements the mean gradient adds. */
+static void peri__copy_images(const peri_body *b, void *vector, int displacement) {
     const peri__model *m = b->model;
     const peri__domain *p = m->part;
     for (int64_t k = 0; k < p->desc.ghost_count; ++k) {
@@ -196,28 +204,40 @@ static void peri__copy_images(peri_body *b) {
         if (o < 0) continue;
         for (int32_t d = 0; d < m->dim; ++d) {
             double jump = 0.0;
-            for (int32_t e = 0; e < m->dim; ++e)
+            for (int32_t e = 0; displacement && e < m->dim; ++e)
                 jump += b->mean_gradient[d * m->dim + e] * (peri__get_real(m->x, b->f32, e * m->stride + g)
                                                             - peri__get_real(m->x, b->f32, e * m->stride + o));
-            peri__put_real(b->u, b->f32, d * m->stride + g, peri__get_real(b->u, b->f32, d * m->stride + o) + jump);
-            peri__put_real(b->v, b->f32, d * m->stride + g, peri__get_real(b->v, b->f32, d * m->stride + o));
+            peri__put_real(vector, b->f32, d * m->stride + g, peri__get_real(vector, b->f32, d * m->stride + o) + jump);
         }
     }
 }
 
-/* Displacements of ghosts, and where bonds may break velocities, too: by those the moment of a break is known. */
-static int32_t peri__share_planes(peri_body *b, int32_t planes) {
+/* The first `planes` components of u and v to ghosts of other parts; v may be NULL. */
+static int32_t peri__share_vectors(peri_body *b, int32_t planes, void *u, void *v) {
     const peri__model *m = b->model;
     void *plane[6];
-    if (!m->part) return PERI_OK;
-    peri__copy_images(b);
-    if (!m->part->desc.exchange) return PERI_OK;
+    if (!m->part || !m->part->desc.exchange) return PERI_OK;
     for (int32_t k = 0; k < planes; ++k)
-        plane[k] = (char *)(k < m->dim ? b->u : b->v) + (size_t)(k % m->dim * m->stride) * peri__real(b);
+        plane[k] = (char *)(k < m->dim ? u : v) + (size_t)(k % m->dim * m->stride) * peri__real(b);
     const int32_t former = peri__enter(b, PERI__IN_CALLBACK);
     const int32_t said = m->part->desc.exchange(m->part->desc.user, b->f32 ? PERI_TYPE_F32 : PERI_TYPE_F64, planes, plane);
     peri__leave(b, former);
     return said ? peri__fail(b, PERI_ERROR_CALLBACK, "peri_exchange_fn", -1, said) : PERI_OK;
+}
+
+/* Displacements of ghosts, and where bonds may break velocities, too: by those the moment of a break is known. */
+static int32_t peri__share_planes(peri_body *b, int32_t planes) {
+    if (!b->model->part) return PERI_OK;
+    peri__copy_images(b, b->u, 1);
+    peri__copy_images(b, b->v, 0);
+    return peri__share_vectors(b, planes, b->u, b->v);
+}
+
+/* A vector of the caller's to ghosts. */
+static int32_t peri__share_vector(peri_body *b, void *vector, int displacement) {
+    if (!b->model->part) return PERI_OK;
+    peri__copy_images(b, vector, displacement);
+    return peri__share_vectors(b, b->dim, vector, NULL);
 }
 
 static int32_t peri__share_ghosts(peri_body *b) { return peri__share_planes(b, b->model->breakable ? 2 * b->dim : b->dim); }
@@ -277,36 +297,4 @@ static void peri__find_depths(const peri__model *m) {
         if (p->depth[i] <= forces) p->force_skip[i / PERI_BLOCK] = 0;
         if (p->depth[i] <= gathers) p->gather_skip[i / PERI_BLOCK] = 0;
     }
-}
-
-/* Are ghosts where their owners say they are, with as large families where these are needed? Nothing has moved yet. And has each bond of
-   an owned point with a ghost been found from both its ends? It counts 1 where the ghost is above, -1 where it is below. */
-static int32_t peri__compare_ghosts(peri_body *b) {
-    const peri__model *m = b->model;
-    const peri__domain *p = m->part;
-    const int32_t needed = peri_ghost_depth(b) - 1;
-    double open = 0.0;
-    peri__row row;
-    memcpy(b->u, m->x, (size_t)(m->stride * m->dim) * peri__real(b));
-    for (int64_t i = 0; i < m->points; ++i) peri__put_real(b->v, b->f32, i, m->count[i]);
-    int32_t status = peri__share_planes(b, 2 * m->dim);
-    for (int64_t k = 0; status == PERI_OK && k < p->desc.ghost_count; ++k) {
-        const int64_t i = p->ghosts[k];
-        for (int32_t d = 0; d < m->dim && p->owners[k] < 0; ++d)
-            if (peri__get_real(b->u, b->f32, d * m->stride + i) != peri__get_real(m->x, b->f32, d * m->stride + i))
-                status = peri__fail(b, PERI_ERROR_PART, "ghosts", i, peri__get_real(b->u, b->f32, d * m->stride + i));
-        if (p->depth[i] <= needed && peri__get_real(b->v, b->f32, i) != m->count[i])
-            status = peri__fail(b, PERI_ERROR_PART, "ghosts", i, m->count[i]);
-    }
-    for (int64_t k = 0; k < p->desc.ghost_count; ++k) {
-        const int64_t g = p->ghosts[k];
-        if (p->depth[g] != 1 || p->owners[k] >= 0) continue;
-        peri__row_of(m, g, &row);
-        for (int64_t n = 0; n < row.count; ++n) open += p->depth[row.ids[n]] > 0 ? 0.0 : g > row.ids[n] ? 1.0 : -1.0;
-    }
-    memset(b->u, 0, (size_t)(m->stride * m->dim) * peri__real(b));
-    memset(b->v, 0, (size_t)(m->stride * m->dim) * peri__real(b));
-    if (p->desc.reduce) status = peri__sum_parts(b, status, 1, &open);
-    if (status < 0 || !p->desc.reduce) return status;
-    return open == 0.0 ? PERI_OK : peri__fail(b, PERI_ERROR_PART, "ghosts", -1, open);
 }

@@ -71,10 +71,12 @@ static int32_t peri__set_point_field(peri_body *b, const peri__point_field *f, c
     const double without = peri__absent_value(f->field);
     void *array = peri__pointer_at(b, f->place);
     int64_t changed = 0;
-    const int32_t status = peri__check_point_field(b, f->field, in, f->least, f->most);
+    int32_t status = peri__check_point_field(b, f->field, in, f->least, f->most);
     if (status < 0) return status;
     while (changed < m->points && peri__field_at(b, array, changed, without) == in[changed]) changed++;
     if (changed == m->points) return PERI_OK; /* and nothing is stale                                                    */
+    if (f->change != PERI__ACTION) status = peri__note_energy(b);
+    if (status < 0) return status;
     if (!array) array = peri__new_point_field(b, without);
     if (!array) return peri__fail(b, PERI_ERROR_MEMORY, "in", -1, 0.0);
     peri__changed(b, f->change);
@@ -99,6 +101,8 @@ static int32_t peri__set_density(peri_body *b, const double *in) {
     int64_t changed = 0;
     while (changed < m->points && in[changed] == peri__density_told(b, changed)) changed++;
     if (changed == m->points) return PERI_OK; /* and nothing is stale */
+    const int32_t status = peri__note_energy(b);
+    if (status < 0) return status;
     double *array = b->density ? b->density : (double *)peri__new(&b->memory, m->points, sizeof *array);
     if (!array) return peri__fail(b, PERI_ERROR_MEMORY, "in", -1, 0.0);
     peri__changed(b, PERI__STIFFNESS);

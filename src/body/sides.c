@@ -97,6 +97,12 @@ static void peri__note_breaks(peri_body *b, double time) {
             if (b->side_time[n] == PERI_UNBROKEN && !peri__is_alive(b, i, b->side[n])) b->side_time[n] = time;
 }
 
+/* After a step that failed, and whose bonds stay broken: they broke at its start, where the body is again. */
+static void peri__withdraw_breaks(peri_body *b) {
+    for (int64_t n = 0; b->side_time && n < b->side_count; ++n)
+        if (b->side_time[n] < PERI_UNBROKEN && b->side_time[n] > peri__load_time(b)) b->side_time[n] = peri__load_time(b);
+}
+
 static void peri__note_cuts(peri_body *b, int32_t standing) {
     peri__note_breaks(b, standing == PERI_CUT_INITIAL ? (double)NAN : peri__load_time(b));
 }

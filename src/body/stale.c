@@ -23,18 +23,21 @@ static double peri__whole_energy(peri_body *b) {
 }
 
 /* Before displacement, velocity or bonds are changed by the caller, not by the equations of motion: the change of energy counts as
-   `initial`. It is measured when next needed, so that a hundred cuts cost two energy passes. */
-static void peri__note_energy(peri_body *b) {
+   `initial`. It is measured when next needed, so that a hundred cuts cost two energy passes. Fails where a law of bonds does: that must
+   not be changed then of which the energy is not known. */
+static int32_t peri__note_energy(peri_body *b) {
     peri__ledger *l = &b->now.ledger;
-    if (!b->desc.ledger || b->now.stale & PERI__STALE_LEDGER) return;
-    l->before = b->now.steps == 0 && l->initial == 0.0 ? 0.0 : peri__whole_energy(b);
+    if (!b->desc.ledger || b->now.stale & PERI__STALE_LEDGER) return PERI_OK;
+    const double before = b->now.steps == 0 && l->initial == 0.0 ? 0.0 : peri__whole_energy(b);
+    const int32_t status = peri__heed_laws(b);
+    if (status < 0) return status;
+    l->before = before;
     b->now.stale |= PERI__STALE_LEDGER;
+    return PERI_OK;
 }
 
-/* To be called before a change by the caller; before or after any other. */
+/* After any change but those below, or before it. */
 static void peri__changed(peri_body *b, peri__change what) {
-    if (what == PERI__MOTION || what == PERI__CUTS) peri__note_energy(b);
-    if (what == PERI__EIGENSTRAIN || what == PERI__STIFFNESS) peri__note_energy(b);
     if ((what == PERI__CUTS || what == PERI__STIFFNESS) && b->kept) {
         if (b->running) b->kept->ready = b->kept->preconditioner = 0; /* a solve is at work with it */
         else peri__forget_solver(b);
@@ -49,6 +52,13 @@ static void peri__changed(peri_body *b, peri__change what) {
     b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
     if (what == PERI__MOTION) b->now.stale |= PERI__STALE_STRETCH;
     if ((what == PERI__MOTION || what == PERI__CUTS) && b->model->inelastic) b->now.stale |= PERI__STALE_PAST;
+}
+
+/* Before a change by the caller of what stores energy; it is not made where this fails. */
+static int32_t peri__alter(peri_body *b, peri__change what) {
+    const int32_t status = peri__note_energy(b);
+    if (status == PERI_OK) peri__changed(b, what);
+    return status;
 }
 
 /* The forces of contact at no step. In equilibria nothing slips and nothing approaches. */
@@ -92,8 +102,8 @@ static int32_t peri__make_force(peri_body *b) {
     return status;
 }
 
-/* Brings up to date what is stale of `what`, bits of peri__stale, and what that is made of. Fails only where a load or an obstacle does, or
-   where contact has no memory; the force then stays stale. */
+/* Brings up to date what is stale of `what`, bits of peri__stale, and what that is made of. Fails only where a load, an obstacle or a law
+   of bonds does, or where contact has no memory; what was asked for then stays stale. */
 static int32_t peri__ensure(peri_body *b, uint32_t what) {
     what &= b->now.stale;
     if (what & (PERI__STALE_FORCE | PERI__STALE_MASKS)) peri__update_masks(b);
@@ -102,8 +112,12 @@ static int32_t peri__ensure(peri_body *b, uint32_t what) {
         int32_t status = peri__make_force(b);
         if (status < 0) return status;
     }
-    if (what & PERI__STALE_LEDGER)
-        b->now.ledger.initial += peri__whole_energy(b) - b->now.ledger.before;
+    if (what & PERI__STALE_LEDGER) {
+        const double put_in = peri__whole_energy(b) - b->now.ledger.before;
+        const int32_t status = peri__heed_laws(b);
+        if (status < 0) return status;
+        b->now.ledger.initial += put_in;
+    }
     b->now.stale &= ~what;
     return PERI_OK;
 }

@@ -122,11 +122,12 @@ PERI_VECTOR_CODE static void peri__carry_in(void *context, int64_t begin, int64_
     const double factor = c->factor;
     const uint64_t headroom = c->headroom;
     uint64_t over = 0;
+    const peri__domain *part = c->body->model->part;
     PERI_BY_PRECISION_(PERI_TAKE_POINTS_, c->f32, c->body->f32)
     for (int64_t i = begin; over >> 63 && sums->bad < 0 && i < end; ++i)
         for (int32_t d = 0; d < dim; ++d) {
             const double x = peri__get_real(c->in, c->f32, i * c->point + d * c->component) * factor;
-            if (peri__beyond(x, headroom) >> 63) sums->bad = i;
+            if (peri__beyond(x, headroom) >> 63 && !(part && part->depth[i])) sums->bad = i;
         }
 }
 
@@ -137,6 +138,9 @@ PERI_VECTOR_CODE static void peri__carry_out(void *context, int64_t begin, int64
     const double factor = c->factor, *volume = c->by_volume ? c->body->model->volume : NULL;
     (void)sums;
     PERI_BY_PRECISION_(PERI_GIVE_POINTS_, c->body->f32, c->f32)
+    for (int64_t i = begin; c->body->model->part && i < end; ++i)
+        for (int32_t d = 0; peri__is_ghost(c->body->model, i) && d < dim; ++d)
+            peri__put_real(c->out, c->f32, i * c->point + d * c->component, 0.0);
 }
 
 /* An array of displacements or velocities to planes; refused where the body cannot hold it, as `like` does. */
@@ -245,7 +249,7 @@ static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, pe
     if (broke) peri__note_breaks(b, peri__load_time(b));
     if (b->before && broke) peri__report_breaks(b);
     if (!report) return status;
-    report->broken = (b->now.broken - broken) / 2;
+    report->broken = b->now.broken - broken;
     if (e->energy) report->energy = peri__elastic_energy(b, NULL) * b->model->energy;
     return status;
 }
@@ -253,11 +257,14 @@ static int32_t peri__evaluate_body(peri_body *b, const peri_evaluate_desc *e, pe
 /* u, v: where the body moves, laid out as in the body; NULL: nothing else than now. Where a load or an obstacle fails it moves back. */
 static int32_t peri__evaluate_here(peri_body *b, const peri_evaluate_desc *e, void *u, void *v, peri_evaluate_report *report) {
     const peri__progress was = b->now;
+    int32_t status = peri__note_energy(b);
+    if (status < 0) return status;
     const int32_t former = peri__begin_run(b);
     peri__changed(b, PERI__MOTION);
     if (u) peri__exchange(b->u, u, peri__vector_bytes(b));
     if (v) peri__exchange(b->v, v, peri__vector_bytes(b));
-    int32_t status = peri__act(b, e);
+    const int32_t shared = peri__share_ghosts(b);
+    status = peri__agree(b, shared < 0 ? shared : peri__act(b, e), 0, NULL);
     if (status == PERI_OK) {
         status = peri__evaluate_body(b, e, report);
     } else {
@@ -268,14 +275,13 @@ static int32_t peri__evaluate_here(peri_body *b, const peri_evaluate_desc *e, vo
         b->now.load_factor = was.load_factor;
         b->now.loaded = was.loaded;
     }
+    peri__still_ghosts(b);
     peri__end_run(b, former);
     return status == PERI_OK ? peri__heed_callbacks(b) : status;
 }
 
-PERI_API int32_t peri_evaluate(peri_body *b, const peri_evaluate_desc *e, peri_evaluate_report *report) {
-    if (report) memset(report, 0, sizeof *report);
-    PERI_NEED_CHANGEABLE(b);
-    PERI_NEED_WHOLE(b, "peri_evaluate");
+/* Checks all, and takes what the caller gives to the planes of change_u and change_f. */
+static int32_t peri__take_place(peri_body *b, const peri_evaluate_desc *e) {
     int32_t status = peri__check_evaluate(b, e);
     if (status < 0) return status;
     if (e->fracture && b->running) return peri__fail(b, PERI_ERROR_ORDER, "peri_unlock", -1, 0.0);
@@ -289,7 +295,37 @@ PERI_API int32_t peri_evaluate(peri_body *b, const peri_evaluate_desc *e, peri_e
     if (e->displacement) status = peri__take_array(b, carrier, e->displacement, b->u, b->model->length, u, "displacement");
     if (e->velocity && status == PERI_OK)
         status = peri__take_array(b, carrier, e->velocity, b->v, peri__velocity_unit(b->model), f, "velocity");
+    return status;
+}
+
+static int32_t peri__evaluate(peri_body *b, const peri_evaluate_desc *e, peri_evaluate_report *report) {
+    const size_t margin = (size_t)b->model->margin * peri__real(b);
+    void *u = (char *)b->change_u + margin, *f = (char *)b->change_f + margin;
+    int32_t status = peri__agree(b, PERI_OK, 0, NULL);
     if (status < 0) return status;
-    if (!e->fracture) return peri__evaluate_there(b, e, e->displacement ? u : b->u, f, report);
-    return peri__evaluate_here(b, e, e->displacement ? u : NULL, e->velocity ? f : NULL, report);
+    if (e->fracture) return peri__evaluate_here(b, e, e->displacement ? u : NULL, e->velocity ? f : NULL, report);
+    if (!e->displacement) u = b->u;
+    status = peri__share_vector(b, u, 1);
+    return status < 0 ? status : peri__evaluate_there(b, e, u, f, report);
+}
+
+/* The report, of all parts, where directions of bonds were counted. */
+static int32_t peri__end_evaluate(peri_body *b, int32_t status, peri_evaluate_report *report) {
+    double sum[2] = { report ? report->energy : 0.0, report ? (double)report->broken : 0.0 };
+    status = peri__end_together(b, status);
+    if (status >= 0 && b->model->part) {
+        const int32_t reduced = peri__reduce(b, PERI_REDUCTION_SUM, 2, sum);
+        if (reduced < 0) return reduced;
+    }
+    if (report) report->energy = sum[0];
+    if (report) report->broken = (int64_t)(0.5 * sum[1]);
+    return status;
+}
+
+PERI_API int32_t peri_evaluate(peri_body *b, const peri_evaluate_desc *e, peri_evaluate_report *report) {
+    if (report) memset(report, 0, sizeof *report);
+    PERI_NEED_CHANGEABLE(b);
+    b->told = 0;
+    const int32_t status = peri__take_place(b, e);
+    return peri__end_evaluate(b, status < 0 ? status : peri__evaluate(b, e, report), report);
 }

@@ -154,8 +154,7 @@ static int32_t peri__agree_on_step(peri_body *b) {
     b->now.stiffer = most[1];
     b->stop = most[2] > 0.0;
     if (most[3] > 0.0) b->now.stale |= PERI__STALE_FORCE;
-    if (most[3] >= PERI__STALE_LEDGER) peri__note_energy(b);
-    return PERI_OK;
+    return most[3] >= PERI__STALE_LEDGER ? peri__note_energy(b) : PERI_OK;
 }
 
 /* One step of dt (inner units) to the time `next`, as the context has it: here a peri_advance_desc. */
@@ -315,8 +314,7 @@ static int32_t peri__show_frame(peri_body *b, const peri_advance_desc *r) {
     }
     if (status != PERI_OK) return status;
     status = peri__settle_past(b);
-    if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE);
-    (void)peri__ensure(b, PERI__STALE_LEDGER);
+    if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE | PERI__STALE_LEDGER);
     return status == PERI_OK ? peri__agree_on_step(b) : status;
 }
 

@@ -279,13 +279,14 @@ PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, i
     peri_view view;
     (void)peri__stored_view(b, field, &view);
     void *data = field == PERI_FIELD_VELOCITY ? b->v : b->u;
-    int32_t status = peri__check_state(b, data, in, count, view.scale, "in");
+    int32_t status = peri__check_state(b, data, in, count, view.scale, "in", NULL);
     if (status < 0) return status;
     int64_t i = 0;
     for (int32_t d = 0; i < m->points && peri__tells(&view, i, d, in);)
         if (++d == m->dim) d = 0, ++i;
     if (i == m->points) return PERI_OK; /* nothing changes, and so nothing is stale                                       */
-    peri__changed(b, PERI__MOTION);
+    status = peri__alter(b, PERI__MOTION);
+    if (status < 0) return status;
     for (; i < m->points; ++i)
         for (int32_t d = 0; d < m->dim; ++d)
             if (!peri__tells(&view, i, d, in)) peri__put_real(data, b->f32, d * m->stride + i, in[i * m->dim + d] / view.scale);

@@ -214,6 +214,7 @@ static int32_t peri__implicit_step(void *context, peri_body *b, double h, double
     }
     memcpy(b->u, t->u, peri__vector_bytes(b));
     b->now.time = time;
+    if (t->broke) peri__withdraw_breaks(b);
     peri__changed(b, PERI__ACTION);
     if (t->broke && b->desc.ledger) {
         (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);

@@ -144,9 +144,9 @@ static int32_t peri__load_steps(peri__solver *s) {
     const peri_solve_desc *st = s->settings;
     int32_t status = peri__take_solver(s);
     if (status == PERI_OK) status = peri__settle_past(b);
+    if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_LEDGER);
     if (status < 0) return status;
     double from = s->load_from;
-    (void)peri__ensure(b, PERI__STALE_LEDGER);
     b->now.still = 1;
     peri__changed(b, PERI__ACTION);
     b->now.load_factor = from;

@@ -152,9 +152,9 @@ static int32_t peri__show_step(peri__solver *s, int again) {
     const int32_t former = peri__enter(b, PERI__IN_FRAME);
     const int32_t said = peri__heed(b, s->settings->on_step(s->settings->user, b), "peri_frame_fn");
     peri__leave(b, former);
-    (void)peri__ensure(b, PERI__STALE_LEDGER);
+    status = peri__ensure(b, PERI__STALE_LEDGER);
     s->disturbed = b->desc.ledger && b->now.stale & PERI__STALE_BALANCE;
     s->cut = b->now.broken != broken;
-    if (s->disturbed && said >= 0) status = peri__note_forces(s);
+    if (s->disturbed && said >= 0 && status == PERI_OK) status = peri__note_forces(s);
     return status < 0 ? status : said;
 }

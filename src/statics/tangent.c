@@ -161,21 +161,31 @@ static double peri__fill_diagonal(peri_body *b, void *blocks) {
 
 /* ---- the product in the user's units ------------------------------------------------------------------------------ */
 
-/* The largest size of count numbers; *wrong: the first that is not finite, or -1. Compared by their bits without the sign, which ascend
-   with the size, and to infinity and beyond where there is no number. */
-static double peri__largest(const double *in, int64_t count, int64_t *wrong) {
+/* The largest size of count numbers, of a part of those of its own points; *wrong: the first that is not finite, or -1. Compared by their
+   bits without the sign, which ascend with the size, and to infinity and beyond where there is no number. */
+static double peri__largest(const peri__domain *part, const double *in, int64_t count, int64_t *wrong) {
     const uint64_t size = UINT64_MAX >> 1, infinite = UINT64_C(0x7ff) << 52;
     uint64_t most = 0;
     double largest;
-    for (int64_t k = 0; k < count; ++k) {
-        uint64_t bits;
-        memcpy(&bits, &in[k], sizeof bits);
-        bits &= size;
-        most = bits > most ? bits : most;
-    }
+    if (part) {
+        const int64_t dim = count / part->points;
+        for (int64_t i = 0; i < part->points - part->desc.ghost_count; ++i)
+            for (int64_t k = part->owned[i] * dim; k < (part->owned[i] + 1) * dim; ++k) {
+                uint64_t bits;
+                memcpy(&bits, &in[k], sizeof bits);
+                bits &= size;
+                most = bits > most ? bits : most;
+            }
+    } else
+        for (int64_t k = 0; k < count; ++k) {
+            uint64_t bits;
+            memcpy(&bits, &in[k], sizeof bits);
+            bits &= size;
+            most = bits > most ? bits : most;
+        }
     *wrong = -1;
     for (int64_t k = 0; most >= infinite && *wrong < 0; ++k)
-        if (!peri__finite(in[k])) *wrong = k;
+        if (!peri__finite(in[k]) && !(part && part->depth[k / (count / part->points)])) *wrong = k;
     memcpy(&largest, &most, sizeof largest);
     return largest;
 }
@@ -196,7 +206,11 @@ static void peri__to_planes(void *context, int64_t begin, int64_t end, peri__sum
     for (int32_t d = 0; d < b->dim; ++d) {
         double *wide = (double *)b->change_u + b->model->margin + d * b->model->stride;
         float *narrow = (float *)b->change_u + b->model->margin + d * b->model->stride;
-        if (b->f32)
+        if (b->model->part)
+            for (int64_t i = begin; i < end; ++i)
+                peri__put_real(b->change_u, b->f32, b->model->margin + d * b->model->stride + i,
+                               peri__is_ghost(b->model, i) ? 0.0 : product->in[i * b->dim + d] * factor);
+        else if (b->f32)
             for (int64_t i = begin; i < end; ++i) narrow[i] = (float)(product->in[i * b->dim + d] * factor);
         else
             for (int64_t i = begin; i < end; ++i) wide[i] = product->in[i * b->dim + d] * factor;
@@ -216,39 +230,52 @@ static void peri__from_planes(void *context, int64_t begin, int64_t end, peri__s
             for (int64_t i = begin; i < end; ++i) out[i * b->dim] = scale * (unit * (volume[i] * (double)narrow[i]));
         else
             for (int64_t i = begin; i < end; ++i) out[i * b->dim] = scale * (unit * (volume[i] * wide[i]));
+        for (int64_t i = begin; b->model->part && i < end; ++i)
+            if (b->model->part->depth[i]) out[i * b->dim] = 0.0;
     }
 }
 
 static int32_t peri__check_product(peri_body *b, peri__product *product, const double *in, double *out, int64_t count) {
     const peri__model *m = b->model;
     int64_t wrong;
-    int exponent = 0;
     memset(product, 0, sizeof *product);
     PERI_NEED(b, in, "in");
     PERI_NEED(b, out, "out");
     if (count != m->points * m->dim) return peri__fail(b, PERI_ERROR_CAPACITY, "count", -1, (double)(m->points * m->dim));
     if (m->centroid) return peri__fail(b, PERI_ERROR_LAW, "quadrature", -1, b->desc.quadrature);
-    const double largest = peri__largest(in, count, &wrong);
+    product->scale = peri__largest(m->part, in, count, &wrong);
     if (wrong >= 0) return peri__fail(b, PERI_ERROR_RANGE, "in", wrong, in[wrong]);
-    if (largest > 0.0) (void)frexp(largest, &exponent);
-    if (exponent < -1000) exponent = -1000; /* so that its inverse is a number, too */
     product->in = in;
     product->out = out;
-    product->scale = ldexp(1.0, exponent - 1); /* of order one inside, whatever the size in the caller's units */
     product->unit = m->energy / m->length / m->length;
-    return PERI_OK;
+    return peri__need_change(b) ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
+}
+
+/* What is stale of `what` is made anew, and the vector gets its scale, both alike on all parts. */
+static int32_t peri__open_product(peri_body *b, peri__product *product, int32_t status, uint32_t what) {
+    double most[2] = { product->scale, b->now.stale & what & PERI__STALE_FORCE };
+    int exponent = 0;
+    status = peri__agree(b, status, 2, most);
+    if (status < 0) return status;
+    if (most[0] > 0.0) (void)frexp(most[0], &exponent);
+    if (exponent < -1000) exponent = -1000; /* so that its inverse is a number, too */
+    product->scale = ldexp(1.0, exponent - 1); /* of order one inside, whatever the size in the caller's units */
+    if (most[1] > 0.0) b->now.stale |= PERI__STALE_FORCE;
+    status = peri__ensure(b, what);
+    return most[1] > 0.0 ? peri__agree(b, status, 0, NULL) : status;
 }
 
 static int32_t peri__multiply(peri_body *b, peri__product *product) {
     const peri__model *m = b->model;
-    if (!peri__need_change(b)) return peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
     product->t.body = b;
     product->t.p = (char *)b->change_u + (size_t)m->margin * peri__real(b);
     product->t.q = (char *)b->change_f + (size_t)m->margin * peri__real(b);
     product->t.change = b->change_response;
     peri__for_points(b, m->points, 1, peri__to_planes, product, NULL);
+    int32_t status = peri__share_vector(b, (void *)product->t.p, 0);
+    if (status < 0) return status;
     peri__apply_tangent(&product->t, 0);
-    const int32_t status = peri__heed_laws(b);
+    status = peri__heed_laws(b);
     if (status < 0) return status;
     peri__for_points(b, m->points, 1, peri__from_planes, product, NULL);
     return PERI_OK;
@@ -259,11 +286,11 @@ static int32_t peri__multiply_there(peri_body *b, peri__product *product, const 
 PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double *out, int64_t count) {
     peri__product product;
     PERI_NEED_CHANGEABLE(b);
-    PERI_NEED_WHOLE(b, "peri_multiply_stiffness");
+    b->told = 0;
     int32_t status = peri__check_product(b, &product, in, out, count);
-    if (status == PERI_OK) status = peri__ensure(b, PERI__STALE_FORCE); /* the response is then that of u */
+    status = peri__open_product(b, &product, status, PERI__STALE_FORCE); /* the response is then that of u */
     if (status == PERI_OK && b->model->inelastic) return peri__multiply_there(b, &product, NULL);
-    return status == PERI_OK ? peri__multiply(b, &product) : status;
+    return peri__end_together(b, status == PERI_OK ? peri__multiply(b, &product) : status);
 }
 
 /* The displacement (NULL: that of the body) to u, and what laws respond with to it; moduli, where there are some, and flow, too. */
@@ -272,7 +299,10 @@ static int32_t peri__respond_at(peri_body *b, const double *displacement, void *
     peri__operands operands = peri__operands_of(b);
     if (!displacement) memcpy(u, b->u, peri__vector_bytes(b));
     for (int64_t i = 0; displacement && i < m->points; ++i)
-        for (int32_t d = 0; d < m->dim; ++d) peri__put_real(u, b->f32, d * m->stride + i, displacement[i * m->dim + d] / m->length);
+        for (int32_t d = 0; d < m->dim; ++d)
+            peri__put_real(u, b->f32, d * m->stride + i, peri__is_ghost(m, i) ? 0.0 : displacement[i * m->dim + d] / m->length);
+    const int32_t shared = peri__share_vector(b, u, 1);
+    if (shared < 0) return shared;
     operands.u = u;
     operands.node = NULL;
     operands.past.moduli = moduli;
@@ -294,6 +324,7 @@ static int32_t peri__multiply_there(peri_body *b, peri__product *product, const 
     if (entries > 0) moduli = (double *)peri__new(&b->scratch, entries, sizeof *moduli);
     if (!u || (!response && !b->model->pairwise) || (!moduli && entries > 0))
         status = peri__fail(b, PERI_ERROR_MEMORY, "displacement", -1, 0.0);
+    status = peri__agree(b, status, 0, NULL);
     if (status == PERI_OK) status = peri__respond_at(b, displacement, u, response, moduli);
     if (status == PERI_OK) {
         product->t.u = u;
@@ -311,12 +342,14 @@ static int32_t peri__multiply_there(peri_body *b, peri__product *product, const 
 PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displacement, const double *in, double *out, int64_t count) {
     peri__product product;
     PERI_NEED_CHANGEABLE(b);
-    PERI_NEED_WHOLE(b, "peri_multiply_stiffness_at");
-    PERI_NEED(b, displacement, "displacement");
+    b->told = 0;
     int32_t status = peri__check_product(b, &product, in, out, count);
-    if (status == PERI_OK) status = peri__check_state(b, b->u, displacement, count, b->model->length, "displacement");
-    if (status < 0) return status;
-    (void)peri__ensure(b, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
-    if (b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->model->law_of && !b->model->inelastic) return peri__multiply(b, &product);
-    return peri__multiply_there(b, &product, displacement);
+    if (status == PERI_OK && !displacement) status = peri__fail(b, PERI_ERROR_ARGUMENT, "displacement", -1, 0.0);
+    const uint8_t *ghost = b->model->part ? b->model->part->depth : NULL;
+    if (status == PERI_OK) status = peri__check_state(b, b->u, displacement, count, b->model->length, "displacement", ghost);
+    status = peri__open_product(b, &product, status, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
+    if (status < 0) return peri__end_together(b, status);
+    if (b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->model->law_of && !b->model->inelastic) status = peri__multiply(b, &product);
+    else status = peri__multiply_there(b, &product, displacement);
+    return peri__end_together(b, status);
 }

@@ -741,7 +741,7 @@ pub struct peri_part_desc {
     pub ghosts: *const i32,
     /// \[ghost\_count\] the point that it is an image of in a periodic body, or -1. Default NULL: none is
     pub owners: *const i32,
-    /// \[points\] in the whole body, ascending. Default NULL: 0, 1, ...
+    /// \[points\] in the whole body, ascending. Default NULL: unknown
     pub ids: *const i64,
     /// where another part owns ghosts. Default NULL
     pub exchange: peri_exchange_fn,

@@ -975,7 +975,7 @@ pub struct PartDesc<'a> {
     pub ghosts: &'a [i32],
     /// \[ghost\_count\] the point that it is an image of in a periodic body, or -1. Default NULL: none is
     pub owners: &'a [i32],
-    /// \[points\] in the whole body, ascending. Default NULL: 0, 1, ...
+    /// \[points\] in the whole body, ascending. Default NULL: unknown
     pub ids: &'a [i64],
     /// where another part owns ghosts. Default NULL (type, planes, plane)
     pub exchange: Option<Box<dyn Fn(i32, i32, *mut *mut c_void) -> i32 + Send + Sync>>,
