@@ -64,7 +64,8 @@ def main():
         checked += ", meshio"
     except ImportError:
         pass
-    print("test_series.py: 12 frames read by " + checked)
+    print("    12 frames read by " + checked)
+    print("test_series_py: 1 passed, 0 failed")
 
 
 main()

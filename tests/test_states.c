@@ -200,6 +200,7 @@ static void constants_refused(void) {
 
 static int parts_of(int32_t field, int dim) {
     if (field >= PERI_FIELD_STRAIN && field <= PERI_FIELD_FORCE_STRESS) return dim == 3 ? 6 : 3;
+    if (field == PERI_FIELD_DEFORMATION_GRADIENT) return dim * dim;
     return field == PERI_FIELD_REACTION || field == PERI_FIELD_HELD ? dim : 1;
 }
 typedef struct reader {
