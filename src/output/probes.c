@@ -197,7 +197,10 @@ static void peri__look_in_ring(const peri_body *b, int in_place, const peri__bin
         for (at[1] = lo[1]; at[1] <= hi[1]; ++at[1])
             for (at[0] = lo[0]; at[0] <= hi[0]; ++at[0]) {
                 int64_t off = 0;
-                for (int d = 0; d < 3; ++d) off = llabs(at[d] - middle[d]) > off ? llabs(at[d] - middle[d]) : off;
+                for (int d = 0; d < 3; ++d) {
+                    const int64_t away = at[d] > middle[d] ? at[d] - middle[d] : middle[d] - at[d];
+                    if (away > off) off = away;
+                }
                 if (off != ring) continue;
                 for (int32_t i = s->first[(at[2] * s->cells[1] + at[1]) * s->cells[0] + at[0]]; i >= 0; i = s->next[i]) {
                     const double square = peri__square_from(b, in_place, i, x);
