@@ -235,7 +235,8 @@ static void peri__from_planes(void *context, int64_t begin, int64_t end, peri__s
     }
 }
 
-static int32_t peri__check_product(peri_body *b, peri__product *product, const double *in, double *out, int64_t count) {
+/* there: peri__multiply_there is to come, which takes the memory itself, so that a failure leaves none behind. */
+static int32_t peri__check_product(peri_body *b, peri__product *product, const double *in, double *out, int64_t count, int there) {
     const peri__model *m = b->model;
     int64_t wrong;
     memset(product, 0, sizeof *product);
@@ -248,7 +249,7 @@ static int32_t peri__check_product(peri_body *b, peri__product *product, const d
     product->in = in;
     product->out = out;
     product->unit = m->energy / m->length / m->length;
-    return peri__need_change(b) ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
+    return there || peri__need_change(b) ? PERI_OK : peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
 }
 
 /* What is stale of `what` is made anew, and the vector gets its scale, both alike on all parts. */
@@ -287,7 +288,7 @@ PERI_API int32_t peri_multiply_stiffness(peri_body *b, const double *in, double 
     peri__product product;
     PERI_NEED_CHANGEABLE(b);
     b->told = 0;
-    int32_t status = peri__check_product(b, &product, in, out, count);
+    int32_t status = peri__check_product(b, &product, in, out, count, b->model->inelastic);
     status = peri__open_product(b, &product, status, PERI__STALE_FORCE); /* the response is then that of u */
     if (status == PERI_OK && b->model->inelastic) return peri__multiply_there(b, &product, NULL);
     return peri__end_together(b, status == PERI_OK ? peri__multiply(b, &product) : status);
@@ -324,6 +325,7 @@ static int32_t peri__multiply_there(peri_body *b, peri__product *product, const 
     if (entries > 0) moduli = (double *)peri__new(&b->scratch, entries, sizeof *moduli);
     if (!u || (!response && !b->model->pairwise) || (!moduli && entries > 0))
         status = peri__fail(b, PERI_ERROR_MEMORY, "displacement", -1, 0.0);
+    else if (!peri__need_change(b)) status = peri__fail(b, PERI_ERROR_MEMORY, "out", -1, 0.0);
     status = peri__agree(b, status, 0, NULL);
     if (status == PERI_OK) status = peri__respond_at(b, displacement, u, response, moduli);
     if (status == PERI_OK) {
@@ -343,13 +345,14 @@ PERI_API int32_t peri_multiply_stiffness_at(peri_body *b, const double *displace
     peri__product product;
     PERI_NEED_CHANGEABLE(b);
     b->told = 0;
-    int32_t status = peri__check_product(b, &product, in, out, count);
+    const int plain = b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->model->law_of && !b->model->inelastic;
+    int32_t status = peri__check_product(b, &product, in, out, count, !plain);
     if (status == PERI_OK && !displacement) status = peri__fail(b, PERI_ERROR_ARGUMENT, "displacement", -1, 0.0);
     const uint8_t *ghost = b->model->part ? b->model->part->depth : NULL;
     if (status == PERI_OK) status = peri__check_state(b, b->u, displacement, count, b->model->length, "displacement", ghost);
     status = peri__open_product(b, &product, status, PERI__STALE_MASKS | PERI__STALE_CONSTANTS);
     if (status < 0) return peri__end_together(b, status);
-    if (b->desc.geometry == PERI_GEOMETRY_LINEAR && !b->model->law_of && !b->model->inelastic) status = peri__multiply(b, &product);
+    if (plain) status = peri__multiply(b, &product);
     else status = peri__multiply_there(b, &product, displacement);
     return peri__end_together(b, status);
 }
