@@ -928,6 +928,8 @@ typedef struct peri_world_desc {
     peri_allocate_fn allocate; /* Default NULL: malloc */
     peri_release_fn release;   /* Default NULL: free */
     void *memory_user;
+    double sleep_speed; /* [L T^-1] of points, below which bodies rest. Default 0: none sleeps */
+    double sleep_time;  /* [T] of rest, after which they sleep; positive with sleep_speed */
 } peri_world_desc;
 
 PERI_API void peri_world_desc_init(peri_world_desc *desc);
@@ -948,6 +950,9 @@ PERI_API int32_t peri_world_remove(peri_world *world, peri_body *body);
    with distance and spacing the mean of both spacings. */
 PERI_API int32_t peri_world_set_contact(peri_world *world, const peri_body *a,
     const peri_body *b, const peri_contact_desc *desc);
+
+/* 1: the body sleeps, 0: not. NULL: how many do. */
+PERI_API int64_t peri_world_asleep(const peri_world *world, const peri_body *body);
 
 /* As peri_stable_step and peri_advance, for all by one step. on_frame comes for each body. */
 PERI_API double peri_world_stable_step(peri_world *world);

@@ -155,6 +155,7 @@ PERI_SMALL_END
 #include "src/dynamics/stretched.c" /* what deformation does to it                                                  */
 #include "src/dynamics/failure.c"  /* state-based bonds that break                                                 */
 #include "src/dynamics/explicit.c" /* stable step, the step loop                                                   */
+#include "src/dynamics/sleep.c"    /* bodies of a world that rest                                                  */
 #include "src/dynamics/world.c"    /* the same for several bodies                                                   */
 #include "src/dynamics/evaluate.c" /* displacements of the caller   -> forces, breaks                               */
 

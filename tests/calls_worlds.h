@@ -82,7 +82,8 @@ static void with_worlds(void) {
     fail_in = -1;
     peri_world_desc_init(&d), peri_contact_desc_init(&touch), peri_part_desc_init(&p);
     ASK(peri_world_create(NULL, &asked_world, NULL)), d.cookie++, ASK(peri_world_create(&d, &asked_world, NULL)), d.cookie--;
-    ASK(peri_world_create(&d, &asked_world, NULL));
+    d.sleep_speed = -1, ASK(peri_world_create(&d, &asked_world, NULL)), d.sleep_speed = 1, ASK(peri_world_create(&d, &asked_world, NULL));
+    d.sleep_speed = 0, ASK(peri_world_create(&d, &asked_world, NULL)), ASK(peri_world_asleep(NULL, NULL));
     ASK(peri_world_add(NULL, b)), ASK(peri_world_add(asked_world, raw)), MUST(b, peri_world_add(asked_world, b));
     ASK(peri_world_add(asked_world, t)), ASK(peri_world_remove(NULL, b)), ASK(peri_world_bytes(NULL));
     ASK(peri_world_get_force(NULL, b, NULL));

@@ -15,6 +15,7 @@ static int32_t peri__check_whole(peri_body *b) {
 
 /* Returns who was at work, for peri__end_run. */
 static int32_t peri__begin_run(peri_body *b) {
+    if (b->seat && !b->seat->world->running) peri__rouse(b->seat);
     if (b->now.pushed && !(b->seat && b->seat->world->running)) peri__changed(b, PERI__ACTION); /* alone, others do not push it */
     b->stop = 0;
     b->break_said = 0;

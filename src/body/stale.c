@@ -49,6 +49,7 @@ static void peri__changed(peri_body *b, peri__change what) {
         b->now.stale |= PERI__STALE_SHARP; /* initial cracks, of which a body that softens knows, come before the first step */
     if ((what == PERI__CUTS || what == PERI__BONDS) && b->contact) b->contact->dead = -1;
     if ((what == PERI__CUTS || what == PERI__BONDS) && b->seat) b->seat->dead = -1;
+    peri__rouse(b->seat);
     b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
     if (what == PERI__MOTION) b->now.stale |= PERI__STALE_STRETCH;
     if ((what == PERI__MOTION || what == PERI__CUTS) && b->model->inelastic) b->now.stale |= PERI__STALE_PAST;

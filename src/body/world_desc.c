@@ -38,6 +38,10 @@ PERI_API int32_t peri_world_create(const peri_world_desc *desc, peri_world **wor
     if (desc->cookie != PERI_COOKIE_WORLD) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
     if (!desc->allocate != !desc->release)
         return peri__set_error(error, PERI_ERROR_ARGUMENT, desc->allocate ? "release" : "allocate", -1, 0.0);
+    if (!(peri__finite(desc->sleep_speed) && desc->sleep_speed >= 0.0))
+        return peri__set_error(error, PERI_ERROR_RANGE, "sleep_speed", -1, desc->sleep_speed);
+    if (!(peri__finite(desc->sleep_time) && desc->sleep_time >= 0.0) || (desc->sleep_speed > 0.0 && !(desc->sleep_time > 0.0)))
+        return peri__set_error(error, PERI_ERROR_RANGE, "sleep_time", -1, desc->sleep_time);
     if (desc->allocate) {
         memory.allocate = desc->allocate;
         memory.release = desc->release;
@@ -47,6 +51,8 @@ PERI_API int32_t peri_world_create(const peri_world_desc *desc, peri_world **wor
     if (!w) return peri__set_error(error, PERI_ERROR_MEMORY, "world", -1, 0.0);
     w->memory = memory;
     w->common_on = 1;
+    w->sleep_speed = desc->sleep_speed;
+    w->sleep_time = desc->sleep_time;
     peri_contact_desc_init(&w->common);
     (void)peri__world_fail(w, PERI_OK, "", -1, 0.0);
     *world = w;
@@ -160,6 +166,7 @@ PERI_API int32_t peri_world_set_contact(peri_world *w, const peri_body *a, const
     }
     peri__delete(&w->memory, former, pairs, sizeof *former);
     w->listed = 0;
+    peri__rouse_all(w);
     return status;
 }
 
@@ -226,6 +233,11 @@ PERI_API int32_t peri_world_remove(peri_world *w, peri_body *b) {
     if (peri__seat_of(w, b, "body") < 0) return w->error.code;
     peri__leave_world(b);
     return peri__fit_or_tell(w);
+}
+
+PERI_API int64_t peri_world_asleep(const peri_world *w, const peri_body *b) {
+    if (!w || (b && (!b->seat || b->seat->world != w))) return PERI_ERROR_ARGUMENT;
+    return b ? b->seat->island != 0 : w->sleepers;
 }
 
 PERI_API int32_t peri_world_get_force(peri_world *w, const peri_body *b, double *force) {

@@ -78,20 +78,54 @@ static void peri__press_others_block(void *context, int64_t begin, int64_t end, 
     }
 }
 
-/* Springs of all pairs, and the crowds, by lists that hold. Returns the energy. */
-static double peri__press_world(peri_world *w) {
-    double energy = 0.0;
+/* Is entry e of member p within half a skin of its touch? Lists that were made when one of both had come to its place have all that are. */
+static int peri__is_near(const peri_world *w, int64_t p, int64_t e) {
+    const peri__roll *roll = &w->roll;
+    const int64_t q = roll->other[e], dim = w->dim;
+    const double skin = PERI_SKIN * w->touch[peri__seats_of(roll->seat[p], roll->seat[q])].distance;
+    return peri__square_between(w, &roll->place[p * dim], &roll->place[q * dim]) < peri__square(sqrt(roll->reach2[e]) + 0.5 * skin);
+}
+
+/* Wakes those who sleep and have somebody near who does not. Returns how many bodies that are. */
+static int64_t peri__wake_near(peri_world *w) {
+    const peri__roll *roll = &w->roll;
+    const int64_t sleepers = w->sleepers;
+    for (int64_t a = 0; a < w->seats; ++a)
+        for (int64_t p = w->seat[a]->begin; !w->seat[a]->island && p < w->seat[a]->end; ++p)
+            for (int64_t e = roll->begin[p]; e < roll->begin[p + 1]; ++e) {
+                peri__seat *other = w->seat[roll->seat[roll->other[e]]];
+                if (other->island && peri__is_near(w, p, e)) peri__rouse(other);
+            }
+    return sleepers - w->sleepers;
+}
+
+static void peri__place_world(peri_world *w) {
     for (int64_t a = 0; a < w->seats; ++a) {
         peri__seat *s = w->seat[a];
-        if (s->end > s->begin) peri__for_points(s->body, s->end - s->begin, 1, peri__place_block, s, NULL);
+        if (s->end > s->begin && !s->placed) peri__for_points(s->body, s->end - s->begin, 1, peri__place_block, s, NULL);
     }
+}
+
+/* Springs of all pairs, and the crowds, by lists that hold. Returns the energy. Nobody who is awake is near those who sleep, so that
+   what the first pass finds for them holds until they wake or the lists are made anew. */
+static double peri__press_world(peri_world *w) {
+    double energy = 0.0;
+    peri__place_world(w);
+    if (w->sleepers > 0 && w->sleepers < w->seats) (void)peri__wake_near(w);
     for (int64_t a = 0; a < w->seats; ++a) {
         peri__seat *s = w->seat[a];
         const int64_t members = s->end - s->begin;
         double crowd = 0.0;
+        if (s->placed) {
+            energy += s->pressed;
+            continue;
+        }
+        s->placed = s->island != 0;
+        s->pressed = 0.0;
         if (members > 0) {
             peri__for_points(s->body, members, 4, peri__press_others_block, s, s->body->sums);
-            energy += peri__total(s->body->sums, members).a;
+            s->pressed = peri__total(s->body->sums, members).a;
+            energy += s->pressed;
         }
         for (int64_t k = 0; k * PERI_BLOCK < members; ++k) crowd = fmax(crowd, s->body->sums[k].b);
         s->crowd = crowd * peri__square(s->time);

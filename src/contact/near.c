@@ -292,6 +292,7 @@ static void peri__take_roll(peri_world *w, peri__roll *roll) {
     for (int64_t a = 0; a < w->seats; ++a) {
         peri__seat *s = w->seat[a];
         s->begin = at;
+        s->placed = 0;
         while (at < roll->members && roll->seat[at] == a) ++at;
         s->end = at;
         peri__weigh_members(s);
@@ -331,7 +332,7 @@ static void peri__strayed_block(void *context, int64_t begin, int64_t end, peri_
 
 static int peri__has_strayed(peri__seat *s) {
     peri_body *b = s->body;
-    if (!(s->allowed < HUGE_VAL)) return 0;
+    if (!(s->allowed < HUGE_VAL) || s->island) return 0;
     peri__for_points(b, s->watched, 1, peri__strayed_block, s, b->sums);
     for (int64_t k = 0; k * PERI_BLOCK < s->watched; ++k)
         if (!(b->sums[k].a <= peri__square(s->allowed))) return 1;

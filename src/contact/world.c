@@ -26,6 +26,11 @@ struct peri__seat {
     double   lo[3], hi[3]; /* the box about them then                                                                       */
     double   allowed;   /* how far they may move before the lists are made anew, in units of the body                      */
     int64_t  begin, end; /* its members in the roll                                                                         */
+    int64_t  island;    /* 0: awake; else the number of those with whom it fell asleep                                     */
+    int64_t  root;      /* the least seat of those that rest with it: dynamics/sleep.c                                     */
+    double   calm;      /* [T] for how long it has rested                                                                  */
+    double   pressed;   /* its half of the energy of springs, in the last pass                                             */
+    int32_t  placed;    /* 1: it sleeps, and the last pass holds for it                                                     */
 };
 
 typedef struct peri__roll { /* points of all bodies that may touch those of others, by seat, then ascending                */
@@ -52,6 +57,8 @@ struct peri_world {
     peri_body   *failed;    /* whose error that is; or NULL                                                                 */
     int32_t      dim;       /* 0: nobody has come yet                                                                       */
     int32_t      running, listed, resists;
+    double       sleep_speed, sleep_time; /* of the caller; sleep_speed 0: nobody sleeps                                   */
+    int64_t      islands, sleepers; /* numbers given so far; bodies asleep                                                 */
     double       length, time, energy, stress, origin[3]; /* the units                                                      */
     int64_t      numbers;   /* given so far                                                                                 */
     int64_t      seats, seat_capacity, touch_capacity, born, born_capacity;
@@ -136,9 +143,31 @@ static void peri__free_seat(const peri_world *w, peri__seat *s) {
     peri__delete(&w->memory, s, 1, sizeof *s);
 }
 
+/* What touches a body from outside wakes it, and all that fell asleep with it. */
+static void peri__rouse(peri__seat *s) {
+    if (!s) return;
+    peri_world *w = s->world;
+    const int64_t island = s->island;
+    s->calm = 0.0;
+    if (!island) return;
+    for (int64_t k = 0; k < w->seats; ++k) {
+        peri__seat *t = w->seat[k];
+        if (t->island != island) continue;
+        t->calm = 0.0;
+        t->island = 0;
+        t->placed = 0;
+        w->sleepers--;
+    }
+}
+
+static void peri__rouse_all(peri_world *w) {
+    for (int64_t k = 0; k < w->seats; ++k) peri__rouse(w->seat[k]);
+}
+
 /* Every bond of the body is looked at again, and the lists are made anew. */
 static void peri__forget_seat(peri__seat *s) {
     if (!s) return;
+    peri__rouse(s);
     s->surveyed = 0;
     s->dead = -1;
     s->world->listed = 0;
@@ -152,6 +181,7 @@ static void peri__leave_world(peri_body *b) {
     int64_t k = 0, kept = 0;
     if (!s) return;
     peri_world *w = s->world;
+    peri__rouse(s);
     while (w->seat[k] != s) ++k;
     for (int64_t a = 1; a < w->seats; ++a)
         for (int64_t c = 0; c < a; ++c)
@@ -163,7 +193,10 @@ static void peri__leave_world(peri_body *b) {
         if ((later < s->base || later >= last) && (former < s->base || former >= last)) w->pair[kept++] = w->pair[k];
     }
     w->born = kept;
-    for (k = 0; k < w->seats; ++k) w->seat[k]->begin = w->seat[k]->end = 0;
+    for (k = 0; k < w->seats; ++k) {
+        w->seat[k]->begin = w->seat[k]->end = 0;
+        w->seat[k]->placed = 0;
+    }
     peri__free_roll(w, &w->roll);
     w->listed = 0;
     if (w->failed == b) w->failed = NULL;

@@ -5,21 +5,6 @@
 #error "a part of peri_impl.c; compile that"
 #endif
 
-typedef struct peri__pace { /* how far a body is in a run                                                                  */
-    peri__plan   plan;
-    peri__half_way half;
-    double       size; /* of the steps under way                                                                            */
-} peri__pace;
-
-typedef struct peri__tour { /* a run of a world                                                                            */
-    peri_world *world;
-    peri_advance_desc settings;
-    peri__pace *pace;    /* [seats]                                                                                         */
-    int64_t     leader;  /* the seat whose stable step is the least                                                         */
-} peri__tour;
-
-static peri_body *peri__nth_body(const peri_world *w, int64_t k) { return w->seat[k]->body; }
-
 /* The least stable step [T], and whose it is. */
 static double peri__stable_of_world(const peri_world *w, int64_t *leader) {
     double least = HUGE_VAL;
@@ -150,36 +135,34 @@ static int32_t peri__heed_world(peri_world *w) {
     return status;
 }
 
-static double peri__next_time(const peri_body *b, const peri_advance_desc *r, const peri__plan *plan) {
-    const int64_t full = plan->done < plan->full ? plan->done + 1 : plan->full;
-    if (plan->done + 1 == plan->steps && r->steps == 0) return plan->end;
-    return plan->start + ((double)full * plan->dt + (double)(plan->done + 1 - full) * plan->last) * b->model->time;
-}
-
 /* One step of all. Of a body that fails in its first half all stop within the step; else all end it. */
 static int32_t peri__step_together(peri__tour *t) {
     peri_world *w = t->world;
     const peri_advance_desc *r = &t->settings;
     int32_t status = PERI_OK;
     int64_t begun = 0;
-    for (; begun < w->seats && status >= 0; ++begun) {
-        peri_body *b = peri__nth_body(w, begun);
-        peri__pace *pace = &t->pace[begun];
-        const double dt = peri__next_size(&pace->plan), next = peri__next_time(b, r, &pace->plan);
-        status = peri__world_heed(w, b, peri__begin_step(r, b, dt, next, r->damping * b->model->time, &pace->half));
-    }
+    for (; begun < w->seats && status >= 0; ++begun)
+        if (!w->seat[begun]->island) status = peri__begin_step_of(t, begun);
     for (int64_t k = 0; k < begun && status < 0; ++k) peri__changed(peri__nth_body(w, k), PERI__ACTION);
     if (status < 0) return status;
-    const int listed = peri__ready_world(w);
+    int listed = peri__ready_world(w);
+    while (status >= 0 && listed && peri__wake_touched(t, &status)) listed = peri__ready_world(w);
+    if (status < 0) return status;
     (void)peri__press_world(w);
     for (int64_t k = 0; k < w->seats; ++k)
-        peri__push_body(w->seat[k], peri__next_size(&t->pace[k].plan) * w->seat[k]->time);
+        if (!w->seat[k]->island) peri__push_body(w->seat[k], peri__next_size(&t->pace[k].plan) * w->seat[k]->time);
     for (int64_t k = 0; k < w->seats; ++k) {
         peri_body *b = peri__nth_body(w, k);
         peri__pace *pace = &t->pace[k];
         const double dt = peri__next_size(&pace->plan);
+        if (w->seat[k]->island) {
+            peri__sleep_on(b, peri__next_time(b, r, &pace->plan));
+            pace->plan.done++;
+            continue;
+        }
         const int32_t ended = peri__finish_step(r, b, dt, r->damping * b->model->time, &pace->half);
         if (ended < 0 && status >= 0) status = peri__world_heed(w, b, ended);
+        if (w->sleep_speed > 0.0) peri__note_calm(t, k);
         pace->plan.done++;
     }
     if (listed || status < 0) return status;
@@ -195,6 +178,7 @@ static int32_t peri__stagger_world(const peri__tour *t, int back) {
         peri__pace *pace = &t->pace[k];
         const double damping = t->settings.damping * b->model->time;
         if (!back) pace->size = peri__next_size(&pace->plan);
+        if (t->world->seat[k]->island) continue;
         const int32_t said = back ? peri__unstagger(b, pace->size, damping) : PERI_OK;
         if (!back) peri__stagger(b, pace->size, damping);
         if (said < 0 && status >= 0) status = peri__world_heed(t->world, b, said);
@@ -258,6 +242,7 @@ static int32_t peri__stretch_of_steps(peri__tour *t, int64_t left_to_frame, int6
     *run = 0;
     if (central) (void)peri__stagger_world(t, 0);
     while (*run < stretch && status == PERI_OK && (*run == 0 || !(peri__is_outrun(t) || peri__heed_world(t->world)))) {
+        if (*run > 0 && peri__has_resting(t->world)) break;
         status = peri__step_together(t);
         ++*run;
     }
@@ -276,6 +261,7 @@ static int32_t peri__march_world(peri__tour *t) {
         status = peri__stretch_of_steps(t, left_to_frame, &run);
         left_to_frame -= run;
         if (status != PERI_OK) break;
+        if (peri__has_resting(t->world)) peri__lay_down(t->world);
         const int32_t heeded = peri__heed_world(t->world);
         if (heeded < 0) return heeded;
         if (r->on_frame && (plan->done == plan->steps || heeded == PERI_STOPPED || (r->frame_steps > 0 && left_to_frame == 0))) {
