@@ -108,6 +108,7 @@ PERI_API int32_t peri_body_clone(const peri_body *from, peri_body **copy, peri_e
     b->break_user = from->break_user;
     memcpy(b->mean_gradient, from->mean_gradient, sizeof b->mean_gradient);
     b->now = from->now;
+    if (b->now.pushed) b->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE; /* nobody pushes the copy */
     if (from->running) b->now.torn = 0; /* on_frame comes at a whole step */
     (void)peri__count_users(&b->model->users, 1);
     int ok = peri__copy_state(b, from);

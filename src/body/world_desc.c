@@ -199,6 +199,7 @@ static int32_t peri__seat_body(peri_world *w, peri_body *b) {
     if (!s) return peri__world_fail(w, PERI_ERROR_MEMORY, "body", -1, 0.0);
     w->seat[w->seats++] = s;
     b->seat = s;
+    peri__carry_ledger(s, 1.0);
     int32_t status = PERI_OK;
     for (int64_t k = 0; k < n && status == PERI_OK; ++k) status = peri__declare_between(w, n, k, w->common_on ? &w->common : NULL);
     if (status == PERI_OK) status = peri__fit_or_tell(w);

@@ -349,9 +349,10 @@ static int peri__ready_world(peri_world *w) {
         s->dead = s->body->now.broken + s->body->now.cut;
     }
     for (int64_t a = 0; w->listed && !joined && !strayed && a < w->seats; ++a) strayed = peri__has_strayed(w->seat[a]);
-    if (w->listed && !joined && !strayed) return 1;
+    if (w->listed && !joined && !strayed && !w->overdue) return 1;
     w->listed = w->listed && !joined;
-    return peri__list_world(w);
+    w->overdue = !peri__list_world(w);
+    return !w->overdue;
 }
 
 /* ---- bodies that come ---------------------------------------------------------------------------------------------------- */

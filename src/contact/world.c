@@ -57,6 +57,7 @@ struct peri_world {
     peri_body   *failed;    /* whose error that is; or NULL                                                                 */
     int32_t      dim;       /* 0: nobody has come yet                                                                       */
     int32_t      running, listed, resists;
+    int32_t      overdue;   /* 1: new lists were due and memory short                                                       */
     double       sleep_speed, sleep_time; /* of the caller; sleep_speed 0: nobody sleeps                                   */
     int64_t      islands, sleepers; /* numbers given so far; bodies asleep                                                 */
     double       length, time, energy, stress, origin[3]; /* the units                                                      */
@@ -175,6 +176,12 @@ static void peri__forget_seat(peri__seat *s) {
     for (int64_t p = s->begin * s->world->dim; p < s->end * s->world->dim; ++p) s->world->roll.push[p] = s->world->roll.drag[p] = 0.0;
 }
 
+/* What contact has done to a body before it comes, or until it leaves, is not of the ledger of the world. sign: 1 or -1. */
+static void peri__carry_ledger(peri__seat *s, double sign) {
+    const peri__ledger *ledger = &s->body->now.ledger;
+    if (s->body->desc.ledger) s->world->put_in += sign * (ledger->others + ledger->rubbed) * s->energy;
+}
+
 /* The lists, which name bodies by their seats, end with one that leaves; nobody has pushed anybody then. */
 static void peri__leave_world(peri_body *b) {
     peri__seat *s = b->seat;
@@ -182,7 +189,10 @@ static void peri__leave_world(peri_body *b) {
     if (!s) return;
     peri_world *w = s->world;
     peri__rouse(s);
-    while (w->seat[k] != s) ++k;
+    peri__carry_ledger(s, -1.0);
+    for (k = 0; k < w->seats; ++k)
+        if (w->seat[k]->body->now.pushed) w->seat[k]->body->now.stale |= PERI__STALE_FORCE | PERI__STALE_BALANCE;
+    for (k = 0; w->seat[k] != s;) ++k;
     for (int64_t a = 1; a < w->seats; ++a)
         for (int64_t c = 0; c < a; ++c)
             if (a != k && c != k) w->touch[kept++] = w->touch[peri__seats_of(a, c)];

@@ -342,18 +342,23 @@ static int peri__find_frame(FILE *file, const peri__series *s, int64_t frame, lo
     return fseek(file, at, SEEK_SET) == 0;
 }
 
+/* The series, where the entry of the frame is to be; NULL: there is none, which is recorded. */
+static FILE *peri__open_series(peri_body *b, const char *path, int64_t frame, const peri__series *s, long *end) {
+    FILE *file = fopen(path, frame == 0 ? "wb" : "r+b");
+    if (!file) (void)peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
+    if (!file || frame == 0 || peri__find_frame(file, s, frame, end)) return file;
+    (void)fclose(file);
+    (void)peri__fail(b, PERI_ERROR_WRITE, "frame", frame, 0.0);
+    return NULL;
+}
+
 static int32_t peri__add_frame(peri_body *b, const char *path, int64_t frame, const peri__series *s) {
     const size_t bytes = (size_t)s->length + sizeof peri__pvd_end - 1;
-    FILE *file = fopen(path, frame == 0 ? "wb" : "r+b");
     long end = 0, at;
-    if (!file) return peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
-    int ok = frame == 0 ? fwrite(peri__pvd_head, 1, sizeof peri__pvd_head - 1, file) == sizeof peri__pvd_head - 1
-                        : peri__find_frame(file, s, frame, &end);
-    if (!ok) {
-        (void)fclose(file);
-        return peri__fail(b, PERI_ERROR_WRITE, "frame", frame, 0.0);
-    }
-    ok = fwrite(s->entry, 1, bytes, file) == bytes;
+    FILE *file = peri__open_series(b, path, frame, s, &end);
+    if (!file) return b->error.code;
+    int ok = frame > 0 || fwrite(peri__pvd_head, 1, sizeof peri__pvd_head - 1, file) == sizeof peri__pvd_head - 1;
+    ok = ok && fwrite(s->entry, 1, bytes, file) == bytes;
     for (at = ftell(file); ok && at < end; ++at) ok = fputc('\n', file) != EOF;
     if (fclose(file) != 0 || !ok) return peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
     return PERI_OK;
@@ -371,8 +376,14 @@ PERI_API int32_t peri_export_frame(peri_body *b, const char *path, int64_t frame
     s.text = (char *)peri__new(&b->scratch, s.room, 1);
     if (!s.text) return peri__fail(b, PERI_ERROR_MEMORY, "path", -1, 0.0);
     peri__name_frame(b, path, frame, &s);
-    FILE *file = fopen(s.text, "wb");
-    status = file ? peri__write_vtu(b, &vtu, peri__to_file, file) : peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
+    if (frame > 0) { /* a gap is seen before its file is written */
+        long end;
+        FILE *series = peri__open_series(b, path, frame, &s, &end);
+        status = series ? PERI_OK : b->error.code;
+        if (series) (void)fclose(series);
+    }
+    FILE *file = status == PERI_OK ? fopen(s.text, "wb") : NULL;
+    if (status == PERI_OK) status = file ? peri__write_vtu(b, &vtu, peri__to_file, file) : peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
     if (file && fclose(file) != 0 && status == PERI_OK) status = peri__fail(b, PERI_ERROR_WRITE, "path", -1, 0.0);
     if (status == PERI_OK) status = peri__add_frame(b, path, frame, &s);
     peri__delete(&b->scratch, s.text, s.room, 1);
