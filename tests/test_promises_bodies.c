@@ -232,8 +232,9 @@ static void a_bit_per_bond(void) {
     }
 }
 
-/* peri_kernel_text: ""rows": one bond after the other, which is what several laws in one cloud, the energy criteria on clouds, families
-   above 1,024 bonds, and in single precision points nearer than its rounding ask for"; "columns ...", "list ...", "reference". */
+/* peri_kernel_text: ""rows": one bond after the other, which is what a correspondence law beside others in one cloud, several laws or the
+   bond-energy criterion on clouds in mixed precision, families above 1,024 bonds, and in single precision points nearer than its rounding
+   ask for"; "columns ...", "list ...", "reference". */
 static int text_is(const specimen *s, const peri_material_desc *second, const char *want) {
     peri_body *b = specimen_start(s);
     if (s->scatter > 0) MUST(b, peri_add_perturbed_box(b, material_of(b), s->lo, s->hi, 1, s->scatter, 5));
@@ -258,9 +259,17 @@ static void kernel_texts(void) {
     changed = cloud;
     changed.material.criterion = PERI_CRITERION_BOND_ENERGY;
     changed.material.fracture_energy = 1;
+    CHECK(text_is(&changed, NULL, "list, "));
+    changed.desc.precision = PERI_PRECISION_MIXED;
     CHECK(text_is(&changed, NULL, "rows"));
     changed.material.criterion = PERI_CRITERION_NODE_ENERGY;
-    CHECK(text_is(&changed, NULL, "rows"));
+    CHECK(text_is(&changed, NULL, "list, "));
+    changed = cloud;
+    other.law = PERI_LAW_OTERKUS;
+    other.stabilization = 0;
+    CHECK(text_is(&changed, &other, "list, "));
+    changed.desc.precision = PERI_PRECISION_MIXED;
+    CHECK(text_is(&changed, &other, "rows"));
     changed = cloud;
     changed.desc.horizon = 19; /* 1,128 points within, in the middle */
     changed.hi[0] = changed.hi[1] = 44;

@@ -267,8 +267,11 @@ static int64_t peri__stride(int64_t points) { return ((points + PERI_GROUP - 1) 
 static void peri__fit_model(const peri_body *b, peri__model *m) {
     m->margin = (m->stencil.reach + 2 * PERI_GROUP - 1) / PERI_GROUP * PERI_GROUP;
     m->words = (m->width + 31) / 32;
-    if (m->start && !m->bond && b->desc.kernel != PERI_KERNEL_REFERENCE && !m->mixed
-        && !(m->seen_by & ~(PERI__BY_STRESS | PERI__AND_MORE | PERI__AND_LEAST | PERI__AND_PAST)))
+    if (!m->start || m->bond || b->desc.kernel == PERI_KERNEL_REFERENCE || m->seen_by & PERI__BY_ROWS) return;
+    const int working = (m->seen_by & PERI__BY_WORK) != 0, by_energy = working || m->seen_by & PERI__BY_NODE_ENERGY;
+    /* in mixed precision vectors and rows round lengths differently: the two ends of a bond of list_mixed would not be opposite */
+    const int by_rows = m->mixed ? m->gathers & PERI__GRADIENT : m->pairwise && by_energy;
+    if (!by_rows && !((m->mixed || working) && b->b32 && !b->f32))
         m->record_reals = m->gathers & PERI__GRADIENT ? (m->dim == 2 ? 12 : 16) : m->dim == 2 && m->pairwise && m->materials == 1 ? 4 : 8;
 }
 

@@ -129,6 +129,8 @@ static void peri__note_stresses(peri_body *b, peri__operands *operands) {
     peri__update_masks(b);
     o.stress = b->stress;
     o.least = b->least;
+    if (m->record_reals && m->seen_by & (PERI__BY_STRESS | PERI__AND_LEAST))
+        peri__for_points(b, m->points, 2, b->ops->fill_records, &o, NULL);
     if (m->seen_by & PERI__AND_LEAST) peri__for_points(b, m->points, 2 * m->width, b->ops->gather_least, &o, NULL);
     if (m->seen_by & PERI__BY_STRESS) {
         peri__for_points(b, m->points, m->width, b->ops->gather_shapes, &o, NULL);

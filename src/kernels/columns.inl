@@ -207,6 +207,32 @@ PERI_ISA_TARGET static void PERI_ISA_FN(squares)(const peri__operands *o, int64_
     }
 }
 
+/* The least stretch of the live bonds of the points of group g to out, HUGE_VAL where there are none: quotients in double. */
+PERI_ISA_TARGET static void PERI_ISA_FN(least)(const peri__operands *o, int64_t g, double out[PERI_GROUP]) {
+    PERI_NO_CONTRACTION
+    const int linear = o->linear;
+    PERI_ISA_FN(group) s;
+    PERI_ISA_FN(bond) bond;
+    PERI_ISA_FN(enter)(&s, o, g, 0);
+    for (int l = 0; l < PERI_GROUP; ++l) out[l] = HUGE_VAL;
+    while (PERI_ISA_FN(next)(&s, &bond)) {
+        const PERI_VECTOR length = PERI_V(set1)(bond.length);
+        const double rest = (double)bond.length;
+        peri_b extended[PERI_GROUP], reached[PERI_GROUP];
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
+            PERI_VECTOR eta[PERI_D], y[PERI_D], along;
+            PERI_ISA_FN(moved)(&s, &bond, n, eta);
+            const PERI_VECTOR now = PERI_ISA_FN(extend)(&bond, eta, y, &along, linear);
+            PERI_V(storeu)(extended + n * PERI_WIDTH, along);
+            PERI_V(storeu)(reached + n * PERI_WIDTH, PERI_IF(linear, length, now + length));
+        }
+        for (int l = 0; l < PERI_GROUP; ++l) {
+            const double stretch = (double)extended[l] / ((double)reached[l] * rest);
+            out[l] = ((int)(bond.mask >> l & 1) & (stretch < out[l])) ? stretch : out[l];
+        }
+    }
+}
+
 /* One column of bonds of ordinary laws that are alike; p, q: of the points of the group; weighed = w beta V, where linear over |xi|^2;
    gauged = |xi|, or 1. */
 PERI_ISA_TARGET PERI_INLINE uint32_t PERI_ISA_FN(ordinary_column)(const PERI_ISA_FN(group) *s, const PERI_ISA_FN(bond) *bond,
@@ -289,6 +315,29 @@ PERI_ISA_TARGET static void PERI_ISA_FN(shape)(const peri__operands *o, int64_t 
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
             PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) PERI_ISA_FN(spread)(&out[a][d][n * PERI_WIDTH], &sum[a][d][n]);
+}
+
+/* sum w |eta - H xi|^2 V of the points of group g to out; the sum in double. */
+PERI_ISA_TARGET static void PERI_ISA_FN(misfit)(const peri__operands *o, int64_t g, peri_r h[PERI_D][PERI_D][PERI_GROUP],
+                                                double out[PERI_GROUP]) {
+    PERI_NO_CONTRACTION
+    PERI_ISA_FN(group) s;
+    PERI_ISA_FN(bond) bond;
+    PERI_ISA_FN(enter)(&s, o, g, 0);
+    for (int l = 0; l < PERI_GROUP; ++l) out[l] = 0.0;
+    while (PERI_ISA_FN(next)(&s, &bond)) {
+        const double weight = (double)bond.weight;
+        peri_b xi[PERI_D];
+        for (int d = 0; d < PERI_D; ++d) xi[d] = (peri_b)bond.row->xi[d];
+        for (int a = 0; a < PERI_D; ++a) {
+            const peri_r *own = s.u + a * s.stride, *other = own + bond.offset;
+            for (int l = 0; l < PERI_GROUP; ++l) {
+                peri_r z = (peri_b)(other[l] - own[l]);
+                for (int d = 0; d < PERI_D; ++d) z -= h[a][d][l] * xi[d];
+                out[l] += bond.mask >> l & 1 ? weight * ((double)z * (double)z) : 0.0;
+            }
+        }
+    }
 }
 
 /* Adds what gradients give of the force of all live bonds of a group to f, w ((Q_i + Q_j) xi + (k_i + k_j) eta). Returns as

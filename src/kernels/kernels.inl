@@ -88,9 +88,14 @@ typedef struct PERI_FN(vector_ops) {
     uint32_t (*fielded)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_GROUP]);
     void (*dilatation_sum)(const peri__operands *, int64_t, peri_r[PERI_GROUP]);
     void (*squares)(const peri__operands *, int64_t, double[PERI_GROUP]);
+    void (*least)(const peri__operands *, int64_t, double[PERI_GROUP]);
+    void (*misfit)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D][PERI_GROUP], double[PERI_GROUP]);
+    double (*list_least)(const peri__operands *, int64_t, int);
+    double (*list_misfit)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D]);
     void (*shape)(const peri__operands *, int64_t, peri_r[PERI_D][PERI_D][PERI_GROUP]);
     int (*list_pairwise)(const peri__operands *, int64_t, peri_r *);
     int (*list_ordinary)(const peri__operands *, int64_t, peri_r *);
+    int (*list_mixed)(const peri__operands *, int64_t, peri_r *);
     int (*list_tensor)(const peri__operands *, int64_t, peri_r *);
     int (*list_fielded)(const peri__operands *, int64_t, peri_r *);
     peri_r (*list_dilatation_sum)(const peri__operands *, int64_t);
@@ -131,8 +136,9 @@ typedef struct PERI_FN(vector_ops) {
 /* by peri__isa */
 #define PERI_TABLE(set)                                                                                                \
     { PERI_FN(pairwise_##set), PERI_FN(ordinary_##set), PERI_FN(mixed_##set), PERI_FN(tensor_##set), PERI_FN(fielded_##set), \
-      PERI_FN(dilatation_sum_##set), PERI_FN(squares_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set),         \
-      PERI_FN(list_ordinary_##set), PERI_FN(list_tensor_##set), PERI_FN(list_fielded_##set),                             \
+      PERI_FN(dilatation_sum_##set), PERI_FN(squares_##set), PERI_FN(least_##set), PERI_FN(misfit_##set),                \
+      PERI_FN(list_least_##set), PERI_FN(list_misfit_##set), PERI_FN(shape_##set), PERI_FN(list_pairwise_##set),         \
+      PERI_FN(list_ordinary_##set), PERI_FN(list_mixed_##set), PERI_FN(list_tensor_##set), PERI_FN(list_fielded_##set),   \
       PERI_FN(list_dilatation_sum_##set), PERI_FN(list_shape_##set), PERI_FN(list_stretch_##set), PERI_FN(law_sum_##set), \
       PERI_FN(kick_some_##set),                                                                                          \
       PERI_FN(drift_some_##set), PERI_FN(share_some_##set), PERI_FN(square_some_##set), PERI_FN(step_some_##set),           \

@@ -168,10 +168,54 @@ PERI_ISA_TARGET PERI_INLINE peri_r PERI_ISA_FN(list_sum)(const peri__operands *o
 }
 
 PERI_ISA_TARGET static peri_r PERI_ISA_FN(list_dilatation_sum)(const peri__operands *o, int64_t place) {
-    if (o->model->gauge) return PERI_BY_GEOMETRY(PERI_ISA_FN(list_sum), o, place, 1);
+    const peri__model *m = o->model;
+    if (m->mixed ? m->laws[m->material[peri__nth(m, place)]].gauge : m->gauge) return PERI_BY_GEOMETRY(PERI_ISA_FN(list_sum), o, place, 1);
     return PERI_ISA_FN(list_sum)(o, place, 0, o->linear);
 }
 #undef PERI_BY_GEOMETRY
+
+/* Of the live bonds of the point at a place the least stretch, HUGE_VAL where there are none; or where `squares` sum w e^2 V. In double. */
+PERI_ISA_TARGET static double PERI_ISA_FN(list_least)(const peri__operands *o, int64_t place, int squares) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
+    const int32_t reals = m->record_reals;
+    const int linear = o->linear;
+    const peri_r *records = (const peri_r *)o->records;
+    const peri_b *weights = (const peri_b *)m->weight + first;
+    double lane[PERI_CHUNK];
+    peri_r own[8] = { 0 };
+    for (int l = 0; l < PERI_CHUNK; ++l) lane[l] = squares ? 0.0 : HUGE_VAL;
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = records[place * reals + d];
+    for (int64_t k = 0; k < count; k += PERI_CHUNK) {
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
+        peri_b extended[PERI_CHUNK], reached[PERI_CHUNK], rest[PERI_CHUNK];
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
+            const int at = n * PERI_WIDTH;
+            PERI_ISA_FN(piece) s;
+            for (int g = 4; g < 8; ++g) s.got[g] = PERI_V(set1)(0); /* small records have none */
+            PERI_ISA_FN(span)(&s, records, reals, &m->ids[first + k + at], own, linear);
+            const PERI_VECTOR length = PERI_V(sqrt)(s.rest);
+            PERI_V(storeu)(extended + at, s.along);
+            PERI_V(storeu)(reached + at, PERI_IF(linear, length, PERI_V(sqrt)(s.now) + length));
+            PERI_V(storeu)(rest + at, length);
+        }
+        for (int l = 0; squares && l < PERI_CHUNK; ++l) {
+            const double e = (double)extended[l] / (double)reached[l];
+            lane[l] += flags >> l & 1 ? (double)weights[k + l] * (e * e) : 0.0;
+        }
+        for (int l = 0; !squares && l < PERI_CHUNK; ++l) {
+            const double stretch = (double)extended[l] / ((double)reached[l] * (double)rest[l]);
+            lane[l] = ((int)(flags >> l & 1) & (stretch < lane[l])) ? stretch : lane[l];
+        }
+    }
+    PERI_NO_UNROLLING for (int half = PERI_CHUNK / 2; half > 0; half /= 2)
+        PERI_NO_UNROLLING for (int l = 0; l < half; ++l) {
+            const double other = lane[l + half];
+            lane[l] = squares ? lane[l] + other : other < lane[l] ? other : lane[l];
+        }
+    return lane[0];
+}
 
 /* ---- fields of material ------------------------------------------------------------------------------------------- */
 
@@ -256,6 +300,67 @@ PERI_ISA_TARGET static int PERI_ISA_FN(list_fielded)(const peri__operands *o, in
     return hit;
 }
 
+/* ---- laws that differ, the work on bonds --------------------------------------------------------------------------- */
+
+/* As list_row, whatever the laws of the ends, none of them with a gradient: q e + p g of both ends, q of a pairwise law c/(2 |xi|). Counts
+   the work on bonds where that is asked for, and returns nonzero where it comes near its limit, too. */
+PERI_ISA_TARGET static int PERI_ISA_FN(list_mixed)(const peri__operands *o, int64_t place, peri_r *f) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
+    const int32_t material = m->material[i];
+    const int linear = o->linear, by_length = m->laws[material].gauge;
+    const peri_r *records = (const peri_r *)o->records, *mine = records + place * 8, none[PERI_WIDTH] = { 0 };
+    const peri_b *weights = (const peri_b *)m->weight + first, *backs = (const peri_b *)m->back + first;
+    const PERI_VECTOR limit = PERI_V(set1)((peri_b)PERI_ISA_FN(near_stretch)(o, i)), tiny = PERI_V(set1)((peri_b)PERI_TINY);
+    const PERI_VECTOR pi = PERI_V(set1)((peri_b)mine[2 * PERI_D]), qi = PERI_V(set1)((peri_b)mine[2 * PERI_D + 1]);
+    const PERI_VECTOR one = PERI_V(set1)(1);
+    PERI_STATE sum[PERI_D][PERI_PIECES];
+    peri_r own[8] = { 0 };
+    peri_b table[3][PERI_MATERIAL_LIMIT], lane[3][PERI_CHUNK];
+    peri_b force[PERI_D][PERI_CHUNK], eta[PERI_D][PERI_CHUNK];
+    int hit = 0;
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = mine[d];
+    PERI_FN(tell_ends)(m, material, table);
+    for (int n = 0; n < 3; ++n)
+        PERI_NO_UNROLLING for (int l = 0; l < PERI_CHUNK; ++l) lane[n][l] = table[n][0];
+    for (int d = 0; d < PERI_D; ++d)
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) sum[d][n] = PERI_ISA_FN(take)(none);
+    for (int64_t k = 0; k < count; k += PERI_CHUNK) {
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
+        for (int l = 0; m->materials > 1 && l < PERI_CHUNK; ++l) {
+            const int32_t other = m->material[peri__nth(m, m->ids[first + k + l])];
+            for (int n = 0; n < 3; ++n) lane[n][l] = table[n][other];
+        }
+        PERI_NO_UNROLLING for (int n = 0; n < PERI_PIECES; ++n) {
+            const int at = n * PERI_WIDTH;
+            const PERI_LIVE live = PERI_TO_LIVE(flags >> at);
+            const PERI_VECTOR weight = PERI_V(loadu)(weights + k + at), back = PERI_V(loadu)(backs + k + at);
+            const PERI_VECTOR far_gauge = PERI_V(loadu)(lane[2] + at);
+            PERI_ISA_FN(piece) s;
+            PERI_ISA_FN(span)(&s, records, 8, &m->ids[first + k + at], own, linear);
+            const PERI_VECTOR length = PERI_V(sqrt)(s.rest), now = PERI_IF(linear, length, PERI_V(sqrt)(s.now));
+            const PERI_VECTOR reach = PERI_IF(linear, length, now + length);
+            const PERI_VECTOR q = weight * (qi + PERI_V(loadu)(lane[0] + at) / length)
+                                + back * (s.got[2 * PERI_D + 1] + PERI_V(loadu)(lane[1] + at) / length);
+            const PERI_VECTOR p = weight * (pi * PERI_IF(by_length, length, one))
+                                + back * (s.got[2 * PERI_D] * (far_gauge * length + (one - far_gauge)));
+            const PERI_VECTOR scale = (q * s.along + p * reach) / (reach * (now + tiny));
+            hit |= (int)PERI_ABOVE(s.along, limit * length * reach, live);
+            for (int d = 0; d < PERI_D; ++d) {
+                const PERI_VECTOR part = PERI_KEEP_PRODUCT(live, scale, s.y[d]);
+                PERI_ISA_FN(gather)(&sum[d][n], part);
+                if (!o->working) continue;
+                PERI_V(storeu)(force[d] + at, part);
+                PERI_V(storeu)(eta[d] + at, s.got[PERI_D + d]);
+            }
+        }
+        if (o->working) hit |= PERI_FN(count_chunk)(o, i, k, flags, force, eta);
+    }
+    for (int d = 0; d < PERI_D; ++d) f[d] += PERI_ISA_FN(added)(sum[d]);
+    return hit;
+}
+
 /* ---- gradients ---------------------------------------------------------------------------------------------------- */
 
 #define PERI_TENSOR_RECORD (PERI_D == 2 ? 12 : 16) /* of a record: x, u, Q, k                                            */
@@ -267,10 +372,11 @@ PERI_ISA_TARGET static void PERI_ISA_FN(list_shape)(const peri__operands *o, int
     const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
     const peri_r *records = (const peri_r *)o->records, none[PERI_WIDTH] = { 0 };
     const peri_b *weights = (const peri_b *)m->weight + first;
+    const int32_t reals = m->record_reals;
     peri_r own[8] = { 0 };
     PERI_STATE sum[PERI_D][PERI_D][PERI_PIECES];
     PERI_VECTOR got[8];
-    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = records[place * PERI_TENSOR_RECORD + d];
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = records[place * reals + d];
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d)
             PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) sum[a][d][n] = PERI_ISA_FN(take)(none);
@@ -280,8 +386,8 @@ PERI_ISA_TARGET static void PERI_ISA_FN(list_shape)(const peri__operands *o, int
             const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
             const PERI_LIVE live = PERI_TO_LIVE(flags >> (n * PERI_WIDTH));
             const PERI_VECTOR weight = PERI_V(loadu)(weights + k + n * PERI_WIDTH);
-            PERI_ISA_FN(differ)(records, PERI_TENSOR_RECORD, ids, own, got);
-            if (PERI_D == 3) PERI_ISA_FN(differ)(records + 4, PERI_TENSOR_RECORD, ids, own + 4, got + 4);
+            PERI_ISA_FN(differ)(records, reals, ids, own, got);
+            if (PERI_D == 3) PERI_ISA_FN(differ)(records + 4, reals, ids, own + 4, got + 4);
             for (int a = 0; a < PERI_D; ++a) {
                 const PERI_VECTOR pulled = PERI_KEEP_PRODUCT(live, weight, got[PERI_D + a]);
                 for (int d = 0; d < PERI_D; ++d) PERI_ISA_FN(gather)(&sum[a][d][n], PERI_KEEP_PRODUCT(live, pulled, got[d]));
@@ -290,6 +396,38 @@ PERI_ISA_TARGET static void PERI_ISA_FN(list_shape)(const peri__operands *o, int
     }
     for (int a = 0; a < PERI_D; ++a)
         for (int d = 0; d < PERI_D; ++d) shape[a][d] = PERI_ISA_FN(added)(sum[a][d]);
+}
+
+/* sum w |eta - H xi|^2 V of the point at a place; the sum in double. */
+PERI_ISA_TARGET static double PERI_ISA_FN(list_misfit)(const peri__operands *o, int64_t place, peri_r h[PERI_D][PERI_D]) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = o->model;
+    const int64_t i = peri__nth(m, place), first = m->start[i], count = m->count[i];
+    const peri_r *records = (const peri_r *)o->records;
+    const peri_b *weights = (const peri_b *)m->weight + first;
+    double lane[PERI_CHUNK] = { 0 };
+    peri_r own[8] = { 0 };
+    for (int d = 0; d < 2 * PERI_D; ++d) own[d] = records[place * PERI_TENSOR_RECORD + d];
+    for (int64_t k = 0; k < count; k += PERI_CHUNK) {
+        const uint32_t flags = PERI_ISA_FN(live)(o, i, k, count);
+        peri_b apart[8][PERI_CHUNK]; /* xi, eta */
+        PERI_PIECEWISE for (int n = 0; n < PERI_PIECES; ++n) {
+            const int32_t *ids = &m->ids[first + k + n * PERI_WIDTH];
+            PERI_VECTOR got[8];
+            PERI_ISA_FN(differ)(records, PERI_TENSOR_RECORD, ids, own, got);
+            if (PERI_D == 3) PERI_ISA_FN(differ)(records + 4, PERI_TENSOR_RECORD, ids, own + 4, got + 4);
+            for (int d = 0; d < 2 * PERI_D; ++d) PERI_V(storeu)(apart[d] + n * PERI_WIDTH, got[d]);
+        }
+        for (int a = 0; a < PERI_D; ++a)
+            for (int l = 0; l < PERI_CHUNK; ++l) {
+                peri_r z = apart[PERI_D + a][l];
+                for (int d = 0; d < PERI_D; ++d) z -= h[a][d] * apart[d][l];
+                lane[l] += flags >> l & 1 ? (double)weights[k + l] * ((double)z * (double)z) : 0.0;
+            }
+    }
+    PERI_NO_UNROLLING for (int half = PERI_CHUNK / 2; half > 0; half /= 2)
+        PERI_NO_UNROLLING for (int l = 0; l < half; ++l) lane[l] += lane[l + half];
+    return lane[0];
 }
 
 /* Adds the force of all live bonds of the point i at a place to f, (w_ij Q_i + w_ji Q_j) xi + (w_ij k_i + w_ji k_j) eta; no central bonds.
@@ -304,7 +442,7 @@ PERI_ISA_TARGET static int PERI_ISA_FN(list_tensor)(const peri__operands *o, int
     const peri_b s0 = (peri_b)PERI_ISA_FN(near_stretch)(o, i);
     const PERI_VECTOR same = PERI_V(set1)(linear ? s0 : s0 * (2 + s0)); /* infinite where none breaks */
     PERI_ISA_FN(lanes) lanes;
-    peri_b limits[PERI_CHUNK];
+    peri_b limits[PERI_CHUNK], force[PERI_D][PERI_CHUNK], change[PERI_D][PERI_CHUNK];
     peri_r own[PERI_TENSOR_RECORD] = { 0 };
     PERI_STATE sum[PERI_D][PERI_PIECES];
     PERI_VECTOR got[PERI_TENSOR_RECORD];
@@ -338,9 +476,14 @@ PERI_ISA_TARGET static int PERI_ISA_FN(list_tensor)(const peri__operands *o, int
                 const peri_r *own_q = mine + 2 * PERI_D + a * PERI_D;
                 PERI_VECTOR t = (weight * PERI_V(set1)((peri_b)mine[2 * PERI_D + PERI_D * PERI_D]) + back * vector) * eta[a];
                 for (int d = 0; d < PERI_D; ++d) t += (weight * PERI_V(set1)((peri_b)own_q[d]) + back * q[a * PERI_D + d]) * xi[d];
-                PERI_ISA_FN(gather)(&sum[a][n], PERI_KEEP(live, t));
+                const PERI_VECTOR part = PERI_KEEP(live, t);
+                PERI_ISA_FN(gather)(&sum[a][n], part);
+                if (!o->working) continue;
+                PERI_V(storeu)(force[a] + n * PERI_WIDTH, part);
+                PERI_V(storeu)(change[a] + n * PERI_WIDTH, eta[a]);
             }
         }
+        if (o->working) hit |= PERI_FN(count_chunk)(o, i, k, flags, force, change);
     }
     for (int d = 0; d < PERI_D; ++d) f[d] += PERI_ISA_FN(added)(sum[d]);
     return hit;

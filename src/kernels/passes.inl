@@ -9,6 +9,13 @@ PERI_INLINE int PERI_FN(near_stress)(const peri__operands *o, int64_t i) {
     return o->breaking && o->nearness && 0.5 * (o->nearness[i] + o->nearness_most) > 1.0 - 1e-6;
 }
 
+/* Can a bond of point i be beyond the critical energy of its ends? */
+PERI_INLINE int PERI_FN(near_node_energy)(const peri__operands *o, int64_t i) {
+    if (!o->node || !o->breaking) return 0;
+    const double limit = peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY) * peri__square(o->least_strength);
+    return 0.5 * (o->node[i] + o->node_most) > limit;
+}
+
 /* ---- the list ------------------------------------------------------------------------------------------------------ */
 
 /* Records of list.inl. */
@@ -70,16 +77,21 @@ static void PERI_FN(force_list)(const peri__operands *o, int64_t begin, int64_t 
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
         peri_r *force = (peri_r *)o->f + i, *f = shared[k - begin];
-        int by_row;
+        int by_row, counted = 0; /* the work on its bonds                                                                   */
         PERI_FN(fetch_ahead)(o, k);
         for (int d = 0; d < PERI_D; ++d) f[d] = PERI_MUTUAL(m) ? 0 : force[d * m->stride];
-        if (PERI_FN(near_stress)(o, i)) by_row = 1;
+        if (PERI_FN(near_stress)(o, i) || PERI_FN(near_node_energy)(o, i)) by_row = 1;
+        else if (o->fields && (PERI_FN(is_list_mixed)(m) || o->working)) by_row = 1;
         else if (o->fields && !tensors) by_row = PERI_BY_VECTORS(m, list_fielded)(o, k, f);
+        else if (PERI_FN(is_list_mixed)(m)) counted = by_row = PERI_BY_VECTORS(m, list_mixed)(o, k, f);
         else if (m->pairwise) by_row = PERI_BY_VECTORS(m, list_pairwise)(o, k, f);
         else if (!tensors) by_row = PERI_BY_VECTORS(m, list_ordinary)(o, k, f);
-        else by_row = o->central[i / peri__central_of(m)] || PERI_BY_VECTORS(m, list_tensor)(o, k, f);
+        else if (o->central[i / peri__central_of(m)]) by_row = 1;
+        else counted = by_row = PERI_BY_VECTORS(m, list_tensor)(o, k, f);
         if (by_row) {
-            PERI_FN(force_rows)(o, i, i + 1, sums);
+            peri__operands rest = *o;
+            if (counted) rest.working = 0;
+            PERI_FN(force_rows)(&rest, i, i + 1, sums);
             for (int d = 0; d < PERI_D; ++d) f[d] = 0;
         } else if (!PERI_MUTUAL(m))
             for (int d = 0; d < PERI_D; ++d) force[d * m->stride] = f[d];
@@ -91,43 +103,80 @@ static void PERI_FN(force_list)(const peri__operands *o, int64_t begin, int64_t 
     }
 }
 
+/* What a point whose law has a gradient, n K^-1 of the sum n of w eta xi V, has of it per volume; H to h. */
+static double PERI_FN(gradient_energy)(const peri__operands *o, int64_t i, peri_r n[PERI_D][PERI_D], peri_r h[PERI_D][PERI_D]) {
+    peri__law room;
+    peri_r strain[PERI_D][PERI_D];
+    PERI_FN(gradient)(o, i, n, h);
+    PERI_FN(strain)(PERI_D, o->linear, h, strain);
+    if (o->eigenstrain) PERI_FN(make_elastic)(o, i, strain);
+    return PERI_FN(strain_energy)(peri__stiffened(o->model, i, (double)PERI_FN(stiffness)(o, i), &room), PERI_D, strain);
+}
+
+/* The energy density of point i, of the sum w |eta - H xi|^2 V and what its gradient gives. Where it acts by central bonds rows tell. */
+static double PERI_FN(whole_energy)(const peri__operands *o, int64_t i, double gradient, double misfit) {
+    const peri__model *m = o->model;
+    peri__row row;
+    if (PERI_FN(constant)(o, PERI__SPRING, i) == 0)
+        return gradient + 0.5 * (double)PERI_FN(constant)(o, PERI__STABILIZATION, i) * (misfit / peri__share(m, i));
+    peri__row_of(m, i, &row);
+    return PERI_FN(point_energy)(o, i, &row);
+}
+
+/* The energy density of a point of an ordinary law; squares: sum w e^2 V, sum: of w g e V, both with the share of the point. */
+PERI_INLINE double PERI_FN(ordinary_energy)(const peri__operands *o, int64_t i, double squares, peri_r sum) {
+    return 0.5 * (double)PERI_FN(constant)(o, PERI__SPRING, i) * (squares / peri__share(o->model, i))
+         + 0.5 * (double)PERI_FN(constant)(o, PERI__PRESSURE_FACTOR, i) * (double)PERI_FN(constant)(o, PERI__THETA_FACTOR, i)
+               * peri__square((double)(sum * PERI_FN(portion)(o->model, i)));
+}
+
+/* The energy of the node at a place; n: the sum of w eta xi V. */
+static void PERI_FN(list_node)(const peri__operands *o, int64_t place, peri_r n[PERI_D][PERI_D]) {
+    const peri__model *m = o->model;
+    const int64_t i = peri__nth(m, place);
+    double density;
+    if (o->fields || m->mixed) {
+        peri__row row;
+        peri__row_of(m, i, &row);
+        density = PERI_FN(point_energy)(o, i, &row);
+    } else if (m->gathers & PERI__GRADIENT) {
+        peri_r h[PERI_D][PERI_D];
+        const double gradient = PERI_FN(gradient_energy)(o, i, n, h);
+        density = PERI_FN(whole_energy)(o, i, gradient, PERI_BY_VECTORS(m, list_misfit)(o, place, h));
+    } else
+        density = PERI_FN(ordinary_energy)(o, i, PERI_BY_VECTORS(m, list_least)(o, place, 1),
+                                           PERI_BY_VECTORS(m, list_dilatation_sum)(o, place));
+    o->node[i] = 2.0 * density / peri__family_volume(m, i);
+}
+
 static void PERI_FN(gather_list)(const peri__operands *o, int64_t begin, int64_t end) {
     const peri__model *m = o->model;
     for (int64_t k = begin; k < end; ++k) {
         const int64_t i = peri__nth(m, k);
+        peri_r n[PERI_D][PERI_D];
         PERI_FN(fetch_ahead)(o, k);
         if (m->gathers & PERI__GRADIENT) {
-            peri_r n[PERI_D][PERI_D];
             PERI_BY_VECTORS(m, list_shape)(o, k, n);
             PERI_FN(share_out)(m, i, n);
             PERI_FN(put_tensor)(o, i, n);
         } else
             PERI_FN(put_pressure)(o, i, PERI_FN(constant)(o, PERI__PRESSURE_FACTOR, i) == 0 ? 0 :
                                              PERI_BY_VECTORS(m, list_dilatation_sum)(o, k) * PERI_FN(portion)(m, i));
+        if (o->node) PERI_FN(list_node)(o, k, n);
     }
 }
 
 /* ---- columns -------------------------------------------------------------------------------------------------------- */
 
-/* Points of group g that may have a bond beyond the critical energy of its ends. */
-static uint32_t PERI_FN(near_node_energy)(const peri__operands *o, int64_t g) {
-    const peri__model *m = o->model;
-    uint32_t rows = 0;
-    for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
-        const int64_t i = g * PERI_GROUP + l;
-        const double limit = peri__least_limit(o, i, PERI_CRITERION_NODE_ENERGY) * peri__square(o->least_strength);
-        rows |= (uint32_t)(0.5 * (o->node[i] + o->node_most) > limit) << l;
-    }
-    return rows;
-}
-
 /* The force on group g by columns; returns a bit for each point that must be done by rows. */
 static uint32_t PERI_FN(group_force)(const peri__operands *o, int64_t g, peri_r f[PERI_D][PERI_GROUP]) {
     const peri__model *m = o->model;
     if (m->seen_by & PERI__BY_ROWS && o->breaking) return 0xFFFFu;
-    uint32_t rows = o->node && o->breaking ? PERI_FN(near_node_energy)(o, g) : 0;
-    for (int l = 0; o->nearness && l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l)
-        rows |= (uint32_t)PERI_FN(near_stress)(o, g * PERI_GROUP + l) << l;
+    uint32_t rows = 0;
+    for (int l = 0; (o->nearness || o->node) && l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
+        const int64_t i = g * PERI_GROUP + l;
+        rows |= (uint32_t)(PERI_FN(near_stress)(o, i) || PERI_FN(near_node_energy)(o, i)) << l;
+    }
     if (o->fields) return rows | PERI_BY_VECTORS(m, fielded)(o, g, f);
     if (m->pairwise) return rows | PERI_BY_VECTORS(m, pairwise)(o, g, f);
     if (m->stencil.ends) return rows | PERI_BY_VECTORS(m, mixed)(o, g, f);
@@ -172,13 +221,32 @@ static void PERI_FN(force_columns)(const peri__operands *o, int64_t g, peri__sum
     PERI_FN(finish_by_rows)(o, g, by_row, f, sums);
 }
 
-/* The sums of w eta xi V, for criteria of stress. */
+/* The sums of w eta xi V, for criteria of stress: by the list, or by rows, */
+static void PERI_FN(shape_list)(const peri__operands *o, int64_t begin, int64_t end) {
+    const peri__model *m = o->model;
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = m->record_reals ? peri__nth(m, k) : k;
+        peri_r n[PERI_D][PERI_D];
+        peri__row row;
+        if (m->record_reals) {
+            PERI_BY_VECTORS(m, list_shape)(o, k, n);
+            PERI_FN(share_out)(m, i, n);
+        } else {
+            peri__row_of(m, i, &row);
+            PERI_FN(row_shape)(o, i, &row, n);
+        }
+        for (int a = 0; a < PERI_D; ++a)
+            for (int d = 0; d < PERI_D; ++d) o->stress[(i * PERI_D + a) * PERI_D + d] = (double)n[a][d];
+    }
+}
+
+/* or by columns. */
 static void PERI_FN(gather_shapes)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
     const peri__operands *o = (const peri__operands *)context;
     const peri__model *m = o->model;
     (void)sums;
     if (!m->stencil.columns) {
-        PERI_FN(shape_rows)(o, begin, end);
+        PERI_FN(shape_list)(o, begin, end);
         return;
     }
     for (int64_t g = begin / PERI_GROUP; g * PERI_GROUP < end; ++g) {
@@ -193,29 +261,60 @@ static void PERI_FN(gather_shapes)(void *context, int64_t begin, int64_t end, pe
     }
 }
 
-/* Energy densities of group g, without gradients. */
+/* The least stretch of points, 0 where no bond lives, for criteria. */
+static void PERI_FN(gather_least)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
+    const peri__operands *o = (const peri__operands *)context;
+    const peri__model *m = o->model;
+    double group[PERI_GROUP];
+    (void)sums;
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t i = m->record_reals ? peri__nth(m, k) : k;
+        double least;
+        if (m->stencil.columns && k % PERI_GROUP == 0) PERI_BY_VECTORS(m, least)(o, k / PERI_GROUP, group);
+        if (m->stencil.columns) least = group[k % PERI_GROUP];
+        else least = m->record_reals ? PERI_BY_VECTORS(m, list_least)(o, k, 0) : PERI_FN(row_least)(o, i);
+        o->least[i] = least < HUGE_VAL ? least : 0.0;
+    }
+}
+
+/* Energy densities of group g, of a law with gradients, */
+static void PERI_FN(group_gradient_energy)(const peri__operands *o, int64_t g, double density[PERI_GROUP]) {
+    const peri__model *m = o->model;
+    peri_r shape[PERI_D][PERI_D][PERI_GROUP], whole[PERI_D][PERI_D][PERI_GROUP] = { { { 0 } } }, n[PERI_D][PERI_D], h[PERI_D][PERI_D];
+    double misfit[PERI_GROUP];
+    PERI_BY_VECTORS(m, shape)(o, g, shape);
+    for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
+        for (int k = 0; k < PERI_D * PERI_D; ++k) n[k / PERI_D][k % PERI_D] = shape[k / PERI_D][k % PERI_D][l];
+        PERI_FN(share_out)(m, g * PERI_GROUP + l, n);
+        density[l] = PERI_FN(gradient_energy)(o, g * PERI_GROUP + l, n, h);
+        for (int k = 0; k < PERI_D * PERI_D; ++k) whole[k / PERI_D][k % PERI_D][l] = h[k / PERI_D][k % PERI_D];
+    }
+    PERI_BY_VECTORS(m, misfit)(o, g, whole, misfit);
+    for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l)
+        density[l] = PERI_FN(whole_energy)(o, g * PERI_GROUP + l, density[l], misfit[l]);
+}
+
+/* or of any. */
 static void PERI_FN(group_energy)(const peri__operands *o, int64_t g, double density[PERI_GROUP]) {
     const peri__model *m = o->model;
-    const peri_b *constant = m->pairwise ? NULL : (const peri_b *)o->constant + g * PERI_GROUP;
     peri_r sum[PERI_GROUP] = { 0 };
+    if (m->gathers & PERI__GRADIENT) {
+        PERI_FN(group_gradient_energy)(o, g, density);
+        return;
+    }
     PERI_BY_VECTORS(m, squares)(o, g, density);
     if (m->gathers & PERI__DILATATION) PERI_BY_VECTORS(m, dilatation_sum)(o, g, sum);
     for (int l = 0; l < PERI_GROUP && g * PERI_GROUP + l < m->points; ++l) {
-        density[l] /= peri__share(m, g * PERI_GROUP + l);
-        sum[l] *= PERI_FN(portion)(m, g * PERI_GROUP + l);
-        if (m->pairwise) density[l] *= 0.25;
-        else
-            density[l] = 0.5 * (double)constant[PERI__SPRING * m->stride + l] * density[l]
-                       + 0.5 * (double)constant[PERI__PRESSURE_FACTOR * m->stride + l]
-                             * (double)constant[PERI__THETA_FACTOR * m->stride + l]
-                             * peri__square((double)sum[l]);
+        const int64_t i = g * PERI_GROUP + l;
+        if (m->pairwise) density[l] = 0.25 * (density[l] / peri__share(m, i));
+        else density[l] = PERI_FN(ordinary_energy)(o, i, density[l], sum[l]);
     }
 }
 
 /* Are energies had by columns? */
 PERI_INLINE int PERI_FN(has_group_energy)(const peri__operands *o) {
     const peri__model *m = o->model;
-    return m->stencil.columns > 0 && !m->mixed && !(m->gathers & PERI__GRADIENT) && !o->fields;
+    return m->stencil.columns > 0 && !m->mixed && !o->fields;
 }
 
 static void PERI_FN(gather_columns)(const peri__operands *o, int64_t g) {

@@ -155,6 +155,11 @@ static peri_b PERI_FN(listed_pull)(const peri__operands *s, int64_t i, const per
 }
 #endif
 
+/* Does list_mixed serve the body? */
+PERI_INLINE int PERI_FN(is_list_mixed)(const peri__model *m) {
+    return m->record_reals > 0 && !(m->gathers & PERI__GRADIENT) && (m->mixed || m->seen_by & PERI__BY_WORK);
+}
+
 /* Both halves of a bond of laws that differ: adds the tensor parts to t and returns the force along y over |y|. */
 static peri_b PERI_FN(mixed_pull)(const peri__operands *s, int64_t i, const peri__row *row, int64_t k, const PERI_FN(bond) *bond,
                                   peri_b *t) {
@@ -178,7 +183,7 @@ static peri_b PERI_FN(mixed_pull)(const peri__operands *s, int64_t i, const peri
     if (s->fields) {
         const peri_b own = q[0] * along[0] + p[0] * bond->reach, other = q[1] * along[1] + p[1] * bond->reach;
         pull = m->back == m->weight ? weights[0] * (own + other) : weights[0] * own + weights[1] * other;
-    } else if (m->back == m->weight)
+    } else if (m->back == m->weight && !PERI_FN(is_list_mixed)(m))
         pull = weights[0] * ((q[0] + q[1]) * bond->along + (p[0] + p[1]) * bond->reach);
     else
         pull = (weights[0] * q[0] + weights[1] * q[1]) * bond->along + (weights[0] * p[0] + weights[1] * p[1]) * bond->reach;
@@ -229,6 +234,39 @@ static void PERI_FN(count_work)(const peri__operands *s, int64_t i, const peri__
         ((peri_r *)s->work)[at] += (peri_r)0.5 * (*pull + now) * (eta[d] - (w[j] - w[i]));
         *pull = now;
     }
+}
+
+/* What list_mixed asks of the ends of bonds of a material, by the material of the other: c/2 of the own end and of the other, 0 where that
+   law is not pairwise; 1 where the gauge of the other is |xi|. */
+static PERI_APART void PERI_FN(tell_ends)(const peri__model *m, int32_t material, peri_b table[3][PERI_MATERIAL_LIMIT]) {
+    for (int32_t k = 0; k < m->materials; ++k) {
+        table[0][k] = (peri_b)(m->laws[material].pairwise ? 0.5 * m->pairs[material * m->materials + k].c : 0.0);
+        table[1][k] = (peri_b)(m->laws[k].pairwise ? 0.5 * m->pairs[k * m->materials + material].c : 0.0);
+        table[2][k] = m->laws[k].gauge ? (peri_b)1 : (peri_b)0;
+    }
+}
+
+/* The work of the forces of live bonds of the list, those of row i from bond k on; force, eta: of PERI_CHUNK bonds. Returns 1 where the
+   work on one comes near its limit. */
+static int PERI_FN(count_chunk)(const peri__operands *s, int64_t i, int64_t k, uint32_t flags, peri_b force[PERI_D][PERI_CHUNK],
+                                peri_b eta[PERI_D][PERI_CHUNK]) {
+    PERI_NO_CONTRACTION
+    const peri__model *m = s->model;
+    const peri_r portion = PERI_FN(portion)(m, i), *worked = (const peri_r *)s->worked;
+    const double most = s->breaking ? peri__least_limit(s, i, PERI_CRITERION_BOND_ENERGY) * peri__square(s->least_strength) : PERI_NEVER;
+    int hit = 0;
+    for (int64_t l = 0, at = m->start[i] + k; flags >> l; ++l, ++at) {
+        const int64_t j = peri__nth(m, m->ids[at]);
+        peri_r *work = (peri_r *)s->work + at, *pull = (peri_r *)s->pull + at * PERI_D;
+        if (!(flags >> l & 1)) continue;
+        for (int d = 0; d < PERI_D; ++d) {
+            const peri_r *w = worked + d * m->stride, now = portion * force[d][l];
+            *work += (peri_r)0.5 * (pull[d] + now) * (eta[d][l] - (w[j] - w[i]));
+            pull[d] = now;
+        }
+        hit |= (double)*work > most * (1.0 - PERI_NEAR) * (m->partial_volume ? (double)m->partial_volume[at] : m->volume[j]);
+    }
+    return hit;
 }
 
 /* Adds the force of the live bonds of row i to f. Bonds that meet their criterion break: with pairwise laws at once, what they still give
@@ -308,7 +346,8 @@ static void PERI_FN(point_force)(const peri__operands *s, int64_t i, peri_r *f, 
     peri__row_of(m, i, &row);
     const int plain = !s->linear && !m->centroid && !m->seen_by && !s->fields;
     if (!m->pairwise) {
-        const int mixed = s->fields || m->mixed || m->gathers & PERI__GRADIENT || (PERI_T_BOND == 32 && m->stencil.ends);
+        const int mixed = s->fields || m->mixed || m->gathers & PERI__GRADIENT || PERI_FN(is_list_mixed)(m)
+                        || (PERI_T_BOND == 32 && m->stencil.ends);
         if (mixed) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 1, 0);
         else if (plain) sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 1);
         else sums->n += PERI_FN(row_force)(s, i, &row, f, NULL, NULL, 0, 0, 0);
@@ -391,35 +430,19 @@ static void PERI_FN(row_shape)(const peri__operands *s, int64_t i, const peri__r
     PERI_FN(share_out)(s->model, i, n);
 }
 
-/* Points [begin, end), for criteria of stress. */
-static void PERI_FN(shape_rows)(const peri__operands *s, int64_t begin, int64_t end) {
-    for (int64_t i = begin; i < end; ++i) {
-        peri__row row;
-        peri_r n[PERI_D][PERI_D];
-        peri__row_of(s->model, i, &row);
-        PERI_FN(row_shape)(s, i, &row, n);
-        for (int a = 0; a < PERI_D; ++a)
-            for (int d = 0; d < PERI_D; ++d) s->stress[(i * PERI_D + a) * PERI_D + d] = (double)n[a][d];
+/* The least stretch of the live bonds of point i; HUGE_VAL where there are none. */
+static double PERI_FN(row_least)(const peri__operands *s, int64_t i) {
+    peri__row row;
+    double least = HUGE_VAL;
+    peri__row_of(s->model, i, &row);
+    for (int64_t k = 0; k < row.count; ++k) {
+        PERI_FN(bond) bond;
+        if (!PERI_FN(is_live)(s, i, k)) continue;
+        PERI_FN(deform)(s, i, &row, k, &bond);
+        const double stretch = (double)bond.along / ((double)bond.reach * (double)bond.length);
+        if (stretch < least) least = stretch;
     }
-}
-
-/* The least stretch of the live bonds of a point; 0 where there are none. */
-static void PERI_FN(gather_least)(void *context, int64_t begin, int64_t end, peri__sums *sums) {
-    const peri__operands *s = (const peri__operands *)context;
-    (void)sums;
-    for (int64_t i = begin; i < end; ++i) {
-        peri__row row;
-        double least = HUGE_VAL;
-        peri__row_of(s->model, i, &row);
-        for (int64_t k = 0; k < row.count; ++k) {
-            PERI_FN(bond) bond;
-            if (!PERI_FN(is_live)(s, i, k)) continue;
-            PERI_FN(deform)(s, i, &row, k, &bond);
-            const double stretch = (double)bond.along / ((double)bond.reach * (double)bond.length);
-            if (stretch < least) least = stretch;
-        }
-        s->least[i] = least < HUGE_VAL ? least : 0.0;
-    }
+    return least;
 }
 
 PERI_INLINE peri_b PERI_FN(inverse)(const peri__operands *s, int64_t i, int c, int d) {
