@@ -232,37 +232,47 @@ static void ledgers_follow_who_comes_and_goes(void) {
     peri_body_destroy(b[0]), peri_body_destroy(b[1]);
 }
 
-/* A run that ends for want of memory, and goes on where there is some again, is near the run that had it all: it has missed what came near
-   in one step. */
-static void contact_is_found_again_after_a_failure(void) {
-    double speed[2] = {0, 0};
-    int failed = 0;
-    for (int64_t at = -1; at < 40; at += 3) {
-        bars s = bars_of(2, 3, 8, 4);
-        pool p = {0, 0, 0, 0, -1, 0};
-        peri_world_desc d;
-        peri_world *w = NULL;
-        peri_advance_desc a;
-        peri_body *b[2] = {bar_at(&s, 0, 20), bar_at(&s, 8.4e-3, 0)};
-        peri_world_desc_init(&d), peri_advance_desc_init(&a);
-        d.allocate = pool_take, d.release = pool_give, d.memory_user = &p;
-        CHECK(peri_world_create(&d, &w, NULL) == PERI_OK);
-        for (int n = 0; n < 2; ++n) (void)world_must(w, peri_world_add(w, b[n]));
-        a.time_step = 0.5 * peri_world_stable_step(w), a.steps = 10;
-        (void)world_must(w, peri_world_advance(w, &a));
-        if (at >= 0) p.fail_at = p.calls + at;
-        for (a.steps = 1; peri_step_count(b[0]) < 700;) {
-            const int32_t status = peri_world_advance(w, &a);
-            CHECK(status == PERI_OK || status == PERI_ERROR_MEMORY);
-            failed += status < 0;
-            a.steps = 700 - peri_step_count(b[0]);
-        }
-        if (at < 0) speed[0] = mean_speed(b[0]), speed[1] = mean_speed(b[1]);
-        for (int n = 0; n < 2; ++n) CHECK_NEAR(mean_speed(b[n]), speed[n], 0, 1e-3 * 20);
-        peri_world_destroy(w), peri_body_destroy(b[0]), peri_body_destroy(b[1]);
-        CHECK(p.blocks == 0 && p.wrong == 0);
+/* Two blocks that brush past each other, in a world whose allocation `at` fails (-1: none): the momentum of the first in the end. A run that
+   ends for want of memory goes on at once, where there is some again. */
+static double brushed(int64_t at, int *failed) {
+    bars s = bars_of(2, 3, 10, 10);
+    pool p = {0, 0, 0, 0, -1, 0};
+    double momentum[2];
+    peri_world_desc d;
+    peri_world *w = NULL;
+    peri_advance_desc a;
+    s.spacing = 0.1, s.material.young = 1e9, s.material.density = 1000, s.desc.horizon = 0.3015, s.held = 0, s.desc.thickness = 1;
+    s.desc.threads = 1, s.desc.geometry = PERI_GEOMETRY_NONLINEAR;
+    peri_body *b[2] = {bar_at(&s, 0, 30), bar_at(&s, 1.5, -30)};
+    for (int n = 0; n < 2; ++n) {
+        const double aside[2] = {0, n ? -15 : 15};
+        (void)MUST(b[n], peri_add_velocity(b[n], PERI_ALL, aside));
     }
-    CHECK(failed > 3 && speed[1] > 10);
+    peri_world_desc_init(&d), peri_advance_desc_init(&a);
+    d.allocate = pool_take, d.release = pool_give, d.memory_user = &p;
+    CHECK(peri_world_create(&d, &w, NULL) == PERI_OK);
+    for (int n = 0; n < 2; ++n) (void)world_must(w, peri_world_add(w, b[n]));
+    if (at >= 0) p.fail_at = p.calls + at;
+    a.time_step = 1e-5;
+    while (peri_step_count(b[0]) < 2000) {
+        a.steps = 2000 - peri_step_count(b[0]);
+        const int32_t status = peri_world_advance(w, &a);
+        CHECK(status == PERI_OK || status == PERI_ERROR_MEMORY);
+        *failed += status < 0;
+    }
+    (void)MUST(b[0], peri_get_momentum(b[0], momentum, NULL));
+    peri_world_destroy(w), peri_body_destroy(b[0]), peri_body_destroy(b[1]);
+    CHECK(p.blocks == 0 && p.wrong == 0);
+    return momentum[0];
+}
+
+/* Contact goes on after a failure: the step in which lists could not be made may miss what had just come near, and no more. */
+static void contact_is_found_again_after_a_failure(void) {
+    int failed = 0;
+    const double whole = brushed(-1, &failed);
+    CHECK(failed == 0 && whole < 0);
+    for (int64_t at = 40; at < 100; at += 6) CHECK_NEAR(brushed(at, &failed), whole, 1e-6, 0);
+    CHECK(failed >= 10);
 }
 
 /* Who leaves under pressure pushes nobody from then on; nor does one that is removed while the world is still. */
