@@ -232,8 +232,8 @@ static void ledgers_follow_who_comes_and_goes(void) {
     peri_body_destroy(b[0]), peri_body_destroy(b[1]);
 }
 
-/* Two blocks that brush past each other, in a world whose allocation `at` fails (-1: none): the momentum of the first in the end. A run that
-   ends for want of memory goes on at once, where there is some again. */
+/* Two blocks that brush past each other, in a world whose allocation `at` fails (-1: none): the momentum of the first in the end. A run
+   that ends for want of memory goes on at once, where there is some again. */
 static double brushed(int64_t at, int *failed) {
     bars s = bars_of(2, 3, 10, 10);
     pool p = {0, 0, 0, 0, -1, 0};
