@@ -534,6 +534,32 @@ static void node_energies_do_too(void) {
     peri_body_destroy(b);
 }
 
+/* A corner that was cut off bears nothing: its energy is that of its bonds, none. */
+static void a_point_alone_stores_nothing(void) {
+    for (int law = 0; law < 4; ++law)
+        for (int linear = 0; linear < 2; ++linear) {
+            specimen s = scene_of(laws[law], PERI_SPACE_PLANE_STRESS, 0);
+            const double at[2] = {s.lo[0] + s.spacing, s.lo[1] + s.spacing}, out = s.spacing;
+            const double way[6] = {at[0], at[1] - 2 * out, at[0], at[1], at[0] - 2 * out, at[1]};
+            s.desc.geometry = linear ? PERI_GEOMETRY_LINEAR : PERI_GEOMETRY_NONLINEAR;
+            peri_body *b = specimen_make(&s);
+            const int64_t n = peri_point_count(b);
+            double *w = doubles(n), *damage = doubles(n);
+            int alone = 0;
+            set_uniform(b, PERI_FIELD_EIGENSTRAIN, 1e-3);
+            MUST(b, peri_cut_polyline(b, PERI_CUT_NOW, 3, way));
+            MUST(b, peri_get_field(b, PERI_FIELD_ENERGY_DENSITY, w, n));
+            MUST(b, peri_get_field(b, PERI_FIELD_DAMAGE, damage, n));
+            for (int64_t i = 0; i < n; ++i)
+                if (damage[i] == 1) {
+                    CHECK(w[i] == 0);
+                    alone++;
+                }
+            CHECK(alone == 1);
+            free(w), free(damage), peri_body_destroy(b);
+        }
+}
+
 int main(int argc, char **argv) {
     test_begin(argc, argv);
     RUN(a_free_body_that_has_grown_bears_nothing);
@@ -549,5 +575,6 @@ int main(int argc, char **argv) {
     RUN(criteria_see_the_elastic_stretch);
     RUN(a_long_crack_in_a_cooled_strip_grows_by_griffith);
     RUN(node_energies_do_too);
+    RUN(a_point_alone_stores_nothing);
     return test_end("test_eigenstrain");
 }

@@ -24,10 +24,3 @@ PERI_INLINE peri_b PERI_FN(stiffness_between)(const peri__operands *s, int64_t i
     const peri_b *points = (const peri_b *)s->stiffness;
     return points ? 2 * (points[i] * points[j]) / (points[i] + points[j]) : 1;
 }
-
-/* Takes the eigenstrain out of the strain e of point i. Of large motion it is that of F = 1 + eigenstrain, so that a point that has
-   grown by it and turned bears nothing. */
-static void PERI_FN(make_elastic)(const peri__operands *s, int64_t i, peri_r e[PERI_D][PERI_D]) {
-    const peri_r own = PERI_FN(eigenstrain)(s, i), grown = s->linear ? own : own + (peri_r)0.5 * own * own;
-    for (int a = 0; a < PERI_D; ++a) e[a][a] -= grown;
-}

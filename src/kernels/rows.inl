@@ -482,6 +482,13 @@ PERI_INLINE void PERI_FN(put_pressure)(const peri__operands *s, int64_t i, peri_
     ((peri_b *)s->response)[i] = pressure_factor == 0 ? 0 : (peri_b)(pressure_factor * theta);
 }
 
+/* Takes the eigenstrain out of the strain e of point i. Of large motion it is that of F = 1 + eigenstrain, so that a point that has
+   grown by it and turned bears nothing. Where there is no K^-1 no bond has a part in H, so that nothing is borne either. */
+static void PERI_FN(make_elastic)(const peri__operands *s, int64_t i, peri_r e[PERI_D][PERI_D]) {
+    const peri_r own = PERI_FN(eigenstrain)(s, i), grown = s->linear ? own : own + (peri_r)0.5 * own * own;
+    for (int a = 0; PERI_FN(inverse)(s, i, 0, 0) != 0 && a < PERI_D; ++a) e[a][a] -= grown;
+}
+
 /* H of a point whose stress is not the library's goes where Q is. */
 static void PERI_FN(put_raw)(const peri__operands *s, int64_t i, void *to, peri_r h[PERI_D][PERI_D]) {
     peri_b *response = (peri_b *)to + i;
