@@ -324,7 +324,7 @@ WASM_LINK = $(EMCC) -Oz --no-entry -s STANDALONE_WASM=1 -s ALLOW_MEMORY_GROWTH=1
 build/wasm/calls.txt: peri.h
 	@mkdir -p $(@D)
 	sed -n 's/^PERI_API [^(]*[ *]\(peri_[a-z0-9_]*\)(.*/_\1/p' peri.h | \
-	    grep -v -x -e _peri_export_vtu -e _peri_export_history -e _peri_save_state -e _peri_load_state > $@
+	    grep -v -x -e _peri_export_vtu -e _peri_export_frame -e _peri_export_history -e _peri_save_state -e _peri_load_state > $@
 	printf '_malloc\n_free\n' >> $@
 
 build/wasm/%2.o: $(KERNEL_TEXT)
@@ -341,18 +341,20 @@ build/wasm/core.o: peri.h peri_impl.c $(filter-out src/kernels/%,$(SOURCES))
 
 build/wasm/plane.o: $(SOURCES)
 	@mkdir -p $(@D)
-	$(WASM) $(WASM_2D) -Os -c peri_impl.c -o $@
+	$(WASM) $(WASM_2D) -Oz -c peri_impl.c -o $@
 
 build/js/peri.wasm: build/wasm/core.o $(KERNELS:%=build/wasm/%.o) build/wasm/calls.txt
 	@mkdir -p $(@D)
 	$(WASM_LINK) $(filter %.o,$^) -o $@
 
-# what a page does without: parts of bodies on several processes, states as bytes, forces for solvers of the caller's, copies, contact of
-# points, cuts through solids, and what the switches leave out
+# what a page does without: parts of bodies on several processes, worlds, clouds and cells of the caller's, probes, states as bytes, forces
+# for solvers of the caller's, copies, contact of points, laws of bonds, cuts through solids, and what the switches leave out
 build/wasm/calls_2d.txt: build/wasm/calls.txt Makefile
 	grep -v -e part -e ghost -e mean_gradient -e state_ -e evaluate -e clone -e contact -e disc -e triangle -e rectangle -e perturbed \
 	    -e set_families -e solve -e implicit -e matrix -e multiply -e plan -e choose -e outline -e _cracks -e export -e pressure \
-	    -e apply_traction $< > $@
+	    -e apply_traction -e world -e cells -e grid -e field_at -e interpolate -e _bonds -e set_bond_law -e softening -e set_strength \
+	    -e obstacle_state -e get_families -e cut_pairs -e cut_if -e interface -e critical_energy -e add_points -e rigid -e record_breaks \
+	    -e in_place $< > $@
 
 build/js/peri2d.wasm: CALLS = calls_2d
 build/js/peri2d.wasm: build/wasm/plane.o build/wasm/calls_2d.txt
