@@ -12,7 +12,7 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 sys.path.insert(0, os.path.join(ROOT, "tools"))
 import api as header  # noqa: E402
 
-api = header.without_joining(header.load())
+api = header.load()
 
 
 def layout(struct_of, api, words):
@@ -112,9 +112,10 @@ def added(check, peri, package):
                          env=dict(os.environ, PYTHONPATH=scratch, PERI_LIBRARY=os.path.abspath(library)))
     check(run.stdout.strip() == "all there", run.stdout)
     functions = [f["name"] for f in api["functions"] if not f["name"].endswith(("_init", "_destroy", "_create"))]
-    everywhere = {n for c in (peri, peri.Body, peri.Cracks, peri.Matrix) for n in dir(c)}
+    everywhere = {n for c in (peri, peri.Body, peri.Cracks, peri.Matrix, peri.World) for n in dir(c)}
     missing = [f for f in functions if not {f[5:], f[5:].replace("body_", ""), f[5:].replace("cracks_", ""), f[5:].replace("matrix_", ""),
-                                            f[5:].replace("_cracks", ""), f[5:].replace("_matrix", "")} & everywhere]
-    check(missing == ["peri_format_error", "peri_unlock", "peri_get_error"], "functions that Python lacks: %s" % missing)
+                                            f[5:].replace("_cracks", ""), f[5:].replace("_matrix", ""),
+                                            f[5:].replace("world_", "")} & everywhere]
+    check(missing == ["peri_format_error", "peri_unlock", "peri_get_error", "peri_world_get_error"], "functions that Python lacks: %s" % missing)
     undocumented = [n for n in dir(peri.Body) if not n.startswith("_") and not getattr(peri.Body, n).__doc__]
     check(not undocumented, "without a docstring: %s" % undocumented)

@@ -19,6 +19,7 @@ def bar(peri, x, speed, build=True):
 def run(check, raises, peri):
     left, right, seen = bar(peri, 0, 2), bar(peri, 0.11, -2), []
     with peri.World([left, right], restitution=1.0) as world:
+        check(world.asleep() == 0 and world.asleep(left) == 0 and world.bytes > 0, "awake; what it holds")
         before = [left.get_momentum()[0][0], world.get_energy().kinetic]
         world.advance(duration=4e-3, frame_steps=10, on_frame=lambda body: seen.append(body))
         check(left.time == right.time and set(seen) == {left, right}, "frames of each body, one time")
@@ -49,6 +50,11 @@ def run(check, raises, peri):
         world.set_contact(right, third, friction=0.2)
         world.remove(third)
         check(world.bodies == [right] and third.advance(steps=2) == 0, "removed, and goes on alone")
+    still = bar(peri, 0, 0)
+    with peri.World([still], sleep_speed=1e-3, sleep_time=1e-4) as calm:
+        calm.advance(duration=1e-3)
+        check(calm.asleep(still) == 1 and still.time == 1e-3, "who rests falls asleep")
+    raises(peri.PeriError, lambda: peri.World(sleep_speed=-1), "sleep_speed")
     del world
     gc.collect()
     right.advance(steps=2)

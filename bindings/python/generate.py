@@ -73,12 +73,13 @@ def wrapped(line):
 
 
 class Writer:
-    def __init__(self, api):
+    def __init__(self, api, by_hand=()):
         self.api = api
         self.enums = {e["name"] for e in api["enums"]}
         self.structs = {s["name"]: s for s in api["structs"]}
         self.callbacks = {c["name"]: c for c in api["callbacks"]}
-        self.opaque = [o["name"] for o in api["opaque"]]
+        self.by_hand = [o["name"] for o in api["opaque"] if o["name"].startswith(by_hand)]
+        self.opaque = [o["name"] for o in api["opaque"] if o["name"] not in self.by_hand]
         self.functions = {f["name"]: f for f in api["functions"]}
         self.out = []
         self.exported = []
@@ -335,7 +336,7 @@ class Writer:
         for f in self.api["functions"]:
             if f["name"] in LEFT_OUT or f["name"].endswith(("_init", "_create")):
                 continue
-            if not f["params"] or f["params"][0]["type"] not in self.opaque:
+            if not f["params"] or f["params"][0]["type"] not in self.opaque + self.by_hand:
                 self.line()
                 self.write_function(f, None)
                 self.exported.append(self.method_name(f, None))
@@ -632,13 +633,13 @@ def load_api(root):
     spec = importlib.util.spec_from_file_location("peri_api", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    return module.without_joining(module.load())
+    return module.load(), module.JOINING
 
 
 def main(arguments):
     if len(arguments) != 2:
         sys.exit(__doc__)
-    text = Writer(load_api(arguments[0])).text()
+    text = Writer(*load_api(arguments[0])).text()
     with open(arguments[1], "w") as f:
         f.write(text)
 

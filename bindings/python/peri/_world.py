@@ -11,33 +11,12 @@ import numpy as np
 
 from . import _generated as g
 from ._body import Body
-from ._core import Handle, PeriError, _error, call, declare, lib
+from ._core import Handle, PeriError, _error, call, lib
 from ._runs import watched
 from ._values import described
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-_POINTER = C.c_void_p
-
-
-class _WorldDesc(C.Structure):  # peri_world_desc: bodies have hooks of memory of their own, a world of Python has those of C
-    _fields_ = [("cookie", C.c_uint64), ("hooks", C.c_void_p * 3)]
-
-
-declare({
-    "peri_world_desc_init": (None, [_POINTER]),
-    "peri_world_create": (C.c_int32, [_POINTER, _POINTER, _POINTER]),
-    "peri_world_destroy": (None, [_POINTER]),
-    "peri_world_get_error": (C.c_int32, [_POINTER, _POINTER, _POINTER]),
-    "peri_world_add": (C.c_int32, [_POINTER, _POINTER]),
-    "peri_world_remove": (C.c_int32, [_POINTER, _POINTER]),
-    "peri_world_set_contact": (C.c_int32, [_POINTER, _POINTER, _POINTER, _POINTER]),
-    "peri_world_stable_step": (C.c_double, [_POINTER]),
-    "peri_world_advance": (C.c_int32, [_POINTER, _POINTER]),
-    "peri_world_get_energy": (C.c_int32, [_POINTER, _POINTER]),
-    "peri_world_get_force": (C.c_int32, [_POINTER, _POINTER, _POINTER]),
-})
 
 
 def _described(cls: Any, desc: Any, fields: dict[str, Any], owner: Any = None) -> Any:
@@ -57,10 +36,10 @@ class World(Handle):
     _destroy = "peri_world_destroy"
     _handle: Any
 
-    def __init__(self, bodies: Iterable[Body] = (), **contact: Any) -> None:
+    def __init__(self, bodies: Iterable[Body] = (), *, sleep_speed: float | None = None, sleep_time: float | None = None,
+                 **contact: Any) -> None:
         self._handle, self._bodies = None, []
-        desc, new, error = _WorldDesc(), _POINTER(), g.Error()
-        lib.peri_world_desc_init(C.byref(desc))
+        desc, new, error = described(g.WorldDesc, None, {"sleep_speed": sleep_speed, "sleep_time": sleep_time}), C.c_void_p(), g.Error()
         call(None, lib.peri_world_create, (C.byref(desc), C.byref(new), C.byref(error)), error=error)
         self._take(new.value or 0)
         if contact:
@@ -151,6 +130,21 @@ class World(Handle):
         if self.bodies:
             watched(self, run, progress)
         return self._call(lib.peri_world_advance, C.byref(run), guard=True, keep=(run,))
+
+    def asleep(self, body: Body | None = None) -> int:
+        """How many bodies sleep; of one: whether it does.
+
+        C: peri_world_asleep
+        """
+        return self._call(lib.peri_world_asleep, body._pointer if body else None)
+
+    @property
+    def bytes(self) -> int:
+        """What it holds, beside its bodies.
+
+        C: peri_world_bytes
+        """
+        return lib.peri_world_bytes(self._pointer)
 
     def get_energy(self) -> g.Energy:
         """The ledger of all bodies, and of what is between them.
