@@ -5,6 +5,15 @@
 
 #include "solid.h"
 
+/* Spacing 1, no correction. */
+static inline solid solid_with(int dim, int32_t law, int32_t quadrature, double horizon) {
+    solid s = solid_of(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, law, PERI_CORRECTION_NONE);
+    s.quadrature = quadrature;
+    s.spacing = 1;
+    s.ratio = horizon;
+    return s;
+}
+
 enum { QUADS, TRIANGLES, HOOKS, TETRAHEDRA, WEDGES, HEXAHEDRA, MESH_KINDS };
 static const char *const mesh_name[MESH_KINDS] = {"quadrilaterals", "triangles", "hooks", "tetrahedra", "wedges", "hexahedra"};
 

@@ -6,14 +6,6 @@
 #include "cell_mesh.h"
 #include "pool.h"
 
-static solid solid_with(int dim, int32_t law, int32_t quadrature, double horizon) {
-    solid s = solid_of(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, law, PERI_CORRECTION_NONE);
-    s.quadrature = quadrature;
-    s.spacing = 1;
-    s.ratio = horizon;
-    return s;
-}
-
 /* ---- uniform strain --------------------------------------------------------------------------------------------------- */
 
 #define LONGEST 0.8 /* what bonds of partial cells are longer than the horizon                                              */

@@ -11,14 +11,6 @@
 
 /* ---- volumes and centroids ------------------------------------------------------------------------------------------ */
 
-static solid solid_with(int dim, int32_t law, int32_t quadrature, double horizon) {
-    solid s = solid_of(dim == 3 ? PERI_SPACE_SOLID : PERI_SPACE_PLANE_STRAIN, law, PERI_CORRECTION_NONE);
-    s.quadrature = quadrature;
-    s.spacing = 1;
-    s.ratio = horizon;
-    return s;
-}
-
 /* The cells of a descriptor as points: places and volumes. */
 static void points_of(int dim, const peri_cells_desc *d, double *x, double *v) {
     const solid s = solid_with(dim, PERI_LAW_BOND_BASED, PERI_QUADRATURE_PARTIAL, 1e4);

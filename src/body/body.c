@@ -91,11 +91,12 @@ static int32_t peri__check_desc(const peri_body_desc *desc, peri_error *error) {
     return PERI_OK;
 }
 
-static peri__memory peri__hooks(const peri_body_desc *desc) {
+/* The hooks of a descriptor; those of C where they are NULL. */
+static peri__memory peri__hooks(peri_allocate_fn allocate, peri_release_fn release, void *user) {
     peri__memory memory;
-    memory.allocate = desc->allocate ? desc->allocate : peri__malloc;
-    memory.release = desc->release ? desc->release : peri__free;
-    memory.user = desc->memory_user;
+    memory.allocate = allocate ? allocate : peri__malloc;
+    memory.release = release ? release : peri__free;
+    memory.user = user;
     memory.taken = NULL;
     return memory;
 }
@@ -113,7 +114,7 @@ static peri__progress peri__at_start(int64_t cut) {
 /* b is all zero. */
 static void peri__start_body(peri_body *b, const peri_body_desc *desc) {
     b->desc = *desc;
-    b->memory = b->scratch = peri__hooks(desc);
+    b->memory = b->scratch = peri__hooks(desc->allocate, desc->release, desc->memory_user);
     b->scratch.taken = &b->taken;
     b->dim = desc->space == PERI_SPACE_SOLID ? 3 : 2;
     b->f32 = desc->precision == PERI_PRECISION_SINGLE;
@@ -131,7 +132,7 @@ PERI_API int32_t peri_body_create(const peri_body_desc *desc, peri_body **body, 
     if (desc && !body) return peri__set_error(error, PERI_ERROR_ARGUMENT, "body", -1, 0.0);
     int32_t status = peri__check_desc(desc, error);
     if (status < 0) return status;
-    peri__memory memory = peri__hooks(desc);
+    peri__memory memory = peri__hooks(desc->allocate, desc->release, desc->memory_user);
     peri_body *b = (peri_body *)peri__new(&memory, 1, sizeof *b);
     if (!b) return peri__set_error(error, PERI_ERROR_MEMORY, "body", -1, 0.0);
     peri__start_body(b, desc);

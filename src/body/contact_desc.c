@@ -72,13 +72,17 @@ static int peri__fit_contact(const peri_body *b, peri__contact *c, const peri__t
     return 1;
 }
 
-static int32_t peri__check_contact(peri_body *b, const peri_contact_desc *d) {
-    if (d->cookie != PERI_COOKIE_CONTACT) return peri__fail(b, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
-    PERI_NEED_NUMBER(b, d->stiffness > 0.0 && d->stiffness <= 1e3, d->stiffness);
-    PERI_NEED_NUMBER(b, d->distance >= 0.0 && d->distance <= b->desc.horizon, d->distance);
-    PERI_NEED_NUMBER(b, d->friction >= 0.0 && d->friction <= 1e3, d->friction);
-    PERI_NEED_NUMBER(b, d->friction_speed >= 0.0, d->friction_speed);
-    PERI_NEED_NUMBER(b, d->restitution > 0.0 && d->restitution <= 1.0, d->restitution);
+/* Records in `error` what is wrong with a description of contact, whose distance is at most `most` [L]. */
+static int32_t peri__check_contact(const peri_contact_desc *d, double most, peri_error *error) {
+    if (d->cookie != PERI_COOKIE_CONTACT) return peri__set_error(error, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
+#define PERI_RANGE_(field, condition)                                                                                  \
+    if (!(peri__finite(d->field) && (condition))) return peri__set_error(error, PERI_ERROR_RANGE, #field, -1, d->field)
+    PERI_RANGE_(stiffness, d->stiffness > 0.0 && d->stiffness <= 1e3);
+    PERI_RANGE_(distance, d->distance >= 0.0 && d->distance <= most);
+    PERI_RANGE_(friction, d->friction >= 0.0 && d->friction <= 1e3);
+    PERI_RANGE_(friction_speed, d->friction_speed >= 0.0);
+    PERI_RANGE_(restitution, d->restitution > 0.0 && d->restitution <= 1.0);
+#undef PERI_RANGE_
     return PERI_OK;
 }
 
@@ -134,7 +138,7 @@ PERI_API int32_t peri_set_contact(peri_body *b, int32_t i, int32_t j, const peri
     PERI_NEED_WHOLE(b, "peri_set_contact");
     const int64_t p = peri__material_or_all(b, i, "i"), q = p < -1 ? -1 : peri__material_or_all(b, j, "j");
     if (p < -1 || q < -1) return (int32_t)(p < -1 ? p + 1 : q + 1);
-    int32_t status = d ? peri__check_contact(b, d) : PERI_OK;
+    int32_t status = d ? peri__check_contact(d, b->desc.horizon, &b->error) : PERI_OK;
     if (status == PERI_OK) status = peri__note_energy(b);
     if (status < 0) return status;
     peri__contact *next = peri__next_contact(b, p, q, d, &failed);

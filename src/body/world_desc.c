@@ -31,7 +31,6 @@ static int32_t peri__world_heed(peri_world *w, peri_body *b, int32_t status) {
     if ((w)->running) return peri__world_fail((w), PERI_ERROR_ORDER, "peri_unlock", -1, 0.0)
 
 PERI_API int32_t peri_world_create(const peri_world_desc *desc, peri_world **world, peri_error *error) {
-    peri__memory memory = { peri__malloc, peri__free, NULL, NULL };
     (void)peri__set_error(error, PERI_OK, "", -1, 0.0);
     if (world) *world = NULL;
     if (!desc || !world) return peri__set_error(error, PERI_ERROR_ARGUMENT, desc ? "world" : "desc", -1, 0.0);
@@ -42,11 +41,7 @@ PERI_API int32_t peri_world_create(const peri_world_desc *desc, peri_world **wor
         return peri__set_error(error, PERI_ERROR_RANGE, "sleep_speed", -1, desc->sleep_speed);
     if (!(peri__finite(desc->sleep_time) && desc->sleep_time >= 0.0) || (desc->sleep_speed > 0.0 && !(desc->sleep_time > 0.0)))
         return peri__set_error(error, PERI_ERROR_RANGE, "sleep_time", -1, desc->sleep_time);
-    if (desc->allocate) {
-        memory.allocate = desc->allocate;
-        memory.release = desc->release;
-        memory.user = desc->memory_user;
-    }
+    const peri__memory memory = peri__hooks(desc->allocate, desc->release, desc->memory_user);
     peri_world *w = (peri_world *)peri__new(&memory, 1, sizeof *w);
     if (!w) return peri__set_error(error, PERI_ERROR_MEMORY, "world", -1, 0.0);
     w->memory = memory;
@@ -97,19 +92,6 @@ PERI_API int64_t peri_world_bytes(const peri_world *w) {
 
 /* ---- contact between bodies ----------------------------------------------------------------------------------------------- */
 
-static int32_t peri__check_between(peri_world *w, const peri_contact_desc *d) {
-    if (d->cookie != PERI_COOKIE_CONTACT) return peri__world_fail(w, PERI_ERROR_DESCRIPTOR, "desc", -1, 0.0);
-#define PERI_RANGE_(field, condition)                                                                                  \
-    if (!(peri__finite(d->field) && (condition))) return peri__world_fail(w, PERI_ERROR_RANGE, #field, -1, d->field)
-    PERI_RANGE_(stiffness, d->stiffness > 0.0 && d->stiffness <= 1e3);
-    PERI_RANGE_(distance, d->distance >= 0.0);
-    PERI_RANGE_(friction, d->friction >= 0.0 && d->friction <= 1e3);
-    PERI_RANGE_(friction_speed, d->friction_speed >= 0.0);
-    PERI_RANGE_(restitution, d->restitution > 0.0 && d->restitution <= 1.0);
-#undef PERI_RANGE_
-    return PERI_OK;
-}
-
 /* Declares the contact of seats a and c; d NULL: there is none. */
 static int32_t peri__declare_between(peri_world *w, int64_t a, int64_t c, const peri_contact_desc *d) {
     const double spacings = w->seat[a]->spacing + w->seat[c]->spacing;
@@ -144,8 +126,11 @@ PERI_API int32_t peri_world_set_contact(peri_world *w, const peri_body *a, const
     const int64_t p = a ? peri__seat_of(w, a, "a") : -1, q = b && (!a || p >= 0) ? peri__seat_of(w, b, "b") : -1;
     if ((a && p < 0) || (b && q < 0)) return w->error.code;
     if (a && a == b) return peri__world_fail(w, PERI_ERROR_ARGUMENT, "b", -1, 0.0);
-    int32_t status = d ? peri__check_between(w, d) : PERI_OK;
-    if (status < 0) return status;
+    int32_t status = d ? peri__check_contact(d, HUGE_VAL, &w->error) : PERI_OK;
+    if (status < 0) {
+        w->failed = NULL;
+        return status;
+    }
     const int64_t pairs = w->seats * (w->seats - 1) / 2;
     peri__touch *former = (peri__touch *)peri__copy(&w->memory, w->touch, pairs, sizeof *former);
     if (!former) return peri__world_fail(w, PERI_ERROR_MEMORY, "contact", -1, 0.0);

@@ -293,6 +293,11 @@ PERI_API int32_t peri_set_field(peri_body *b, int32_t field, const double *in, i
     return PERI_OK;
 }
 
+/* What a ledger does not account for. */
+static double peri__imbalance(const peri_energy *e) {
+    return e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->contact - e->damping - e->fracture;
+}
+
 /* The ledger of all parts, of which *e has what this one stores. */
 static int32_t peri__share_energy(peri_body *b, int32_t status, peri_energy *e) {
     const peri__ledger *l = &b->now.ledger;
@@ -311,7 +316,7 @@ static int32_t peri__share_energy(peri_body *b, int32_t status, peri_energy *e) 
     e->obstacle = sum[4];
     e->damping = sum[5];
     e->initial = sum[6];
-    e->error = e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->damping - e->fracture;
+    e->error = peri__imbalance(e);
     return PERI_OK;
 }
 
@@ -336,7 +341,7 @@ PERI_API int32_t peri_get_energy(peri_body *b, peri_energy *e) {
     e->damping = l->damping * unit;
     e->initial = l->initial * unit;
     if (b->now.stale & PERI__STALE_LEDGER) e->initial += e->kinetic + e->elastic + e->contact - l->before * unit;
-    e->error = e->initial + e->external + e->obstacle - e->kinetic - e->elastic - e->contact - e->damping - e->fracture;
+    e->error = peri__imbalance(e);
     return PERI_OK;
 }
 

@@ -41,7 +41,6 @@ PERI_API int32_t peri_world_get_energy(peri_world *w, peri_energy *energy) {
     if (!counts) return PERI_OK;
     const double moved = w->running ? w->put_in : begins ? contact : w->put_in + contact - w->stored;
     energy->initial += moved * w->energy;
-    energy->error = energy->initial + energy->external + energy->obstacle - energy->kinetic - energy->elastic - energy->contact
-                  - energy->damping - energy->fracture;
+    energy->error = peri__imbalance(energy);
     return PERI_OK;
 }

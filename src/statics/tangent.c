@@ -161,31 +161,29 @@ static double peri__fill_diagonal(peri_body *b, void *blocks) {
 
 /* ---- the product in the user's units ------------------------------------------------------------------------------ */
 
-/* The largest size of count numbers, of a part of those of its own points; *wrong: the first that is not finite, or -1. Compared by their
-   bits without the sign, which ascend with the size, and to infinity and beyond where there is no number. */
+/* The largest of `most` and the sizes of count numbers, by their bits without the sign: these ascend with the size, and to infinity and
+   beyond where there is no number. */
+static uint64_t peri__largest_bits(const double *in, int64_t count, uint64_t most) {
+    for (int64_t k = 0; k < count; ++k) {
+        uint64_t bits;
+        memcpy(&bits, &in[k], sizeof bits);
+        bits &= UINT64_MAX >> 1;
+        most = bits > most ? bits : most;
+    }
+    return most;
+}
+
+/* The largest size of count numbers, of a part of those of its own points; *wrong: the first that is not finite, or -1. */
 static double peri__largest(const peri__domain *part, const double *in, int64_t count, int64_t *wrong) {
-    const uint64_t size = UINT64_MAX >> 1, infinite = UINT64_C(0x7ff) << 52;
-    uint64_t most = 0;
+    const uint64_t infinite = UINT64_C(0x7ff) << 52;
+    const int64_t dim = part ? count / part->points : 0;
+    uint64_t most = part ? 0 : peri__largest_bits(in, count, 0);
     double largest;
-    if (part) {
-        const int64_t dim = count / part->points;
-        for (int64_t i = 0; i < part->points - part->desc.ghost_count; ++i)
-            for (int64_t k = part->owned[i] * dim; k < (part->owned[i] + 1) * dim; ++k) {
-                uint64_t bits;
-                memcpy(&bits, &in[k], sizeof bits);
-                bits &= size;
-                most = bits > most ? bits : most;
-            }
-    } else
-        for (int64_t k = 0; k < count; ++k) {
-            uint64_t bits;
-            memcpy(&bits, &in[k], sizeof bits);
-            bits &= size;
-            most = bits > most ? bits : most;
-        }
+    for (int64_t i = 0; part && i < part->points - part->desc.ghost_count; ++i)
+        most = peri__largest_bits(&in[part->owned[i] * dim], dim, most);
     *wrong = -1;
     for (int64_t k = 0; most >= infinite && *wrong < 0; ++k)
-        if (!peri__finite(in[k]) && !(part && part->depth[k / (count / part->points)])) *wrong = k;
+        if (!peri__finite(in[k]) && !(part && part->depth[k / dim])) *wrong = k;
     memcpy(&largest, &most, sizeof largest);
     return largest;
 }
