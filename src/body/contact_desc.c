@@ -26,13 +26,6 @@ static void peri__volumes_of(const peri__model *m, double *least, double *most) 
     }
 }
 
-/* Neighbours that a point of a surface touches: two in the plane, four in space, as where lattices meet off their sites; more where the
-   distance is longer. What a state has beyond that is seen as it comes: `crowd`. */
-static double peri__assumed_touching(const peri__model *m, double distance) {
-    const double wide = fmax(1.0, distance / m->spacing);
-    return m->dim == 2 ? 2.0 * wide : 4.0 * wide * wide;
-}
-
 /* Fills in the numbers of a contact whose ->touch have their desc and distance. 0 where a restitution is out of reach: *wrong, *value. */
 static int peri__fit_contact(const peri_body *b, peri__contact *c, const peri__touch **wrong, double *value) {
     const peri__model *m = b->model;
@@ -50,7 +43,7 @@ static int peri__fit_contact(const peri_body *b, peri__contact *c, const peri__t
         const double rho = b->density ? peri__least_density(b) : m->rho[i], young = 2.0 / (1.0 / m->laws[i].young + 1.0 / m->laws[j].young);
         t->stiffness = t->desc.stiffness * young / (m->spacing * t->distance);
         c->distance = fmax(c->distance, t->distance);
-        c->bound = fmax(c->bound, 2.0 * peri__assumed_touching(m, t->distance) * t->stiffness / rho
+        c->bound = fmax(c->bound, 2.0 * peri__assumed_touching(m->dim, t->distance, m->spacing) * t->stiffness / rho
                                   * (2.0 * most[j] / (least[i] + most[j])));
         resists = resists || t->desc.friction > 0.0 || t->desc.restitution < 1.0;
     }

@@ -207,16 +207,10 @@ static int peri__is_pushed_as_now(const peri__seat *s) {
 
 /* ---- what it may do to the step ------------------------------------------------------------------------------------------ */
 
-/* Neighbours that a point of a surface touches, as in contact_desc.c, of a body of this spacing. */
-static double peri__assumed_of_others(int32_t dim, double distance, double spacing) {
-    const double wide = fmax(1.0, distance / spacing);
-    return dim == 2 ? 2.0 * wide : 4.0 * wide * wide;
-}
-
 /* The largest row sum that contact with c is taken to give a point of s, in the units of s. */
 static double peri__bound_by(const peri_world *w, const peri__seat *s, const peri__seat *c, const peri__touch *t) {
     const double young = peri__mean_of_two(s->young, c->young), volumes = 2.0 * c->most_volume / (s->least_volume + c->most_volume);
-    const double row = 2.0 * peri__assumed_of_others(w->dim, t->distance, c->spacing) * t->stiffness * young * volumes / s->least_density;
+    const double row = 2.0 * peri__assumed_touching(w->dim, t->distance, c->spacing) * t->stiffness * young * volumes / s->least_density;
     return row * peri__square(s->time);
 }
 

@@ -254,6 +254,13 @@ static double peri__rebound(double k, double c, double mass, double dt, double l
     return left;
 }
 
+/* Neighbours that a point of a surface touches, of points of this spacing: two in the plane, four in space, as where lattices meet off
+   their sites; more where the distance is longer. What a state has beyond that is seen as it comes: `crowd`. */
+static double peri__assumed_touching(int32_t dim, double distance, double spacing) {
+    const double wide = fmax(1.0, distance / spacing);
+    return dim == 2 ? 2.0 * wide : 4.0 * wide * wide;
+}
+
 /* B for a restitution, of points of the body's mean kind; more than 1 where it is out of reach, with what is in reach to *least. */
 static double peri__loss_for(double restitution, double k, double hold, double dt, double *least) {
     const double mass = 1.0, c = 0.5 * hold; /* of the pair: two layers of points on either side */

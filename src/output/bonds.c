@@ -171,6 +171,5 @@ PERI_API int32_t peri_get_bonds(peri_body *b, int32_t set, int32_t bond, double 
     }
     peri__leave(b, former);
     peri__delete(&b->scratch, s.density, b->model->points, sizeof(double));
-    status = peri__heed_laws(b);
-    return status;
+    return peri__heed_laws(b);
 }
