@@ -10,11 +10,11 @@ mkdir -p $dir/out
 for name in branching impact; do
     mpicc -std=c99 -pedantic -Wall -Wextra -O1 -I. examples/mpi/$name.c build/libperi.a $OPENMP -fopenmp -lm -o $dir/$name || exit 1
 done
+. tests/processes.sh
 cd $dir || exit 1
-[ "$(id -u)" != 0 ] || root=--allow-run-as-root
 run() { # NAME BYTES
     for n in 1 3; do
-        timeout 60 mpirun $root --oversubscribe --mca mpi_yield_when_idle 1 -n $n ./"$1" > "$1.$n" 2> errors || { cat errors; exit 1; }
+        processes 60 $n ./"$1" > "$1.$n" 2> errors || { cat errors; exit 1; }
         mv "out/mpi_$1.bin" "$1.$n.bin"
         [ "$(wc -c < "$1.$n.bin")" -eq "$2" ] || { echo "mpi: $n processes wrote $(wc -c < "$1.$n.bin") bytes"; exit 1; }
     done

@@ -12,13 +12,11 @@ for name in plate crack; do
     mpicc -std=c99 -Wall -Wextra -O1 -I. $(pkg-config --cflags petsc) examples/petsc/$name.c build/libperi.a $(pkg-config --libs petsc) \
         $OPENMP -fopenmp -lm -o $dir/$name || exit 1
 done
+. tests/processes.sh
 cd $dir || exit 1
-[ "$(id -u)" != 0 ] || root=--allow-run-as-root
 export OMP_NUM_THREADS=1
 run() { # N PROGRAM ARGUMENTS
-    n=$1
-    shift
-    timeout 100 mpirun $root --oversubscribe --mca mpi_yield_when_idle 1 -n "$n" "$@" > text 2> errors || { cat text errors; exit 1; }
+    processes 100 "$@" > text 2> errors || { cat text errors; exit 1; }
     tail -1 text | sed -e "s/^/petsc: /"
 }
 for n in 1 2 4; do
